@@ -1,0 +1,129 @@
+//! What acts on the rotor. One file an effect, one line in [`catalogue!`](self); the laws stand in each file.
+//!
+//! An effect implements the hooks of [`Effect`] that it needs; each defaults to the identity. A scene's effects are a
+//! type, a list of [`Called`] effects that build.rs writes: what is not in the list is not compiled. The list [`All`]
+//! holds every effect behind a switch.
+
+mod list;
+mod wrench;
+
+pub use list::{Called, Effects, Switched};
+pub use wrench::Wrench;
+
+use crate::scalar::Scalar;
+use crate::state::Kinematics;
+use crate::variable::{Meta, Row};
+
+/// A law and its variables. All vectors in the inertial frame O.
+pub trait Effect: Clone + Default + Send + 'static {
+    /// Its variables, named within its block; new ones go to the end, for a value reference is a place in this list.
+    const ROWS: &'static [Row<Self, Kinematics<f64>>];
+
+    /// The parameters on which its potential depends, full names; empty where it has none.
+    const POTENTIAL_DEPENDS: &'static [&'static str] = &[];
+
+    /// Force on the rotor and moment about c [N, N·m].
+    #[inline(always)]
+    fn load<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
+        Wrench::zero()
+    }
+
+    /// Potential energy [J].
+    #[inline(always)]
+    fn potential<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
+        S::zero()
+    }
+
+    /// Power that leaves the mechanics [W], ≥ 0.
+    #[inline(always)]
+    fn loss<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
+        S::zero()
+    }
+
+    /// Power that comes from outside [W].
+    #[inline(always)]
+    fn supply<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
+        S::zero()
+    }
+
+    /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
+    /// integrals are not solved.
+    fn works(&self) -> bool {
+        false
+    }
+}
+
+/// An effect's place in the catalogue.
+pub trait Entry: Effect {
+    /// Its name in scenes and variables.
+    const NAME: &'static str;
+    /// Its number, from which its value references follow.
+    const NUMBER: u32;
+}
+
+/// What can be said of an effect without its type.
+pub struct Info {
+    /// Its name in scenes and variables.
+    pub name: &'static str,
+    /// Its number, from which its value references follow.
+    pub number: u32,
+    /// The path of its type, for the list that build.rs writes.
+    pub type_path: &'static str,
+    /// Its variables.
+    pub metas: fn() -> Vec<Meta>,
+    /// The parameters on which its potential depends.
+    pub potential_depends: &'static [&'static str],
+}
+
+/// The effect of this name.
+pub fn named(name: &str) -> Option<&'static Info> {
+    CATALOGUE.iter().find(|info| info.name == name)
+}
+
+/// Declares the effects: their number (never reused), module and type.
+macro_rules! catalogue {
+    ($($number:literal $module:ident $type:ident;)*) => {
+        $(
+            pub mod $module;
+
+            impl Entry for $module::$type {
+                const NAME: &'static str = stringify!($module);
+                const NUMBER: u32 = $number;
+            }
+
+            const _: () = assert!(<$module::$type as Effect>::ROWS.len() <= 256, "an effect has at most 256 variables");
+        )*
+
+        /// Every effect there is.
+        pub static CATALOGUE: &[Info] = &[$(Info {
+            name: stringify!($module),
+            number: $number,
+            type_path: concat!("model::effects::", stringify!($module), "::", stringify!($type)),
+            metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
+            potential_depends: <$module::$type as Effect>::POTENTIAL_DEPENDS,
+        }),*];
+
+        /// Every effect, each behind a switch.
+        pub type All = catalogue!(@list $($module::$type,)*);
+
+        const _: () = {
+            let numbers = [$($number),*];
+            let mut i = 0;
+            while i < numbers.len() {
+                let mut j = 0;
+                while j < i {
+                    assert!(numbers[i] != numbers[j], "two effects with one number: duplicate value references");
+                    j += 1;
+                }
+                i += 1;
+            }
+        };
+    };
+    (@list) => { () };
+    (@list $head:ty, $($tail:ty,)*) => { (Switched<$head, 1>, catalogue!(@list $($tail,)*)) };
+}
+
+catalogue! {
+    1 gravity Gravity;
+    2 support Support;
+}

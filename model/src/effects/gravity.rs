@@ -1,0 +1,37 @@
+//! `gravity`: uniform gravity on the mass centre.
+
+use super::{Effect, Wrench};
+use crate::scalar::Scalar;
+use crate::state::Kinematics;
+use crate::variable::units::METRE_PER_SECOND_SQUARED;
+use crate::variable::{Bound, Row, parameter};
+use nalgebra::Vector3;
+
+/// Uniform gravity.
+#[derive(Clone, Debug, Default)]
+pub struct Gravity {
+    /// Acceleration of gravity g in O [m/s²].
+    pub g: Vector3<f64>,
+}
+
+impl Effect for Gravity {
+    const ROWS: &'static [Row<Self, Kinematics<f64>>] = &[
+        parameter!("g.x", g.x, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along x"),
+        parameter!("g.y", g.y, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along y"),
+        parameter!("g.z", g.z, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along z"),
+    ];
+
+    const POTENTIAL_DEPENDS: &'static [&'static str] = &["gravity.g", "rotor.m", "start.r_c"];
+
+    #[inline(always)]
+    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        // eq. 13: F = m g
+        Wrench { force: (self.g * motion.body.m).map(S::constant), moment: Vector3::zeros() }
+    }
+
+    #[inline(always)]
+    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        // eq. 13: V = −m g·r_c
+        -(self.g * motion.body.m).map(S::constant).dot(&motion.at.r_c)
+    }
+}

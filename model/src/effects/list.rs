@@ -1,0 +1,243 @@
+//! The effects of one scene as a type: `(Called<Gravity, 1>, (Called<Support, 1>, ()))`.
+
+use super::{Effect, Entry, Wrench};
+use crate::error::Invalid;
+use crate::scalar::Scalar;
+use crate::state::Kinematics;
+use crate::variable::{Access, Meta, Place, Row};
+
+/// An effect that a scene calls for; `INDEX` counts from 1 where there are several of its kind.
+#[derive(Clone, Default)]
+pub struct Called<E, const INDEX: u32>(E);
+
+/// An effect behind a switch; off at first.
+#[derive(Clone, Default)]
+pub struct Switched<E, const INDEX: u32> {
+    on: bool,
+    effect: E,
+}
+
+/// An entry of a list of effects.
+pub trait Member: Clone + Default + Send + 'static {
+    /// Its law.
+    type Effect: Entry;
+    /// Counts from 1 where there are several of its kind.
+    const INDEX: u32;
+    /// Its law, unless it is switched off.
+    fn active(&self) -> Option<&Self::Effect>;
+    /// Its law and parameters.
+    fn effect(&self) -> &Self::Effect;
+    /// Its law and parameters.
+    fn effect_mut(&mut self) -> &mut Self::Effect;
+    /// Switches it, where it has a switch.
+    fn switch(&mut self, on: bool);
+}
+
+impl<E: Entry, const INDEX: u32> Member for Called<E, INDEX> {
+    type Effect = E;
+    const INDEX: u32 = INDEX;
+
+    #[inline(always)]
+    fn active(&self) -> Option<&E> {
+        Some(&self.0)
+    }
+
+    fn effect(&self) -> &E {
+        &self.0
+    }
+
+    fn effect_mut(&mut self) -> &mut E {
+        &mut self.0
+    }
+
+    fn switch(&mut self, _on: bool) {}
+}
+
+impl<E: Entry, const INDEX: u32> Member for Switched<E, INDEX> {
+    type Effect = E;
+    const INDEX: u32 = INDEX;
+
+    #[inline(always)]
+    fn active(&self) -> Option<&E> {
+        self.on.then_some(&self.effect)
+    }
+
+    fn effect(&self) -> &E {
+        &self.effect
+    }
+
+    fn effect_mut(&mut self) -> &mut E {
+        &mut self.effect
+    }
+
+    fn switch(&mut self, on: bool) {
+        self.on = on;
+    }
+}
+
+/// The effects of a scene together: sums of what each does, and access to their variables.
+pub trait Effects: Clone + Default + Send + 'static {
+    /// Force on the rotor and moment about c [N, N·m].
+    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S>;
+    /// Potential energy [J].
+    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
+    /// Power that leaves the mechanics [W].
+    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
+    /// Power that comes from outside [W].
+    fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
+    /// Whether any of them can lose energy or be supplied with it.
+    fn works(&self) -> bool;
+    /// The first parameter whose value is not possible.
+    fn check(&self) -> Result<(), Invalid>;
+    /// What is said of the variable at this place; None where there is none.
+    fn meta(place: Place) -> Option<&'static Meta>;
+    /// The value of a parameter; None where there is none at this place.
+    fn parameter(&self, place: Place) -> Option<f64>;
+    /// Sets a parameter; false where there is none at this place.
+    fn set_parameter(&mut self, place: Place, value: f64) -> bool;
+    /// The value of an output; None where there is none at this place.
+    fn output(&self, place: Place, motion: &Kinematics<f64>) -> Option<f64>;
+    /// Switches the effect at this place on, where it has a switch.
+    fn switch_on(&mut self, block: u32);
+}
+
+impl Effects for () {
+    #[inline(always)]
+    fn load<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
+        Wrench::zero()
+    }
+
+    #[inline(always)]
+    fn potential<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
+        S::zero()
+    }
+
+    #[inline(always)]
+    fn loss<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
+        S::zero()
+    }
+
+    #[inline(always)]
+    fn supply<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
+        S::zero()
+    }
+
+    fn works(&self) -> bool {
+        false
+    }
+
+    fn check(&self) -> Result<(), Invalid> {
+        Ok(())
+    }
+
+    fn meta(_place: Place) -> Option<&'static Meta> {
+        None
+    }
+
+    fn parameter(&self, _place: Place) -> Option<f64> {
+        None
+    }
+
+    fn set_parameter(&mut self, _place: Place, _value: f64) -> bool {
+        false
+    }
+
+    fn output(&self, _place: Place, _motion: &Kinematics<f64>) -> Option<f64> {
+        None
+    }
+
+    fn switch_on(&mut self, _block: u32) {}
+}
+
+impl<H: Member, T: Effects> Effects for (H, T) {
+    #[inline(always)]
+    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        let rest = self.1.load(motion);
+        self.0.active().map_or(rest, |effect| effect.load(motion) + rest)
+    }
+
+    #[inline(always)]
+    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        let rest = self.1.potential(motion);
+        self.0.active().map_or(rest, |effect| effect.potential(motion) + rest)
+    }
+
+    #[inline(always)]
+    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        let rest = self.1.loss(motion);
+        self.0.active().map_or(rest, |effect| effect.loss(motion) + rest)
+    }
+
+    #[inline(always)]
+    fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        let rest = self.1.supply(motion);
+        self.0.active().map_or(rest, |effect| effect.supply(motion) + rest)
+    }
+
+    fn works(&self) -> bool {
+        self.0.active().is_some_and(Effect::works) || self.1.works()
+    }
+
+    fn check(&self) -> Result<(), Invalid> {
+        for row in self.0.active().map_or(&[] as &[_], |_| H::Effect::ROWS) {
+            if let Access::Parameter { get, .. } = row.access {
+                let full_name = || format!("{}.{}", H::Effect::NAME, row.meta.name);
+                row.meta.check(full_name, get(self.0.effect()))?;
+            }
+        }
+        self.1.check()
+    }
+
+    fn meta(place: Place) -> Option<&'static Meta> {
+        row::<H>(place).map_or_else(|| T::meta(place), |row| row.map(|row| &row.meta))
+    }
+
+    fn parameter(&self, place: Place) -> Option<f64> {
+        match row::<H>(place) {
+            None => self.1.parameter(place),
+            Some(row) => match row?.access {
+                Access::Parameter { get, .. } => Some(get(self.0.effect())),
+                Access::Output(_) => None,
+            },
+        }
+    }
+
+    fn set_parameter(&mut self, place: Place, value: f64) -> bool {
+        match row::<H>(place) {
+            None => self.1.set_parameter(place, value),
+            Some(Some(Row { access: Access::Parameter { set, .. }, .. })) => {
+                set(self.0.effect_mut(), value);
+                true
+            }
+            Some(_) => false,
+        }
+    }
+
+    fn output(&self, place: Place, motion: &Kinematics<f64>) -> Option<f64> {
+        match row::<H>(place) {
+            None => self.1.output(place, motion),
+            Some(row) => match row?.access {
+                Access::Output(read) => Some(self.0.active().map_or(0.0, |effect| read(effect, motion))),
+                Access::Parameter { .. } => None,
+            },
+        }
+    }
+
+    fn switch_on(&mut self, block: u32) {
+        if block == block_of::<H>() {
+            self.0.switch(true);
+        }
+        self.1.switch_on(block);
+    }
+}
+
+/// The block of value references of a member.
+const fn block_of<M: Member>() -> u32 {
+    Place::effect_block(M::Effect::NUMBER, M::INDEX)
+}
+
+/// The row at a place: None where the place is another member's, Some(None) where it is this one's, but holds nothing.
+#[allow(clippy::option_option, reason = "two different absences")]
+fn row<M: Member>(place: Place) -> Option<Option<&'static Row<M::Effect, Kinematics<f64>>>> {
+    (place.block == block_of::<M>()).then(|| M::Effect::ROWS.get(place.row))
+}

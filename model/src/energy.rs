@@ -1,0 +1,51 @@
+//! The energy ledger.
+
+use crate::effects::Effects;
+use crate::scalar::Scalar;
+use crate::state::Kinematics;
+
+/// Kinetic energy [J].
+pub fn kinetic<S: Scalar>(motion: &Kinematics<S>) -> S {
+    let (v, omega) = (&motion.at.v_c, &motion.omega);
+    // eq. 17: T = ½ m |v_c|² + ½ ω·K_c
+    (v.dot(v) * S::constant(motion.body.m) + omega.dot(&motion.at.k_c)) * S::constant(0.5)
+}
+
+/// What there is, what came in and what went out [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Kinetic energy [J].
+    pub kinetic: f64,
+    /// Potential energy of all effects [J].
+    pub potential: f64,
+    /// Total energy at the start [J].
+    pub total_at_start: f64,
+    /// Work supplied from outside since the start [J].
+    pub supplied: f64,
+    /// Work lost since the start [J].
+    pub dissipated: f64,
+}
+
+impl Ledger {
+    /// The ledger of an instant; `supplied` and `dissipated` [J] since the start, `total_at_start` [J].
+    pub fn new<E: Effects>(
+        motion: &Kinematics<f64>,
+        effects: &E,
+        supplied: f64,
+        dissipated: f64,
+        total_at_start: f64,
+    ) -> Self {
+        Self { kinetic: kinetic(motion), potential: effects.potential(motion), total_at_start, supplied, dissipated }
+    }
+
+    /// Kinetic plus potential energy [J].
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.potential
+    }
+
+    /// Zero for an exact solution [J].
+    pub fn residual(&self) -> f64 {
+        // eq. 18: total − total(start) − supplied + dissipated
+        self.total() - self.total_at_start - self.supplied + self.dissipated
+    }
+}

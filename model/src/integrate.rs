@@ -1,0 +1,80 @@
+//! Methods of integration that know no rotor: they ask a [`System`] of N ordinary differential equations for its rates.
+
+pub mod control;
+pub mod explicit;
+pub mod tableau;
+
+/// N ordinary differential equations dy/dt = f(t, y).
+pub trait System<const N: usize> {
+    /// f(t, y).
+    fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N];
+
+    /// Whether a step may end at y; the reason where it may not.
+    fn admits(&self, t: f64, y: &[f64; N]) -> Result<(), Refusal>;
+}
+
+/// Why a state cannot be reached.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Refusal(pub &'static str);
+
+/// How large the error of a step may be, component by component: absolute + relative·|y|.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance<const N: usize> {
+    /// In the component's unit.
+    pub absolute: [f64; N],
+    /// Relative to the component's size [1].
+    pub relative: [f64; N],
+}
+
+/// Why a step could not be done; the state is that of the last step that could.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fault {
+    /// Every step, however short, ends where the system refuses to be.
+    Refused {
+        /// The last time reached [s].
+        t: f64,
+        /// The system's reason.
+        reason: Refusal,
+    },
+    /// The rates overflow or are undefined, however short the step.
+    NotFinite {
+        /// The last time reached [s].
+        t: f64,
+    },
+    /// No step that advances the time keeps the tolerance.
+    Underflow {
+        /// The last time reached [s].
+        t: f64,
+    },
+}
+
+impl std::fmt::Display for Fault {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Fault::Refused { t, reason } => write!(f, "no step is possible beyond t = {t:?} s: {}", reason.0),
+            Fault::NotFinite { t } => {
+                write!(f, "no step is possible beyond t = {t:?} s: a force or a rate is infinite or not a number")
+            }
+            Fault::Underflow { t } => write!(
+                f,
+                "no step that advances the time beyond t = {t:?} s keeps the tolerance: loosen \
+                 solver.relative_tolerance, or soften what changes so fast"
+            ),
+        }
+    }
+}
+
+/// What a run has cost so far. Counters are f64: an integer could overflow.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cost {
+    /// Steps accepted.
+    pub steps: f64,
+    /// Steps rejected.
+    pub rejected: f64,
+    /// Evaluations of the right-hand side.
+    pub evaluations: f64,
+    /// The step that the method would like next [s].
+    pub next_step: f64,
+    /// Sum of the accepted steps' error norms, in units of the tolerance [1].
+    pub error_estimate: f64,
+}

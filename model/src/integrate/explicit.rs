@@ -1,0 +1,264 @@
+//! Explicit Runge–Kutta pairs with adaptive steps and dense output, for any [`Tableau`]. No allocation.
+
+use super::control::Controller;
+use super::tableau::{Combination, ErrorRule, MOST_DENSE, MOST_STAGES, Tableau};
+use super::{Cost, Fault, Refusal, System, Tolerance};
+
+/// A method at work: where it stands, its last step as a polynomial, and what it spent.
+#[derive(Clone, Debug)]
+pub struct Explicit<const N: usize> {
+    tableau: &'static Tableau,
+    tolerance: Tolerance<N>,
+    controller: Controller,
+    cost: Cost,
+    /// The time reached [s], and the state there.
+    t: f64,
+    y: [f64; N],
+    /// Size of the next step [s].
+    h: f64,
+    /// The stages k_i of the last step; `k[tableau.last]` is the rate at its end.
+    k: [[f64; N]; MOST_STAGES],
+    segment: Segment<N>,
+}
+
+/// The last step.
+#[derive(Clone, Debug)]
+struct Segment<const N: usize> {
+    /// Where it began [s].
+    t: f64,
+    /// Its size [s].
+    h: f64,
+    /// The state at its start.
+    y: [f64; N],
+    /// r_2 and further of eq. 24, once somebody asked.
+    r: [[f64; N]; MOST_DENSE - 1],
+    /// Whether `r` is filled.
+    dense: bool,
+}
+
+impl<const N: usize> Explicit<N> {
+    /// Starts at time `t` [s] and state `y`.
+    pub fn start(
+        tableau: &'static Tableau,
+        tolerance: Tolerance<N>,
+        system: &impl System<N>,
+        t: f64,
+        y: [f64; N],
+    ) -> Self {
+        let mut method = Self {
+            tableau,
+            tolerance,
+            controller: Controller::new(tableau.error_order),
+            cost: Cost::default(),
+            t,
+            y,
+            h: 0.0,
+            k: [[0.0; N]; MOST_STAGES],
+            segment: Segment { t, h: 0.0, y, r: [[0.0; N]; MOST_DENSE - 1], dense: false },
+        };
+        method.k[tableau.last] = method.evaluate(system, t, &y);
+        method.h = method.first_step(system);
+        method
+    }
+
+    /// The time reached [s].
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// The state at the time reached.
+    pub fn state(&self) -> &[f64; N] {
+        &self.y
+    }
+
+    /// Replaces a component of the state on which the rates do not depend.
+    pub fn replace(&mut self, component: usize, value: f64) {
+        self.y[component] = value;
+    }
+
+    /// What the run has cost so far.
+    pub fn cost(&self) -> Cost {
+        Cost { next_step: self.h, ..self.cost }
+    }
+
+    /// One step forward of the method's own choice. Where none is possible, the method stands as before.
+    pub fn step(&mut self, system: &impl System<N>) -> Result<(), Fault> {
+        let (rate, h) = (self.k[self.tableau.last], self.h);
+        let mut obstacle = None;
+        loop {
+            if self.t + 0.1 * self.h <= self.t {
+                (self.k[self.tableau.last], self.h) = (rate, h);
+                return Err(obstacle.map_or(Fault::Underflow { t: self.t }, |o: Obstacle| o.fault(self.t)));
+            }
+            self.k[0] = rate;
+            let y = self.attempt(system);
+            let error = self.error_norm(&y);
+            if !error.is_finite() {
+                obstacle = Some(Obstacle::NotFinite);
+            } else if error > 1.0 {
+                obstacle = None;
+            } else if let Err(refusal) = system.admits(self.t + self.h, &y) {
+                obstacle = Some(Obstacle::Refused(refusal));
+            } else {
+                self.accept(y, error);
+                return Ok(());
+            }
+            self.cost.rejected += 1.0;
+            self.h *= self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
+        }
+    }
+
+    /// One step of size `h` [s], whatever its error.
+    pub fn fixed_step(&mut self, system: &impl System<N>, h: f64) {
+        self.h = h;
+        self.k[0] = self.k[self.tableau.last];
+        let y = self.attempt(system);
+        self.accept(y, 0.0);
+        self.h = h;
+    }
+
+    /// The state at a time `t` [s] within the last step.
+    pub fn dense(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
+        if t == self.segment.t || self.segment.h == 0.0 {
+            return self.segment.y;
+        }
+        if !self.segment.dense {
+            self.prepare_dense(system);
+        }
+        let Segment { t: start, h, y, r, .. } = &self.segment;
+        let sigma = (t - start) / h;
+        let mut sum = [0.0; N];
+        // eq. 24: y(t₀ + σh) = r₁ + σ(r₂ + (1 − σ)(r₃ + σ(r₄ + (1 − σ)(r₅ + …))))
+        for (i, row) in r[..3 + self.tableau.dense.len()].iter().enumerate().rev() {
+            let factor = if i % 2 == 0 { sigma } else { 1.0 - sigma };
+            for n in 0..N {
+                sum[n] = (sum[n] + row[n]) * factor;
+            }
+        }
+        std::array::from_fn(|n| y[n] + sum[n])
+    }
+
+    fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {
+        self.cost.evaluations += 1.0;
+        system.rates(t, y)
+    }
+
+    /// All stages of a step of size h from (t, y); the state at its end.
+    fn attempt(&mut self, system: &impl System<N>) -> [f64; N] {
+        let (t, h, start) = (self.t, self.h, self.y);
+        let mut y = start;
+        // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j); the last stage stands at the end of the step
+        for (i, stage) in (1..).zip(self.tableau.stages) {
+            y = self.advanced(&start, h, stage.a);
+            self.k[i] = self.evaluate(system, t + stage.c * h, &y);
+        }
+        y
+    }
+
+    /// y + h Σ a_j k_j.
+    fn advanced(&self, y: &[f64; N], h: f64, a: Combination) -> [f64; N] {
+        let sum = self.combined(a);
+        std::array::from_fn(|n| y[n] + h * sum[n])
+    }
+
+    /// Σ a_j k_j.
+    fn combined(&self, a: Combination) -> [f64; N] {
+        let mut sum = [0.0; N];
+        for &(j, coefficient) in a {
+            for n in 0..N {
+                sum[n] += coefficient * self.k[j][n];
+            }
+        }
+        sum
+    }
+
+    /// The norm of the error of the step that ends at `y`, in units of the tolerance [1].
+    fn error_norm(&self, y: &[f64; N]) -> f64 {
+        let mean_square = |e: Combination| {
+            let error = self.combined(e);
+            // eq. 22: err² = (1/n) Σ (err_i/sc_i)², sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
+            let sum: f64 = (0..N).map(|n| square(error[n] / self.scale(n, self.y[n].abs().max(y[n].abs())))).sum();
+            sum / N as f64
+        };
+        match self.tableau.error {
+            ErrorRule::Single(e) => self.h * mean_square(e).sqrt(),
+            ErrorRule::Blend { fine, coarse } => {
+                let (fine, coarse) = (mean_square(fine), mean_square(coarse));
+                if fine == 0.0 { 0.0 } else { self.h * fine / (fine + 0.01 * coarse).sqrt() }
+            }
+        }
+    }
+
+    fn scale(&self, n: usize, size: f64) -> f64 {
+        self.tolerance.absolute[n] + self.tolerance.relative[n] * size
+    }
+
+    fn accept(&mut self, y: [f64; N], error: f64) {
+        self.segment = Segment { t: self.t, h: self.h, y: self.y, r: self.segment.r, dense: false };
+        self.t += self.h;
+        self.y = y;
+        self.cost.steps += 1.0;
+        self.cost.error_estimate += error;
+        self.h *= self.controller.accepted(error);
+        // The segment ends at y: r_2 holds the difference until the rest is asked for.
+        self.segment.r[0] = std::array::from_fn(|n| y[n] - self.segment.y[n]);
+    }
+
+    /// Fills the rows of eq. 24.
+    fn prepare_dense(&mut self, system: &impl System<N>) {
+        let (t, h, start) = (self.segment.t, self.segment.h, self.segment.y);
+        for (i, stage) in (self.tableau.last + 1..).zip(self.tableau.dense_stages) {
+            let y = self.advanced(&start, h, stage.a);
+            self.k[i] = self.evaluate(system, t + stage.c * h, &y);
+        }
+        let (first, last) = (self.k[0], self.k[self.tableau.last]);
+        let difference = self.segment.r[0];
+        // eq. 24: r₃ = h k₁ − Δy, r₄ = 2Δy − h(k₁ + k_last)
+        self.segment.r[1] = std::array::from_fn(|n| h * first[n] - difference[n]);
+        self.segment.r[2] = std::array::from_fn(|n| 2.0 * difference[n] - h * (first[n] + last[n]));
+        for (i, row) in (3..).zip(self.tableau.dense) {
+            self.segment.r[i] = self.combined(row).map(|sum| h * sum);
+        }
+        self.segment.dense = true;
+    }
+
+    /// A first step from the sizes of y, dy/dt and the change of dy/dt (Hairer, Nørsett and Wanner I, section II.4).
+    fn first_step(&mut self, system: &impl System<N>) -> f64 {
+        let (t, y, rate) = (self.t, self.y, self.k[self.tableau.last]);
+        let scale: [f64; N] = std::array::from_fn(|n| self.scale(n, y[n].abs()));
+        let norm = |v: &[f64; N]| ((0..N).map(|n| square(v[n] / scale[n])).sum::<f64>() / N as f64).sqrt();
+        let (size, speed) = (norm(&y), norm(&rate));
+        let trial = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
+        let ahead: [f64; N] = std::array::from_fn(|n| y[n] + trial * rate[n]);
+        let rate_ahead = self.evaluate(system, t + trial, &ahead);
+        let change: [f64; N] = std::array::from_fn(|n| rate_ahead[n] - rate[n]);
+        let curvature = norm(&change) / trial;
+        let largest = speed.max(curvature);
+        let step = if largest <= 1e-15 {
+            (trial * 1e-3).max(1e-6)
+        } else {
+            libm::pow(0.01 / largest, 1.0 / self.tableau.error_order)
+        };
+        if step.is_finite() { step.min(100.0 * trial) } else { trial }
+    }
+}
+
+/// What stood in the way of the last attempt, besides its error.
+#[derive(Clone, Copy)]
+enum Obstacle {
+    NotFinite,
+    Refused(Refusal),
+}
+
+impl Obstacle {
+    fn fault(self, t: f64) -> Fault {
+        match self {
+            Obstacle::NotFinite => Fault::NotFinite { t },
+            Obstacle::Refused(reason) => Fault::Refused { t, reason },
+        }
+    }
+}
+
+fn square(x: f64) -> f64 {
+    x * x
+}

@@ -1,0 +1,56 @@
+//! The coefficients of an explicit Runge–Kutta pair.
+
+mod dop853;
+mod dopri5;
+
+pub use dop853::DOP853;
+pub use dopri5::DOPRI5;
+
+/// Σ a_j k_j as pairs (j, a_j); what is zero is left out.
+pub type Combination = &'static [(usize, f64)];
+
+/// k_i = f(t + c h, y + h Σ a_j k_j).
+#[derive(Debug)]
+pub struct Stage {
+    /// When within the step [1].
+    pub c: f64,
+    /// Of which stages before it.
+    pub a: Combination,
+}
+
+/// A pair with the rate at the end of a step as its last stage, which is the first of the next.
+#[derive(Debug)]
+pub struct Tableau {
+    /// The stages after the first; the last stands at the end of the step.
+    pub stages: &'static [Stage],
+    /// Number of the last stage, counted from 0.
+    pub last: usize,
+    /// How the error is estimated.
+    pub error: ErrorRule,
+    /// The power of h with which the estimate falls.
+    pub error_order: f64,
+    /// More stages, which only dense output needs.
+    pub dense_stages: &'static [Stage],
+    /// r_5 and further of the dense output, over h.
+    pub dense: &'static [Combination],
+}
+
+/// How the error of a step is estimated.
+#[derive(Debug)]
+pub enum ErrorRule {
+    /// h·|e|.
+    Single(Combination),
+    /// h·|fine|²/√(|fine|² + 0.01 |coarse|²), of orders 5 and 3.
+    Blend {
+        /// Of order 5.
+        fine: Combination,
+        /// Of order 3.
+        coarse: Combination,
+    },
+}
+
+/// The most stages of any tableau, those for dense output included.
+pub const MOST_STAGES: usize = 16;
+
+/// The most rows r of any dense output.
+pub const MOST_DENSE: usize = 8;

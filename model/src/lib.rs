@@ -1,0 +1,37 @@
+//! The rotor of split-rotor: its rotation split into an axial angle φ and a transverse Euler vector γ (Sorokin and
+//! Zhang 2018), its effects, its integration. A plain library: no FMI, no unsafe code.
+//!
+//! The modules stand on floors; each imports only from below (`docs/architecture.md`, held by `tests/tidy.rs`).
+//! Equation numbers (`eq. n`) are those of `docs/theory.md`.
+#![forbid(unsafe_code)]
+
+// Floor 0: mathematics and records that know no rotor.
+pub mod dual;
+pub mod error;
+pub mod integrate;
+pub mod rotation;
+pub mod scalar;
+pub mod variable;
+
+// Floor 1: kinematics.
+pub mod body;
+pub mod state;
+
+// Floor 2: what acts on the rotor.
+pub mod effects;
+
+// Floor 3: equations of motion and the energy ledger.
+pub mod energy;
+pub mod rotor;
+
+// Floor 4: the one list of variables.
+pub mod variables;
+
+// Floor 5: scenes and their modelDescription.xml, for build.rs and xtask.
+#[cfg(feature = "scenes")]
+pub mod scene;
+#[cfg(feature = "scenes")]
+pub mod xml;
+
+// Floor 6: a whole run.
+pub mod simulation;

@@ -1,0 +1,11 @@
+//! The split rotation L(ϑ) = L(γ)·L(φe): an axial angle φ about **e** = +x, then a transverse Euler vector γ ⟂ e.
+//!
+//! Notation of the paper (Sorokin and Zhang 2018). Every vector is in the inertial frame O.
+
+pub mod angle;
+pub mod euler_vector;
+pub mod series;
+pub mod split;
+
+pub use angle::Angle;
+pub use split::Tilt;

@@ -1,0 +1,44 @@
+//! The number that the physics is written over: f64 for values, [`crate::dual::Dual`] for exact derivatives.
+
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+use num_traits::{One, Zero};
+use std::ops::Neg;
+
+/// A real number, perhaps with derivatives attached.
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Zero
+    + One
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+    + Neg<Output = Self>
+{
+    /// A constant: its derivatives are zero.
+    fn constant(value: f64) -> Self;
+
+    /// The value without its derivatives.
+    fn re(self) -> f64;
+
+    /// The square root, of a value ≥ 0.
+    fn sqrt(self) -> Self;
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn constant(value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn re(self) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+}

@@ -1,0 +1,163 @@
+"""The run as pictures: each function returns an SVG element to stand in an HTML page.
+
+`result` is fmpy's structured array, `scene` a `scene.Scene`.
+"""
+
+import io
+import re
+from functools import wraps
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.figure import Figure
+
+from . import measure, paper
+from .notation import number
+
+# Okabe and Ito's palette: told apart by colour-blind readers too.
+BLUE, VERMILLION, GREEN, PURPLE, BLACK = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#222222"
+WIDTH = 7.2  # [in]
+
+STYLE = {
+    "svg.fonttype": "none",  # text stays text
+    "svg.hashsalt": "split-rotor",  # the same run gives the same bytes
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.titlelocation": "left",
+    "axes.edgecolor": "#888888",
+    "axes.labelcolor": BLACK,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.formatter.use_mathtext": True,
+    "axes.formatter.useoffset": False,
+    "axes.formatter.limits": (-3, 4),
+    "axes.xmargin": 0.01,
+    "axes.unicode_minus": True,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "xtick.color": "#555555",
+    "ytick.color": "#555555",
+    "lines.linewidth": 1.0,
+    "legend.frameon": False,
+    "legend.borderaxespad": 0.2,
+}
+
+
+def _inline(height, label):
+    """Turn `draw(figure, result, scene)` into a function that returns an SVG of `height` [in]."""
+
+    def decorate(draw):
+        @wraps(draw)
+        def render(result, scene):
+            with rc_context(STYLE):
+                figure = Figure(figsize=(WIDTH, height), layout="constrained")
+                draw(figure, result, scene)
+                text = io.StringIO()
+                figure.savefig(text, format="svg", metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")))
+            return _element(text.getvalue(), draw.__name__, label)
+
+        return render
+
+    return decorate
+
+
+def _element(document, name, label):
+    """The <svg> element of `document`, fit to stand beside others in one page."""
+    svg = document[document.index("<svg") :]
+    svg = re.sub(r' (?:width|height)="[\d.]+pt"', "", svg, count=2)
+    svg = re.sub(r'( id="|url\(#|href="#)', rf"\g<1>{name}-", svg)
+    return svg.replace("<svg ", f'<svg role="img" aria-label="{label}" ', 1)
+
+
+def _limits(values, floor):
+    """Axis limits around `values` with some air, at least 2 `floor` apart: rounding noise stays a line."""
+    low, high = np.min(values), np.max(values)
+    half = 1.08 * max((high - low) / 2.0, floor)
+    return (low + high) / 2.0 - half, (low + high) / 2.0 + half
+
+
+def _path_and_components(figure, time, path, components, unit, floor):
+    """A plane path with equal scales, and beside it its `components` against time.
+
+    `path` is ((name, values), (name, values)), across and upwards; `components` a list of the same.
+    """
+    grid = figure.add_gridspec(len(components), 2, width_ratios=(1.0, 1.15))
+    (across, y), (upwards, z) = path
+    half = max(np.ptp(y) / 2.0, np.ptp(z) / 2.0, floor)
+    plane = figure.add_subplot(grid[:, 0], aspect="equal")
+    plane.plot(y, z, color=BLUE, linewidth=0.7)
+    plane.plot(y[0], z[0], "o", color=BLACK, markersize=8, markerfacecolor="none", label="start")
+    plane.plot(y[-1], z[-1], "s", color=VERMILLION, markersize=5, label="end")
+    plane.set(xlabel=f"{across} [{unit}]", ylabel=f"{upwards} [{unit}]", xlim=_limits(y, half), ylim=_limits(z, half))
+    plane.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
+    first = None
+    for i, (name, values) in enumerate(components):
+        panel = figure.add_subplot(grid[i, 1], sharex=first)
+        first = first or panel
+        panel.plot(time, values, color=BLUE, linewidth=0.8)
+        panel.set(ylabel=f"{name} [{unit}]", ylim=_limits(values, floor))
+        panel.tick_params(labelbottom=i == len(components) - 1)
+    panel.set_xlabel("time [s]")
+    figure.align_ylabels()
+
+
+@_inline(3.7, "Path of the mass centre in the y–z plane, and its coordinates against time")
+def trajectory(figure, result, scene):
+    """The path of the mass centre (the paper's Figure 5)."""
+    r = {c: (f"$r_{{c{c}}}$", result[f"r_c.{c}"]) for c in "xyz"}
+    _path_and_components(figure, result["time"], (r["y"], r["z"]), list(r.values()), "m", floor=1e-6)
+
+
+@_inline(3.7, "Transverse Euler vector in its plane, and its components and length against time")
+def attitude(figure, result, scene):
+    """The transverse Euler vector γ and its length θ."""
+    y, z = ((rf"$\gamma_{c}$", result[f"gamma.{c}"]) for c in "yz")
+    theta = (r"$\theta=|\gamma|$", measure.tilt(result))
+    _path_and_components(figure, result["time"], (y, z), [y, z, theta], "rad", floor=1e-6)
+
+
+@_inline(2.6, "Deviation of the axial rate from its start value against time")
+def spin(figure, result, scene):
+    """How far ω_φ strays from its start value (the paper's Figure 6)."""
+    deviation = measure.spin_deviation(result)
+    t, value = result["time"][deviation.extremum], deviation.values[deviation.extremum]
+    shown = [*deviation.values, 0.0]
+    axes = figure.add_subplot()
+    axes.plot(result["time"], deviation.values, color=BLUE, linewidth=0.8)
+    if scene.identifier == paper.IDENTIFIER:
+        claim = f"the paper: at most {paper.SPIN_BOUND:g} %"
+        for bound, label in ((paper.SPIN_BOUND, claim), (-paper.SPIN_BOUND, None)):
+            shown.append(bound)
+            axes.axhline(bound, color=VERMILLION, linestyle=(0, (5, 3)), label=label)
+    label = f"{number(value, 3)} {deviation.unit} at {number(t)} s"
+    axes.plot(t, value, "o", color=BLACK, markersize=4, label=label)
+    relative, absolute = r"$\omega_\varphi/\omega_\varphi(0)-1$", r"$\omega_\varphi-\omega_\varphi(0)$"
+    quantity = relative if deviation.unit == "%" else absolute
+    axes.set(xlabel="time [s]", ylabel=f"{quantity} [{deviation.unit}]", ylim=_limits(shown, floor=1e-9))
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+
+
+@_inline(4.2, "Change of the energies against time, and the residual of the ledger")
+def energy(figure, result, scene):
+    """The exchange of energy (the paper's Figure 7) and what its ledger leaves over."""
+    turnover = measure.energy_balance(result, scene.relative_tolerance).turnover
+    time = result["time"]
+    work = result["energy.supplied"] - result["energy.dissipated"]
+    curves = [
+        ("kinetic", result["energy.kinetic"], BLUE, "-"),
+        ("potential", result["energy.potential"], VERMILLION, "-"),
+        ("total", result["energy.total"], BLACK, (0, (4, 2))),
+    ]
+    if np.any(work):
+        curves.insert(2, ("work supplied − lost", work, GREEN, "-"))
+    changes = [values - values[0] for _, values, _, _ in curves]
+    exchange, rest = figure.subplots(2, sharex=True, height_ratios=(2.2, 1.0))
+    for (name, _, color, dash), change in zip(curves, changes):
+        exchange.plot(time, change, color=color, linestyle=dash, label=name)
+    exchange.set(ylabel="change of energy [J]", ylim=_limits(changes, floor=1e-6 * turnover or 1.0))
+    exchange.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(curves))
+    residual = result["energy.residual"]
+    rest.plot(time, residual, color=PURPLE, linewidth=0.8)
+    rest.set(xlabel="time [s]", ylabel="residual [J]", ylim=_limits(residual, floor=1e-17 * turnover or 1.0))
+    figure.align_ylabels()

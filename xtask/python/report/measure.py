@@ -1,0 +1,68 @@
+"""Numbers taken from a run. `result` is fmpy's structured array, SI units."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+BOUND_FACTOR = 100.0
+"""How many relative tolerances the energy may be off, of the energy turned over."""
+
+
+@dataclass(frozen=True)
+class EnergyBalance:
+    """How well the energy ledger closes."""
+
+    residual: float
+    """Largest |energy.residual| [J]."""
+    turnover: float
+    """The energy in play, to which the residual compares [J]."""
+    bound: float
+    """What the residual may reach [J]."""
+
+    @property
+    def holds(self):
+        """False, too, where the residual is not a number."""
+        return self.residual <= self.bound
+
+
+def energy_balance(result, relative_tolerance):
+    """The ledger total − total(start) − supplied + dissipated against its bound."""
+    turnover = (
+        result["energy.kinetic"].max()
+        + np.ptp(result["energy.potential"])
+        + np.abs(result["energy.supplied"]).max()
+        + np.abs(result["energy.dissipated"]).max()
+    )
+    return EnergyBalance(
+        residual=np.abs(result["energy.residual"]).max(),
+        turnover=turnover,
+        bound=BOUND_FACTOR * relative_tolerance * turnover,
+    )
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """The deviation of omega_phi from its start value."""
+
+    values: np.ndarray
+    unit: str
+    """Per cent (%) of the start value, or rad/s where that is next to nothing."""
+
+    @property
+    def extremum(self):
+        """Index of the largest deviation, of either sign."""
+        return int(np.argmax(np.abs(self.values)))
+
+
+def spin_deviation(result):
+    """How far the axial rate omega_phi strays from its start value."""
+    spin = result["omega_phi"]
+    difference = spin - spin[0]
+    if abs(spin[0]) > 1e-6 * np.abs(spin).max():
+        return Deviation(100.0 * difference / abs(spin[0]), "%")
+    return Deviation(difference, "rad/s")
+
+
+def tilt(result):
+    """θ = |γ|, the angle between rotor axis and reference axis [rad]."""
+    return np.hypot(result["gamma.y"], result["gamma.z"])

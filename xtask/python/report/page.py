@@ -1,0 +1,62 @@
+"""The whole report on one HTML page that needs nothing beside it."""
+
+import platform
+from itertools import groupby
+from pathlib import Path
+
+import fmpy
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+from . import figures, measure, paper
+from .notation import count, number
+
+
+def render(scene, run):
+    """The report of a `simulate.Run` of `scene`, as HTML text."""
+    templates = Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return templates.get_template("report.html.j2").render(
+        scene=scene,
+        blocks=[(name, list(rows)) for name, rows in groupby(scene.parameters.values(), lambda p: p.block)],
+        figures={
+            draw.__name__: Markup(draw(run.result, scene))
+            for draw in (figures.trajectory, figures.spin, figures.energy, figures.attitude)
+        },
+        energy=measure.energy_balance(run.result, scene.relative_tolerance),
+        largest_tilt=measure.tilt(run.result).max(),
+        comparisons=list(paper.comparisons(run.result)) if scene.identifier == paper.IDENTIFIER else [],
+        costs=_costs(scene, run),
+        versions=_versions(scene),
+        log=run.log,
+        number=number,
+    )
+
+
+def _costs(scene, run):
+    """What the solver spent: (what, value, unit)."""
+    last = run.result[-1]
+    return [
+        ("method", scene.method, ""),
+        ("relative tolerance", number(scene.relative_tolerance), ""),
+        ("steps", count(last["solver.steps"]), ""),
+        ("rejected steps", count(last["solver.rejected"]), ""),
+        ("evaluations of the right-hand side", count(last["solver.evaluations"]), ""),
+        ("sum of the local error estimates", number(last["solver.error_estimate"], 2), ""),
+        ("wall time, fmpy’s own work included", number(run.wall_time, 2), "s"),
+        ("simulated time over wall time", number((scene.stop - scene.start) / run.wall_time, 3), ""),
+    ]
+
+
+def _versions(scene):
+    return [
+        ("FMU", f"{scene.identifier} {scene.version}, FMI {scene.fmi_version}"),
+        ("GUID", scene.guid),
+        ("fmpy", fmpy.__version__),
+        ("Python", f"{platform.python_version()} on {platform.system()} {platform.machine()}"),
+    ]

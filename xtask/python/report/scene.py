@@ -1,0 +1,69 @@
+"""What an FMU says about itself: its modelDescription.xml, as far as the report needs it."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter and its start value, an enumeration's by its name."""
+
+    name: str
+    value: str
+    unit: str
+    description: str
+
+    @property
+    def block(self):
+        """What stands before the first dot: rotor, start, solver, or an effect."""
+        return self.name.partition(".")[0]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A scene as packaged: its experiment [s], its parameters, its origin."""
+
+    title: str
+    identifier: str
+    start: float
+    stop: float
+    step: float
+    parameters: dict[str, Parameter]
+    fmi_version: str
+    version: str
+    guid: str
+
+    @classmethod
+    def of(cls, description):
+        """The scene behind fmpy's ModelDescription."""
+        experiment = description.defaultExperiment
+        parameters = [_parameter(v) for v in description.modelVariables if v.causality == "parameter"]
+        return cls(
+            title=description.description or description.modelName,
+            identifier=description.coSimulation.modelIdentifier,
+            start=float(experiment.startTime or 0.0),
+            stop=float(experiment.stopTime),
+            step=float(experiment.stepSize),
+            parameters={p.name: p for p in parameters},
+            fmi_version=description.fmiVersion,
+            version=description.version or "–",
+            guid=description.guid,
+        )
+
+    @property
+    def method(self):
+        """The name of the method of integration."""
+        return self.parameters["solver.method"].value
+
+    @property
+    def relative_tolerance(self):
+        """The relative tolerance of the adaptive methods [-]."""
+        return float(self.parameters["solver.relative_tolerance"].value)
+
+
+def _parameter(variable):
+    kind = variable.declaredType
+    value = variable.start
+    if variable.type == "Enumeration":
+        value = next(item.name for item in kind.items if int(item.value) == int(value))
+    unit = variable.unit or (kind.unit if kind else None)
+    return Parameter(variable.name, value, unit or "", variable.description or "")

@@ -1,0 +1,72 @@
+"""One run of an FMU with fmpy: co-simulation from the start to the stop of its default experiment."""
+
+from dataclasses import dataclass
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+import numpy as np
+from fmpy import extract, simulate_fmu
+from fmpy.fmi1 import FMICallException
+from fmpy.simulation import instantiate_fmu
+
+STATUS = ("ok", "warning", "discard", "error", "fatal", "pending")  # fmi2Status, by number
+
+
+class SimulationFailed(Exception):
+    """The FMU refused a call or stopped before its stop time; the text carries its last log lines."""
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a run left behind."""
+
+    result: np.ndarray
+    """Structured: `time` [s] and every output, a row a communication point."""
+    wall_time: float
+    """From the set-up of the experiment to its end, fmpy's own work included [s]."""
+    log: list[str]
+    """What the FMU logged, `status category: message`."""
+
+
+def simulate(fmu_path, description, scene):
+    """Run the FMU at `fmu_path`; `description` is fmpy's ModelDescription of it."""
+    log = []
+
+    def logger(_environment, _instance, status, category, message):
+        log.append(" ".join((STATUS[status], f"{_text(category)}:", _text(message))))
+
+    with TemporaryDirectory() as directory:
+        extract(fmu_path, directory)
+        try:
+            fmu = instantiate_fmu(directory, description, "CoSimulation", logger=logger, debug_logging=True)
+        except Exception as failure:  # fmpy raises nothing narrower here
+            raise _failed(str(failure), log) from failure
+        try:
+            began = perf_counter()
+            result = simulate_fmu(
+                directory,
+                validate=True,
+                fmu_instance=fmu,
+                model_description=description,
+                start_time=scene.start,
+                stop_time=scene.stop,
+                output_interval=scene.step,
+            )
+            wall_time = perf_counter() - began
+        except FMICallException as failure:
+            raise _failed(str(failure), log) from failure
+        finally:
+            fmu.freeInstance()
+
+    reached = result["time"][-1]
+    if not np.isclose(reached, scene.stop):
+        raise _failed(f"the FMU stopped at {reached:g} s of {scene.stop:g} s", log)
+    return Run(result, wall_time, log)
+
+
+def _failed(reason, log):
+    return SimulationFailed("\n  ".join([reason, *log[-5:]]))
+
+
+def _text(value):
+    return value.decode("utf-8", errors="replace")
