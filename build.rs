@@ -1,1 +1,42 @@
-fn main() {}
+//! Compiles the chosen scene in: its effects become a type, its GUID and start values constants.
+//!
+//! The scene is the TOML file in the environment variable `SPLIT_ROTOR_SCENE`, which `cargo xtask package` sets for its
+//! own child; without it, `scenes/paper.toml`.
+
+use model::scene::Scene;
+use model::xml;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+fn main() {
+    println!("cargo::rerun-if-env-changed=SPLIT_ROTOR_SCENE");
+    let file = std::env::var_os("SPLIT_ROTOR_SCENE").map_or("scenes/paper.toml".into(), PathBuf::from);
+    println!("cargo::rerun-if-changed={}", file.display());
+    match Scene::read(&file) {
+        Err(error) => println!("cargo::error={error}"),
+        Ok(scene) => {
+            let out = std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR");
+            std::fs::write(Path::new(&out).join("scene.rs"), source(&scene)).expect("OUT_DIR can be written");
+        }
+    }
+}
+
+/// What `src/scene.rs` includes.
+fn source(scene: &Scene) -> String {
+    let list = scene.effects.iter().rev().fold("()".to_owned(), |rest, (info, index)| {
+        format!("(model::effects::Called<{}, {index}>, {rest})", info.type_path)
+    });
+    let mut starts = String::new();
+    for (reference, value) in &scene.starts {
+        write!(starts, "({reference}, {value:?}), ").expect("writing to memory does not fail");
+    }
+    format!(
+        "/// The effects that the scene calls for.\n\
+         pub type Effects = {list};\n\n\
+         /// The GUID of its modelDescription.xml.\n\
+         pub const GUID: &str = {:?};\n\n\
+         /// The start value of each parameter, by value reference.\n\
+         pub const STARTS: &[(u32, f64)] = &[{starts}];\n",
+        xml::guid(scene)
+    )
+}

@@ -1,6 +1,7 @@
 //! Dual numbers: a value and its derivatives in D directions, carried exactly through arithmetic.
 //!
 //! With ε² = 0, f(a + a′ε) = f(a) + f′(a) a′ ε.
+#![allow(clippy::suspicious_arithmetic_impl, reason = "the rules of product and quotient mix operations")]
 
 use crate::scalar::Scalar;
 use num_traits::{One, Zero};

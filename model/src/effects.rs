@@ -62,6 +62,7 @@ pub trait Entry: Effect {
 }
 
 /// What can be said of an effect without its type.
+#[derive(Debug)]
 pub struct Info {
     /// Its name in scenes and variables.
     pub name: &'static str,

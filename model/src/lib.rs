@@ -9,6 +9,7 @@
 pub mod dual;
 pub mod error;
 pub mod integrate;
+pub mod log;
 pub mod rotation;
 pub mod scalar;
 pub mod variable;

@@ -9,14 +9,13 @@ use crate::integrate::{Cost, Fault, Tolerance};
 use crate::rotation::Angle;
 use crate::rotor::{DISSIPATED, Rotor, SUPPLIED, WITH_WORK, WITHOUT_WORK};
 use crate::state::{Coordinates, Kinematics, PHI};
-use crate::variable::{Access, Meta, Place};
-use crate::variables::{self, Reading, Setup};
+use crate::variable::{Access, Place, Row};
+use crate::variables::{self, Parameters, Reading, Setup};
 
 /// A rotor of the scene `E`, from its parameters to its motion.
 #[derive(Clone, Default)]
 pub struct Simulation<E> {
-    setup: Setup,
-    effects: E,
+    parameters: Parameters<E>,
     run: Option<Run<E>>,
     /// What the communication point shows, once somebody asked.
     reading: Option<Reading>,
@@ -53,54 +52,29 @@ impl<E: Effects> Simulation<E> {
         simulation
     }
 
+    /// The parameters.
+    pub fn parameters(&self) -> &Parameters<E> {
+        &self.parameters
+    }
+
     /// Sets a parameter; false where there is none at this place. It acts at the next [`Simulation::start`].
     pub fn set_parameter(&mut self, place: Place, value: f64) -> bool {
         self.reading = None;
-        match variables::always(place) {
-            None => self.effects.set_parameter(place, value),
-            Some(row) => match row.access {
-                Access::Parameter { set, .. } => {
-                    set(&mut self.setup, value);
-                    true
-                }
-                Access::Output(_) => false,
-            },
-        }
+        self.parameters.set(place, value)
     }
 
-    /// What is said of the variable at this place; None where there is none.
-    pub fn meta(&self, place: Place) -> Option<&'static Meta> {
-        match variables::always(place) {
-            None => E::meta(place),
-            Some(row) => Some(&row.meta),
-        }
-    }
-
-    /// Calls for the effects of a block, where the list holds them switched off.
-    pub fn switch_on(&mut self, block: u32) {
-        self.effects.switch_on(block);
-    }
-
-    /// The first parameter whose value is not possible.
-    pub fn check(&self) -> Result<(), Invalid> {
-        self.setup.check()?;
-        self.effects.check()
-    }
-
-    /// The tolerance that the parameters ask for [1].
-    pub fn relative_tolerance(&self) -> f64 {
-        self.setup.solver.relative_tolerance
-    }
-
-    /// Starts the motion at time `t` [s].
-    pub fn start(&mut self, t: f64) -> Result<(), Invalid> {
-        self.check()?;
+    /// Starts the motion at time `t` [s]; a relative tolerance [1] given here stands in for that of the parameters.
+    pub fn start(&mut self, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid> {
+        self.parameters.check()?;
         self.reading = None;
-        let rotor = Rotor { body: self.setup.rotor, effects: self.effects.clone(), chart: Default::default() };
-        self.run = Some(if self.effects.works() {
-            Run::Working(Drive::start(rotor, &self.setup, t))
+        let Parameters { mut setup, effects } = self.parameters.clone();
+        setup.solver.relative_tolerance = relative_tolerance.unwrap_or(setup.solver.relative_tolerance);
+        let works = effects.works();
+        let rotor = Rotor { body: setup.rotor, effects, chart: Default::default() };
+        self.run = Some(if works {
+            Run::Working(Drive::start(rotor, &setup, t))
         } else {
-            Run::Conservative(Drive::start(rotor, &self.setup, t))
+            Run::Conservative(Drive::start(rotor, &setup, t))
         });
         Ok(())
     }
@@ -128,21 +102,16 @@ impl<E: Effects> Simulation<E> {
     /// The value of a variable at the communication point, before the start as the parameters have it; None where there
     /// is none at this place. An error where the parameters are not possible.
     pub fn get(&mut self, place: Place) -> Result<Option<f64>, Invalid> {
-        let parameter = match variables::always(place) {
-            None => self.effects.parameter(place),
-            Some(row) => match row.access {
-                Access::Parameter { get, .. } => Some(get(&self.setup)),
-                Access::Output(read) => {
-                    self.read()?;
-                    return Ok(self.reading.as_ref().map(|reading| read(&self.setup, reading)));
-                }
-            },
-        };
-        if parameter.is_some() {
-            return Ok(parameter);
+        if let Some(value) = self.parameters.get(place) {
+            return Ok(Some(value));
         }
-        let motion = self.read()?.motion;
-        Ok(self.effects.output(place, &motion))
+        let reading = *self.read()?;
+        let Parameters { setup, effects } = &self.parameters;
+        Ok(match variables::always(place) {
+            None => effects.output(place, &reading.motion),
+            Some(Row { access: Access::Output(read), .. }) => Some(read(setup, &reading)),
+            Some(_) => None,
+        })
     }
 
     /// What the communication point shows; before the start, what the parameters make of it.
@@ -152,9 +121,9 @@ impl<E: Effects> Simulation<E> {
                 Some(Run::Conservative(drive)) => drive.read(),
                 Some(Run::Working(drive)) => drive.read(),
                 None => {
-                    self.check()?;
-                    let (motion, turns) = at_start(&self.setup);
-                    reading(motion, turns, &self.effects, [0.0, 0.0], None, Cost::default())
+                    self.parameters.check()?;
+                    let (motion, turns) = at_start(&self.parameters.setup);
+                    reading(motion, turns, &self.parameters.effects, [0.0, 0.0], None, Cost::default())
                 }
             });
         }

@@ -2,7 +2,7 @@
 //! typed access, its XML line and its documentation follow.
 
 use crate::body::Body;
-use crate::effects::Info;
+use crate::effects::{Effects, Info};
 use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::Cost;
@@ -152,7 +152,9 @@ const SOLVER: &[Always] = &[
     ),
     output!("solver.steps", &ONE, NOTHING, "steps accepted so far", |_, r| r.cost.steps),
     output!("solver.rejected", &ONE, NOTHING, "steps rejected so far", |_, r| r.cost.rejected),
-    output!("solver.evaluations", &ONE, NOTHING, "evaluations of the right-hand side so far", |_, r| r.cost.evaluations),
+    output!("solver.evaluations", &ONE, NOTHING, "evaluations of the right-hand side so far", |_, r| r
+        .cost
+        .evaluations),
     output!("solver.next_step", &SECOND, NOTHING, "the step that the solver would like; 0 before the first", |_, r| r
         .cost
         .next_step),
@@ -203,9 +205,21 @@ const MOTION: &[Always] = &[
     output!("omega.y", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, y", |_, r| r.motion.omega.y),
     output!("omega.z", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, z", |_, r| r.motion.omega.z),
     output!("omega_phi", &RADIAN_PER_SECOND, OMEGA_PHI, "axial rate, the rate of phi", |_, r| r.motion.axial_rate()),
-    output!("K_c.x", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, x", |_, r| r.motion.at.k_c.x),
-    output!("K_c.y", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, y", |_, r| r.motion.at.k_c.y),
-    output!("K_c.z", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, z", |_, r| r.motion.at.k_c.z),
+    output!("K_c.x", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, x", |_, r| r
+        .motion
+        .at
+        .k_c
+        .x),
+    output!("K_c.y", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, y", |_, r| r
+        .motion
+        .at
+        .k_c
+        .y),
+    output!("K_c.z", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, z", |_, r| r
+        .motion
+        .at
+        .k_c
+        .z),
     output!("axis.x", &ONE, ATTITUDE, "rotor axis t, x", |_, r| r.motion.axis().x),
     output!("axis.y", &ONE, ATTITUDE, "rotor axis t, y", |_, r| r.motion.axis().y),
     output!("axis.z", &ONE, ATTITUDE, "rotor axis t, z", |_, r| r.motion.axis().z),
@@ -247,8 +261,8 @@ pub fn always(place: Place) -> Option<&'static Always> {
 }
 
 impl Setup {
-    /// The first parameter whose value is not possible.
-    pub fn check(&self) -> Result<(), Invalid> {
+    /// The first of its parameters whose value is not possible.
+    fn check(&self) -> Result<(), Invalid> {
         for row in BLOCKS.into_iter().flatten() {
             if let Access::Parameter { get, .. } = row.access {
                 row.meta.check(|| row.meta.name.into(), get(self))?;
@@ -260,6 +274,49 @@ impl Setup {
             return Err(Invalid::new("|start.gamma|", theta, format!("at most pi = {PI:?}")));
         }
         Ok(())
+    }
+}
+
+/// The parameters of a scene: those that are always there and those of its effects.
+#[derive(Clone, Debug, Default)]
+pub struct Parameters<E> {
+    /// Those that are always there.
+    pub setup: Setup,
+    /// Those of the effects.
+    pub effects: E,
+}
+
+impl<E: Effects> Parameters<E> {
+    /// What is said of the variable at this place, parameter or output; None where there is none.
+    pub fn meta(place: Place) -> Option<&'static Meta> {
+        always(place).map_or_else(|| E::meta(place), |row| Some(&row.meta))
+    }
+
+    /// The value of a parameter; None where there is none at this place.
+    pub fn get(&self, place: Place) -> Option<f64> {
+        match always(place) {
+            None => self.effects.parameter(place),
+            Some(Row { access: Access::Parameter { get, .. }, .. }) => Some(get(&self.setup)),
+            Some(_) => None,
+        }
+    }
+
+    /// Sets a parameter; false where there is none at this place.
+    pub fn set(&mut self, place: Place, value: f64) -> bool {
+        match always(place) {
+            None => self.effects.set_parameter(place, value),
+            Some(Row { access: Access::Parameter { set, .. }, .. }) => {
+                set(&mut self.setup, value);
+                true
+            }
+            Some(_) => false,
+        }
+    }
+
+    /// The first parameter whose value is not possible.
+    pub fn check(&self) -> Result<(), Invalid> {
+        self.setup.check()?;
+        self.effects.check()
     }
 }
 

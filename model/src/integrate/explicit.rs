@@ -131,8 +131,8 @@ impl<const N: usize> Explicit<N> {
         // eq. 24: y(t₀ + σh) = r₁ + σ(r₂ + (1 − σ)(r₃ + σ(r₄ + (1 − σ)(r₅ + …))))
         for (i, row) in r[..3 + self.tableau.dense.len()].iter().enumerate().rev() {
             let factor = if i % 2 == 0 { sigma } else { 1.0 - sigma };
-            for n in 0..N {
-                sum[n] = (sum[n] + row[n]) * factor;
+            for (sum, r) in sum.iter_mut().zip(row) {
+                *sum = (*sum + r) * factor;
             }
         }
         std::array::from_fn(|n| y[n] + sum[n])
@@ -165,8 +165,8 @@ impl<const N: usize> Explicit<N> {
     fn combined(&self, a: Combination) -> [f64; N] {
         let mut sum = [0.0; N];
         for &(j, coefficient) in a {
-            for n in 0..N {
-                sum[n] += coefficient * self.k[j][n];
+            for (sum, k) in sum.iter_mut().zip(&self.k[j]) {
+                *sum += coefficient * k;
             }
         }
         sum

@@ -26,7 +26,12 @@ impl<S: Scalar> Coefficients<S> {
         let s = c + x * j;
         let quarter = S::constant(0.25);
         // eq. 10; 1 − sc = (1 − c²) + c(c − s) = x s² − x j c, and 1 − q = 1 − c/s = x j/s
-        Self { sinc: s * c, versine: s * s * (quarter + quarter), cubic: (s * s - j * c) * quarter, inverse: j / s * quarter }
+        Self {
+            sinc: s * c,
+            versine: s * s * (quarter + quarter),
+            cubic: (s * s - j * c) * quarter,
+            inverse: j / s * quarter,
+        }
     }
 }
 

@@ -1,0 +1,217 @@
+//! What every test of a whole run needs: a scene as a value, its simulation, and a bound that prints what it measured.
+
+#![allow(dead_code, reason = "each test crate uses a part")]
+
+use model::body::Body;
+use model::effects::gravity::Gravity;
+use model::effects::support::Support;
+use model::effects::{Called, Effects, Info, named};
+use model::integrate::tableau::{DOP853, DOPRI5, Tableau};
+use model::integrate::{Tolerance, explicit::Explicit};
+use model::rotor::Rotor;
+use model::simulation::Simulation;
+use model::state::{Coordinates, Kinematics};
+use model::variable::Role;
+use model::variables::{Reading, of_scene};
+use nalgebra::{Vector2, Vector3};
+
+/// Gravity and the support: the paper's effects.
+pub type Supported = (Called<Gravity, 1>, (Called<Support, 1>, ()));
+
+/// A list of effects with their names.
+pub trait Listed: Effects {
+    /// Their names, in the order of the list.
+    const NAMES: &'static [&'static str];
+}
+
+impl Listed for () {
+    const NAMES: &'static [&'static str] = &[];
+}
+
+impl Listed for Supported {
+    const NAMES: &'static [&'static str] = &["gravity", "support"];
+}
+
+/// A method, by its number in the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Order 5.
+    Dopri5 = 2,
+    /// Order 8.
+    Dop853 = 3,
+}
+
+impl Method {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Dopri5, Self::Dop853];
+
+    /// Its coefficients.
+    pub fn tableau(self) -> &'static Tableau {
+        match self {
+            Self::Dopri5 => &DOPRI5,
+            Self::Dop853 => &DOP853,
+        }
+    }
+}
+
+/// Everything that a scene says, in the units of the variables.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the names of the variables")]
+pub struct Scene {
+    pub body: Body,
+    pub r_c: Vector3<f64>,
+    pub v_c: Vector3<f64>,
+    pub phi: f64,
+    pub gamma: Vector2<f64>,
+    pub omega: Vector3<f64>,
+    pub g: Vector3<f64>,
+    pub c1: f64,
+    pub c2: f64,
+    pub d1: f64,
+    pub d2: f64,
+    pub method: Method,
+    pub tolerance: f64,
+}
+
+impl Scene {
+    /// The paper's example (`scenes/paper.toml`).
+    pub fn paper() -> Self {
+        Self {
+            body: Body { m: 5.0, Ja: 0.15625, Jt: 0.078125, l: 0.75 },
+            r_c: Vector3::new(0.75, 0.0, 0.0),
+            v_c: Vector3::zeros(),
+            phi: 0.0,
+            gamma: Vector2::zeros(),
+            omega: Vector3::new(50.0, 0.0, 0.0),
+            g: Vector3::new(0.0, 0.0, -9.81),
+            c1: 2000.0,
+            c2: 500.0,
+            d1: 0.0,
+            d2: 0.0,
+            method: Method::Dop853,
+            tolerance: 1e-10,
+        }
+    }
+
+    /// The paper's rotor with nothing acting on it.
+    pub fn free() -> Self {
+        Self { g: Vector3::zeros(), c1: 0.0, c2: 0.0, r_c: Vector3::zeros(), ..Self::paper() }
+    }
+
+    /// Name and value of each variable that it sets.
+    pub fn values(&self) -> Vec<(String, f64)> {
+        let mut values: Vec<(String, f64)> = Vec::new();
+        let mut set = |name: &str, value: f64| values.push((name.into(), value));
+        set("rotor.m", self.body.m);
+        set("rotor.Ja", self.body.Ja);
+        set("rotor.Jt", self.body.Jt);
+        set("rotor.l", self.body.l);
+        for (name, v) in [("r_c", &self.r_c), ("v_c", &self.v_c), ("omega", &self.omega)] {
+            for (n, component) in ["x", "y", "z"].into_iter().enumerate() {
+                set(&format!("start.{name}.{component}"), v[n]);
+            }
+        }
+        set("start.phi", self.phi);
+        set("start.gamma.y", self.gamma.x);
+        set("start.gamma.z", self.gamma.y);
+        for (n, component) in ["x", "y", "z"].into_iter().enumerate() {
+            set(&format!("gravity.g.{component}"), self.g[n]);
+        }
+        for (name, value) in [("c1", self.c1), ("c2", self.c2), ("d1", self.d1), ("d2", self.d2)] {
+            set(&format!("support.{name}"), value);
+        }
+        set("solver.method", f64::from(self.method as i32));
+        set("solver.relative_tolerance", self.tolerance);
+        values
+    }
+
+    /// Its simulation, not yet started. What the list of effects does not hold must be zero.
+    pub fn simulation<E: Listed>(&self) -> Simulation<E> {
+        let called: Vec<(&'static Info, u32)> =
+            E::NAMES.iter().map(|name| (named(name).expect("in the catalogue"), 1)).collect();
+        let variables = of_scene(&called);
+        let default = |role: Role| match role {
+            Role::Parameter { default, .. } => default,
+            _ => None,
+        };
+        let defaults = variables.iter().filter_map(|v| Some((v.place, default(v.meta.role)?)));
+        let mut simulation = Simulation::new(defaults);
+        for (name, value) in self.values() {
+            match variables.iter().find(|v| v.name == name) {
+                Some(variable) => assert!(simulation.set_parameter(variable.place, value), "{name} is no parameter"),
+                None => assert_eq!(value, 0.0, "{name} is not of this scene"),
+            }
+        }
+        simulation
+    }
+
+    /// Its simulation, started at time 0.
+    pub fn started<E: Listed>(&self) -> Simulation<E> {
+        let mut simulation = self.simulation();
+        simulation.start(0.0).expect("a possible scene");
+        simulation
+    }
+
+    /// What its simulation shows at each of these times [s].
+    pub fn run<E: Listed>(&self, times: impl IntoIterator<Item = f64>) -> Vec<Reading> {
+        let mut simulation = self.started::<E>();
+        times.into_iter().map(|t| at(&mut simulation, t)).collect()
+    }
+
+    /// Its equations of motion with gravity and the support.
+    pub fn rotor(&self) -> Rotor<Supported> {
+        let mut effects = Supported::default();
+        let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
+        for (name, value) in self.values().iter().filter(|(name, _)| {
+            name.starts_with("gravity") || name.starts_with("support")
+        }) {
+            let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
+            assert!(effects.set_parameter(variable.place, *value));
+        }
+        Rotor { body: self.body, effects, chart: Default::default() }
+    }
+
+    /// Its state at the start, in the order of the coordinates.
+    pub fn state(&self) -> [f64; 12] {
+        let axis = crate::oracles::rotation::axis(&self.gamma);
+        let k_c = self.omega * self.body.Jt + axis * ((self.body.Ja - self.body.Jt) * self.omega.dot(&axis));
+        let at = Coordinates { r_c: self.r_c, v_c: self.v_c, k_c, gamma: self.gamma, phi: self.phi };
+        let mut y = [0.0; 12];
+        at.write(&mut y);
+        y
+    }
+
+    /// The method by itself, to take steps of a given size.
+    pub fn stepper(&self) -> Explicit<12> {
+        let tolerance = Tolerance { absolute: [1.0; 12], relative: [0.0; 12] };
+        Explicit::start(self.method.tableau(), tolerance, &self.rotor(), 0.0, self.state())
+    }
+}
+
+/// What the simulation shows at time `t` [s].
+pub fn at<E: Effects>(simulation: &mut Simulation<E>, t: f64) -> Reading {
+    simulation.advance(t).expect("a possible motion");
+    *simulation.read().expect("possible parameters")
+}
+
+/// Total angular momentum about e through O [kg·m²/s].
+pub fn momentum_about_e(motion: &Kinematics<f64>) -> f64 {
+    (motion.at.r_c.cross(&motion.at.v_c) * motion.body.m + motion.at.k_c).x
+}
+
+/// Times from 0 to `end` [s], `parts` + 1 of them.
+pub fn times(end: f64, parts: u32) -> impl Iterator<Item = f64> {
+    (0..=parts).map(move |i| end * f64::from(i) / f64::from(parts))
+}
+
+/// The largest, or NaN where there is one.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, value| if value > most || value.is_nan() { value } else { most })
+}
+
+/// Asserts measured ≤ allowed (NaN fails); `cargo test -- --nocapture` shows what was measured.
+#[track_caller]
+pub fn within(what: &str, measured: f64, allowed: f64) {
+    println!("{what}: measured {measured:.2e}, allowed {allowed:.1e}");
+    assert!(measured <= allowed, "{what}: measured {measured:e}, allowed {allowed:e}");
+}

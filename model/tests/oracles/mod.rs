@@ -1,0 +1,11 @@
+//! Exact answers, each with its source, kept apart from the tests that use them. None of this code calls the library's
+//! mathematics; `exact_oracles.rs` checks each answer against something that it was not made from.
+
+#![allow(dead_code, reason = "each test crate uses a part")]
+
+pub mod fixed;
+pub mod motion;
+pub mod numerics;
+pub mod paper;
+pub mod rotation;
+pub mod trees;

@@ -1,0 +1,330 @@
+//! Functions for co-simulation and model exchange alike (FMI 2.0.4, section 2.1).
+
+use super::absent;
+use crate::abi::*;
+use crate::calls::call;
+use crate::guard::{caught, enter, places, text, values};
+use crate::instance::{Failure, Instance, Type};
+use crate::logger::Logger;
+use crate::scene::GUID;
+use model::log::Category;
+
+/// Platform of the C types.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetTypesPlatform() -> Text {
+    c"default".as_ptr()
+}
+
+/// Version of FMI.
+#[unsafe(no_mangle)]
+pub extern "C" fn fmi2GetVersion() -> Text {
+    c"2.0".as_ptr()
+}
+
+/// A new instance; null, and a log line, where it cannot be.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    instance_name: Text,
+    kind: Choice,
+    guid: Text,
+    _resource_location: Text,
+    callbacks: *const CallbackFunctions,
+    _visible: Boolean,
+    logging_on: Boolean,
+) -> Component {
+    // SAFETY: null, or the host's struct for the time of this call.
+    let Some(callbacks) = (unsafe { callbacks.as_ref() }) else { return std::ptr::null_mut() };
+    // SAFETY: null, or strings of the host's.
+    let name = unsafe { text(instance_name, "instanceName") };
+    let logger = Logger::new(callbacks, name.as_ref().copied().unwrap_or_default(), logging_on != FALSE);
+    let refusal = |failure: Failure| {
+        logger.log(Status::Error, Category::Error, &format!("fmi2Instantiate: {}", failure.message));
+        std::ptr::null_mut()
+    };
+    if let Err(failure) = name {
+        return refusal(failure);
+    }
+    // SAFETY: as above.
+    match unsafe { text(guid, "fmuGUID") } {
+        Err(failure) => return refusal(failure),
+        Ok(guid) if guid.to_bytes() != GUID.as_bytes() => {
+            let message =
+                format!("fmuGUID = {guid:?} must be {GUID:?}: the binary and the modelDescription.xml differ");
+            return refusal(Failure::error(message));
+        }
+        Ok(_) => {}
+    }
+    if kind != CO_SIMULATION {
+        return refusal(Failure::error("fmuType must be fmi2CoSimulation (1): there is no model exchange yet"));
+    }
+    caught(|| Box::into_raw(Box::new(Instance::new(logger))).cast()).unwrap_or(std::ptr::null_mut())
+}
+
+/// Frees an instance; null is allowed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(component: Component) {
+    if !component.is_null() {
+        // SAFETY: it came from fmi2Instantiate, and the host uses it no more.
+        let _ = caught(|| drop(unsafe { Box::from_raw(component.cast::<Instance>()) }));
+    }
+}
+
+/// Chooses what is logged.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    component: Component,
+    on: Boolean,
+    n: Size,
+    categories: *const Text,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::SET_DEBUG_LOGGING, |instance| {
+            let names = values(categories, n, "categories")?.iter().map(|name| text(*name, "a category"));
+            let names = names.map(|name| name.map(|name| name.to_str().unwrap_or("not UTF-8")));
+            instance.set_debug_logging(on != FALSE, &names.collect::<Result<Vec<_>, _>>()?)
+        })
+    }
+}
+
+/// Tolerance, start and stop of the experiment.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetupExperiment(
+    component: Component,
+    tolerance_defined: Boolean,
+    tolerance: Real,
+    start: Real,
+    stop_defined: Boolean,
+    stop: Real,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::SETUP_EXPERIMENT, |instance| {
+            let given = |defined, value| (defined != FALSE).then_some(value);
+            instance.setup_experiment(given(tolerance_defined, tolerance), start, given(stop_defined, stop))
+        })
+    }
+}
+
+/// Enters initialization mode.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterInitializationMode(component: Component) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { enter(component, &call::ENTER_INITIALIZATION_MODE, |instance| instance.enter_initialization_mode()) }
+}
+
+/// Checks all parameters and starts the motion.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2ExitInitializationMode(component: Component) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { enter(component, &call::EXIT_INITIALIZATION_MODE, |instance| instance.exit_initialization_mode()) }
+}
+
+/// Ends the run; values can still be read.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Terminate(component: Component) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { enter(component, &call::TERMINATE, |instance| instance.terminate()) }
+}
+
+/// Back to the state after fmi2Instantiate; what the host set is forgotten.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Reset(component: Component) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { enter(component, &call::RESET_INSTANCE, |instance| instance.reset()) }
+}
+
+/// Reads variables of type Real.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetReal(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    value: *mut Real,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::GET_REAL, |instance| {
+            instance.get_real(values(references, n, "vr")?, places(value, n, "value")?)
+        })
+    }
+}
+
+/// Reads variables of type Integer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetInteger(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    value: *mut Integer,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::GET_INTEGER, |instance| {
+            instance.get_integer(values(references, n, "vr")?, places(value, n, "value")?)
+        })
+    }
+}
+
+/// Reads variables of type Boolean, of which there are none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBoolean(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    _value: *mut Boolean,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::GET_BOOLEAN, |instance| instance.get_other(values(references, n, "vr")?, Type::Boolean))
+    }
+}
+
+/// Reads variables of type String, of which there are none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetString(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    _value: *mut Text,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::GET_STRING, |instance| instance.get_other(values(references, n, "vr")?, Type::String))
+    }
+}
+
+/// Sets parameters of type Real.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetReal(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    value: *const Real,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::SET_REAL, |instance| {
+            instance.set_real(values(references, n, "vr")?, values(value, n, "value")?)
+        })
+    }
+}
+
+/// Sets parameters of type Integer.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetInteger(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    value: *const Integer,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::SET_INTEGER, |instance| {
+            instance.set_integer(values(references, n, "vr")?, values(value, n, "value")?)
+        })
+    }
+}
+
+/// Sets parameters of type Boolean, of which there are none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetBoolean(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    _value: *const Boolean,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::SET_BOOLEAN, |instance| instance.set_other(values(references, n, "vr")?, Type::Boolean))
+    }
+}
+
+/// Sets parameters of type String, of which there are none.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetString(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    _value: *const Text,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::SET_STRING, |instance| instance.set_other(values(references, n, "vr")?, Type::String))
+    }
+}
+
+/// Not there yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, _state: *mut FmuState) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { absent(component, &call::GET_FMU_STATE, NO_STATE) }
+}
+
+/// Not there yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, _state: FmuState) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { absent(component, &call::SET_FMU_STATE, NO_STATE) }
+}
+
+/// Not there yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, _state: *mut FmuState) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { absent(component, &call::FREE_FMU_STATE, NO_STATE) }
+}
+
+/// Not there yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
+    component: Component,
+    _state: FmuState,
+    _size: *mut Size,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { absent(component, &call::SERIALIZED_FMU_STATE_SIZE, NO_BYTES) }
+}
+
+/// Not there yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    component: Component,
+    _state: FmuState,
+    _bytes: *mut Byte,
+    _size: Size,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { absent(component, &call::SERIALIZE_FMU_STATE, NO_BYTES) }
+}
+
+/// Not there yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    component: Component,
+    _bytes: *const Byte,
+    _size: Size,
+    _state: *mut FmuState,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { absent(component, &call::DESERIALIZE_FMU_STATE, NO_BYTES) }
+}
+
+/// Not there yet.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    component: Component,
+    _unknown: *const ValueReference,
+    _n_unknown: Size,
+    _known: *const ValueReference,
+    _n_known: Size,
+    _seed: *const Real,
+    _sensitivity: *mut Real,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe { absent(component, &call::GET_DIRECTIONAL_DERIVATIVE, NO_DERIVATIVE) }
+}
+
+const NO_STATE: &str = "the FMU state cannot be saved yet: canGetAndSetFMUstate is false";
+const NO_BYTES: &str = "the FMU state cannot be serialized yet: canSerializeFMUstate is false";
+const NO_DERIVATIVE: &str = "there are no directional derivatives yet: providesDirectionalDerivative is false";

@@ -1,0 +1,105 @@
+//! The one door: every exported function passes here on its way to the safe instance.
+//!
+//! A null instance or a call that is not legal gives fmi2Error; a panic is caught, and gives fmi2Fatal; every failure is
+//! logged with the function's name. Nothing is written to stdout or stderr.
+#![allow(unsafe_code)]
+
+use crate::abi::{Component, Size, Status, Text};
+use crate::calls::{Call, State};
+use crate::instance::{Failure, Instance};
+use model::log::Category;
+use std::any::Any;
+use std::ffi::CStr;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// Runs `body` on the instance behind `component`, if `call` is legal now.
+///
+/// # Safety
+/// `component` is null or came from fmi2Instantiate and was not freed, and no other thread uses it during the call.
+pub unsafe fn enter(
+    component: Component,
+    call: &Call,
+    body: impl FnOnce(&mut Instance) -> Result<Status, Failure>,
+) -> Status {
+    // SAFETY: see above.
+    let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return Status::Error };
+    if instance.state == State::Lost {
+        return Status::Fatal;
+    }
+    if !call.is_legal(instance.state) {
+        let message = format!("{}: not legal in the state \"{}\": {}", call.name, instance.state.name(), call.remedy);
+        instance.logger.log(Status::Error, Category::Error, &message);
+        return Status::Error;
+    }
+    match caught(|| body(instance)) {
+        Ok(Ok(status)) => status,
+        Ok(Err(failure)) => {
+            instance.logger.log(failure.status, failure.category, &format!("{}: {}", call.name, failure.message));
+            failure.status
+        }
+        Err(panic) => {
+            instance.state = State::Lost;
+            let message = format!("{}: internal failure: {panic}; free the instance", call.name);
+            // The host's logger may itself be what failed.
+            let _ = caught(|| instance.logger.log(Status::Fatal, Category::Error, &message));
+            Status::Fatal
+        }
+    }
+}
+
+/// What `body` returns, or the message of its panic.
+pub fn caught<T>(body: impl FnOnce() -> T) -> Result<T, String> {
+    silence();
+    catch_unwind(AssertUnwindSafe(body)).map_err(|panic: Box<dyn Any + Send>| {
+        let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+        text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic".into())
+    })
+}
+
+/// A caught panic would still print: in a host's process that is nobody's business. Builds for development keep the
+/// message, or a failing test would be silent too.
+fn silence() {
+    #[cfg(not(debug_assertions))]
+    {
+        static ONCE: std::sync::Once = std::sync::Once::new();
+        ONCE.call_once(|| std::panic::set_hook(Box::new(|_| ())));
+    }
+}
+
+/// `n` values to read.
+///
+/// # Safety
+/// `first` is null or points to `n` values that nobody writes while they are used.
+pub unsafe fn values<'a, T>(first: *const T, n: Size, what: &str) -> Result<&'a [T], Failure> {
+    match (n, first.is_null()) {
+        (0, _) => Ok(&[]),
+        (_, true) => Err(Failure::error(format!("{what} is a null pointer"))),
+        // SAFETY: see above.
+        (_, false) => Ok(unsafe { std::slice::from_raw_parts(first, n) }),
+    }
+}
+
+/// `n` values to write.
+///
+/// # Safety
+/// `first` is null or points to `n` initialised values that nobody else uses meanwhile.
+pub unsafe fn places<'a, T>(first: *mut T, n: Size, what: &str) -> Result<&'a mut [T], Failure> {
+    match (n, first.is_null()) {
+        (0, _) => Ok(&mut []),
+        (_, true) => Err(Failure::error(format!("{what} is a null pointer"))),
+        // SAFETY: see above.
+        (_, false) => Ok(unsafe { std::slice::from_raw_parts_mut(first, n) }),
+    }
+}
+
+/// A C string.
+///
+/// # Safety
+/// `text` is null or points to a string that ends with a zero and outlives its use.
+pub unsafe fn text<'a>(text: Text, what: &str) -> Result<&'a CStr, Failure> {
+    if text.is_null() {
+        return Err(Failure::error(format!("{what} is a null pointer")));
+    }
+    // SAFETY: see above.
+    Ok(unsafe { CStr::from_ptr(text) })
+}

@@ -1,0 +1,304 @@
+//! One instance as a safe state machine: what each call means, without a pointer in sight.
+
+use crate::abi::{Boolean, Choice, Integer, Real, Status, status_kind};
+use crate::calls::State;
+use crate::logger::Logger;
+use crate::scene::{Effects, STARTS, Simulation};
+use model::log::Category;
+use model::variable::{Kind, Meta, Place, Role};
+use model::variables::{LEAST_TOLERANCE, Parameters};
+
+/// Why a call was refused, and what it returns.
+#[derive(Debug)]
+pub struct Failure {
+    /// What the call returns.
+    pub status: Status,
+    /// Where it is logged.
+    pub category: Category,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+impl Failure {
+    /// Bad arguments or a bad sequence; nothing changed.
+    pub fn error(message: impl Into<String>) -> Self {
+        Self { status: Status::Error, category: Category::Error, message: message.into() }
+    }
+
+    /// A step that cannot be done.
+    fn discard(message: String) -> Self {
+        Self { status: Status::Discard, category: Category::Discard, message }
+    }
+}
+
+/// What a call returns, or why it was refused.
+pub type Reply = Result<Status, Failure>;
+
+/// An instance of the FMU.
+pub struct Instance {
+    /// Where it is in its life.
+    pub state: State,
+    /// Where its messages go.
+    pub logger: Logger,
+    simulation: Simulation,
+    experiment: Experiment,
+    /// What the last fmi2DoStep returned.
+    step_status: Status,
+}
+
+/// What fmi2SetupExperiment said, and what the host set itself.
+#[derive(Clone, Copy, Default)]
+struct Experiment {
+    start: Real,
+    stop: Option<Real>,
+    tolerance: Option<Real>,
+    /// The host set solver.relative_tolerance: it wins over the experiment's tolerance.
+    host_set_tolerance: bool,
+}
+
+/// Two times are equal within this part of a step, and this many units in the last place.
+const TIME_TOLERANCE: f64 = 1e-9;
+const TIME_ULPS: f64 = 4.0;
+
+impl Instance {
+    /// A new instance with the scene's start values.
+    pub fn new(logger: Logger) -> Self {
+        logger.log(Status::Ok, Category::Events, "fmi2Instantiate: instantiated for co-simulation");
+        Self {
+            state: State::Instantiated,
+            logger,
+            simulation: fresh(),
+            experiment: Experiment::default(),
+            step_status: Status::Ok,
+        }
+    }
+
+    /// fmi2SetDebugLogging
+    pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Reply {
+        self.logger.choose(on, categories).map_err(|unknown| {
+            Failure::error(format!("there is no category {unknown:?}: modelDescription.xml lists those there are"))
+        })?;
+        Ok(Status::Ok)
+    }
+
+    /// fmi2SetupExperiment
+    pub fn setup_experiment(&mut self, tolerance: Option<Real>, start: Real, stop: Option<Real>) -> Reply {
+        if !start.is_finite() {
+            return Err(Failure::error(format!("startTime = {start:?} must be a finite number of seconds")));
+        }
+        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop <= start) {
+            return Err(Failure::error(format!("stopTime = {stop:?} must be later than startTime = {start:?}")));
+        }
+        if let Some(tolerance) = tolerance.filter(|value| !(LEAST_TOLERANCE..=0.1).contains(value)) {
+            let bound = format!("a number from {LEAST_TOLERANCE:?} to 0.1");
+            return Err(Failure::error(format!("tolerance = {tolerance:?} is not possible: it must be {bound}")));
+        }
+        self.experiment = Experiment { start, stop, tolerance, ..self.experiment };
+        Ok(Status::Ok)
+    }
+
+    /// fmi2EnterInitializationMode
+    pub fn enter_initialization_mode(&mut self) -> Reply {
+        self.state = State::Initialization;
+        Ok(Status::Ok)
+    }
+
+    /// fmi2ExitInitializationMode
+    pub fn exit_initialization_mode(&mut self) -> Reply {
+        let Experiment { start, tolerance, host_set_tolerance, .. } = self.experiment;
+        let tolerance = tolerance.filter(|_| !host_set_tolerance);
+        self.simulation.start(start, tolerance).map_err(|invalid| Failure::error(invalid.to_string()))?;
+        self.state = State::StepComplete;
+        self.step_status = Status::Ok;
+        if self.logger.hears(Category::Solver) {
+            let scene = self.simulation.parameters().setup.solver.relative_tolerance;
+            let (value, origin) = match tolerance {
+                Some(value) => (value, "of fmi2SetupExperiment"),
+                None if host_set_tolerance => (scene, "that the host set as solver.relative_tolerance"),
+                None => (scene, "of the scene"),
+            };
+            let message = format!("the relative tolerance in force is {value:?}, the one {origin}");
+            self.logger.log(Status::Ok, Category::Solver, &message);
+        }
+        Ok(Status::Ok)
+    }
+
+    /// fmi2Terminate
+    pub fn terminate(&mut self) -> Reply {
+        self.state = State::Terminated;
+        self.logger.log(Status::Ok, Category::Events, "fmi2Terminate: terminated");
+        Ok(Status::Ok)
+    }
+
+    /// fmi2Reset
+    pub fn reset(&mut self) -> Reply {
+        self.simulation = fresh();
+        self.experiment = Experiment::default();
+        self.state = State::Instantiated;
+        self.step_status = Status::Ok;
+        self.logger.log(Status::Ok, Category::Events, "fmi2Reset: all values are those of the scene again");
+        Ok(Status::Ok)
+    }
+
+    /// fmi2GetReal
+    pub fn get_real(&mut self, references: &[u32], values: &mut [Real]) -> Reply {
+        self.get(references, values, Type::Real, |value| value)
+    }
+
+    /// fmi2GetInteger
+    pub fn get_integer(&mut self, references: &[u32], values: &mut [Integer]) -> Reply {
+        self.get(references, values, Type::Integer, |value| value as Integer)
+    }
+
+    /// fmi2GetBoolean and fmi2GetString: there is no variable of these types.
+    pub fn get_other(&mut self, references: &[u32], kind: Type) -> Reply {
+        self.get(references, &mut vec![(); references.len()], kind, |_| ())
+    }
+
+    /// fmi2SetReal
+    pub fn set_real(&mut self, references: &[u32], values: &[Real]) -> Reply {
+        self.set(references, values, Type::Real, |value| *value)
+    }
+
+    /// fmi2SetInteger
+    pub fn set_integer(&mut self, references: &[u32], values: &[Integer]) -> Reply {
+        self.set(references, values, Type::Integer, |value| f64::from(*value))
+    }
+
+    /// fmi2SetBoolean and fmi2SetString: there is no variable of these types.
+    pub fn set_other(&mut self, references: &[u32], kind: Type) -> Reply {
+        self.set(references, &vec![(); references.len()], kind, |()| 0.0)
+    }
+
+    fn get<T>(&mut self, references: &[u32], values: &mut [T], kind: Type, convert: fn(f64) -> T) -> Reply {
+        for reference in references {
+            typed(*reference, kind)?;
+        }
+        for (reference, value) in references.iter().zip(values) {
+            let got =
+                self.simulation.get(Place::of(*reference)).map_err(|invalid| Failure::error(invalid.to_string()))?;
+            *value = convert(got.ok_or_else(|| unknown(*reference))?);
+        }
+        Ok(Status::Ok)
+    }
+
+    fn set<T>(&mut self, references: &[u32], values: &[T], kind: Type, convert: fn(&T) -> f64) -> Reply {
+        for reference in references {
+            let meta = typed(*reference, kind)?;
+            if let Role::Output(_) = meta.role {
+                return Err(Failure::error(format!("{} (value reference {reference}) is an output", meta.name)));
+            }
+        }
+        for (reference, value) in references.iter().zip(values) {
+            self.simulation.set_parameter(Place::of(*reference), convert(value));
+            self.experiment.host_set_tolerance |= typed(*reference, kind)?.name == "solver.relative_tolerance";
+        }
+        Ok(Status::Ok)
+    }
+
+    /// fmi2DoStep
+    pub fn do_step(&mut self, from: Real, step: Real) -> Reply {
+        let now = self.simulation.time().unwrap_or(self.experiment.start);
+        let to = from + step;
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(Failure::error(format!("communicationStepSize = {step:?} must be a finite number > 0")));
+        }
+        if !same_time(from, now, step) {
+            return Err(Failure::error(format!(
+                "currentCommunicationPoint = {from:?} must be {now:?}, where the last step ended"
+            )));
+        }
+        if to <= now {
+            return Err(Failure::error(format!(
+                "communicationStepSize = {step:?} is too small to advance the time {now:?}: at least {:?} is needed",
+                2.0 * ulp(now)
+            )));
+        }
+        if let Some(stop) = self.experiment.stop.filter(|stop| to > *stop && !same_time(to, *stop, step)) {
+            return Err(Failure::error(format!("the step to {to:?} goes past the stop time {stop:?}")));
+        }
+        match self.simulation.advance(to) {
+            Ok(()) => {
+                self.state = State::StepComplete;
+                self.step_status = Status::Ok;
+                Ok(Status::Ok)
+            }
+            Err(fault) => {
+                self.state = State::StepFailed;
+                self.step_status = Status::Discard;
+                Err(Failure::discard(fault.to_string()))
+            }
+        }
+    }
+
+    /// fmi2GetStatus
+    pub fn status(&self, kind: Choice) -> Result<Status, Failure> {
+        match kind {
+            status_kind::DO_STEP => Ok(self.step_status),
+            _ => Err(wrong_kind(kind, "fmi2DoStepStatus")),
+        }
+    }
+
+    /// fmi2GetRealStatus
+    pub fn real_status(&self, kind: Choice) -> Result<Real, Failure> {
+        match kind {
+            status_kind::LAST_SUCCESSFUL_TIME => Ok(self.simulation.time().unwrap_or(self.experiment.start)),
+            _ => Err(wrong_kind(kind, "fmi2LastSuccessfulTime")),
+        }
+    }
+
+    /// fmi2GetBooleanStatus: after a step that could not be done, no shorter one can.
+    pub fn boolean_status(&self, kind: Choice) -> Result<Boolean, Failure> {
+        match kind {
+            status_kind::TERMINATED => Ok(Boolean::from(self.step_status == Status::Discard)),
+            _ => Err(wrong_kind(kind, "fmi2Terminated")),
+        }
+    }
+}
+
+/// The FMI type through which a variable is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Type {
+    /// fmi2Real
+    Real,
+    /// fmi2Integer, of enumerations too
+    Integer,
+    /// fmi2Boolean
+    Boolean,
+    /// fmi2String
+    String,
+}
+
+/// A simulation with the scene's start values.
+fn fresh() -> Simulation {
+    Simulation::new(STARTS.iter().map(|(reference, value)| (Place::of(*reference), *value)))
+}
+
+/// What is said of a variable, if it is of this type.
+fn typed(reference: u32, kind: Type) -> Result<&'static Meta, Failure> {
+    let meta = Parameters::<Effects>::meta(Place::of(reference)).ok_or_else(|| unknown(reference))?;
+    let own = match meta.kind {
+        Kind::Real => Type::Real,
+        Kind::Enumeration(_) => Type::Integer,
+    };
+    if own == kind {
+        return Ok(meta);
+    }
+    Err(Failure::error(format!("{} (value reference {reference}) is of type {own:?}, not {kind:?}", meta.name)))
+}
+
+fn unknown(reference: u32) -> Failure {
+    Failure::error(format!("there is no variable with value reference {reference}: modelDescription.xml lists them"))
+}
+
+fn wrong_kind(kind: Choice, right: &str) -> Failure {
+    Failure::error(format!("status kind {kind} has no answer of this type: ask for {right}"))
+}
+
+fn ulp(t: f64) -> f64 {
+    t.abs().next_up() - t.abs()
+}
+
+fn same_time(a: f64, b: f64, step: f64) -> bool {
+    (a - b).abs() <= TIME_TOLERANCE * step + TIME_ULPS * ulp(b)
+}
