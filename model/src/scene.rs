@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 /// A scene that can be simulated.
 #[derive(Debug)]
 pub struct Scene {
+    /// Its file.
+    pub file: PathBuf,
     /// Its name: that of its file.
     pub name: String,
     /// One line on what it shows.
@@ -100,6 +102,7 @@ impl Scene {
         let file_error = |line, message| SceneError { file: file.into(), line, message };
         let found = toml_reader::read(text).map_err(|(line, message)| file_error(line, message))?;
         let scene = Self {
+            file: file.into(),
             name: name_of(file),
             title: found.title.unwrap_or_else(|| name_of(file)),
             effects: found.effects,

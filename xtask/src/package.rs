@@ -1,0 +1,105 @@
+//! `package`: each scene as an FMU, a zip of its modelDescription.xml, its library and its licences.
+
+use crate::run::{cargo, run};
+use crate::{paths, scenes};
+use anyhow::{Context, Result, bail};
+use indicatif::{ProgressBar, ProgressStyle};
+use model::scene::Scene;
+use model::xml;
+use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+/// Packages these scenes, into target/fmu where `out` is not given; the paths of the FMUs.
+pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
+    // All scenes are read first: a slip in the last should not cost the time of building the others.
+    let scenes = names.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
+    if let Some((first, second)) = same_name(&scenes) {
+        bail!("{} and {} would both become {}.fmu", first.file.display(), second.file.display(), first.name);
+    }
+    let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
+    std::fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
+    let progress = ProgressBar::new(scenes.len() as u64).with_style(style);
+    let mut packaged = Vec::new();
+    for scene in &scenes {
+        progress.set_message(format!("building {}", scene.name));
+        let library = build(scene)?;
+        let fmu = out.join(format!("{}.fmu", scene.name));
+        archive(scene, &library, &fmu).with_context(|| format!("cannot write {}", fmu.display()))?;
+        progress.inc(1);
+        progress.suspend(|| println!("{}", fmu.display()));
+        packaged.push(fmu);
+    }
+    progress.finish_and_clear();
+    Ok(packaged)
+}
+
+fn same_name(scenes: &[Scene]) -> Option<(&Scene, &Scene)> {
+    let pairs =
+        scenes.iter().enumerate().flat_map(|(i, first)| scenes[i + 1..].iter().map(move |second| (first, second)));
+    pairs.into_iter().find(|(first, second)| first.name == second.name && first.file != second.file)
+}
+
+/// The library of a scene. The next scene's overwrites it.
+fn build(scene: &Scene) -> Result<PathBuf> {
+    let target = paths::target().join("package");
+    let file = std::path::absolute(&scene.file)?;
+    // A target directory of its own: the profile is called fmu, and target/fmu holds the packages.
+    run(cargo()
+        .args(["rustc", "--quiet", "--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib"])
+        .arg("--target-dir")
+        .arg(&target)
+        .env("SPLIT_ROTOR_SCENE", file)
+        .env("CARGO_ENCODED_RUSTFLAGS", flags()?)
+        .env_remove("RUSTFLAGS"))?;
+    Ok(target.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
+}
+
+/// The user's own compiler flags, and that no path of this machine stays in the library.
+fn flags() -> Result<String> {
+    let own = match std::env::var("CARGO_ENCODED_RUSTFLAGS") {
+        Ok(flags) => flags.split('\x1f').map(str::to_owned).collect(),
+        Err(_) => {
+            std::env::var("RUSTFLAGS").unwrap_or_default().split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+        }
+    };
+    let home = std::env::home_dir().context("there is no home folder")?;
+    let cargo_home = std::env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);
+    let hidden = [(paths::root(), "split-rotor"), (&cargo_home, "cargo")];
+    let hide = hidden.map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()));
+    Ok(own.into_iter().chain(hide).filter(|flag| !flag.is_empty()).collect::<Vec<_>>().join("\x1f"))
+}
+
+fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
+    let mut zip = ZipWriter::new(File::create(fmu)?);
+    let mut add = |name: String, bytes: &[u8]| -> Result<()> {
+        // The options carry no time: the same source gives the same bytes.
+        zip.start_file(name, SimpleFileOptions::default())?;
+        Ok(zip.write_all(bytes)?)
+    };
+    add("modelDescription.xml".into(), xml::model_description(scene).as_bytes())?;
+    add(format!("binaries/{}/{}{DLL_SUFFIX}", platform()?, scene.identifier()), &std::fs::read(library)?)?;
+    let licence = |name: &str| std::fs::read_to_string(paths::root().join(name));
+    let both = format!(
+        "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n\n{}\n\n{}",
+        licence("LICENSE-MIT")?,
+        licence("LICENSE-APACHE")?
+    );
+    add("documentation/licenses/license.txt".into(), both.as_bytes())?;
+    zip.finish()?;
+    Ok(())
+}
+
+/// FMI 2.0's name of this machine's platform.
+fn platform() -> Result<&'static str> {
+    match (OS, ARCH) {
+        ("linux", "x86_64") => Ok("linux64"),
+        ("macos", _) => Ok("darwin64"),
+        ("windows", "x86_64") => Ok("win64"),
+        _ => bail!("FMI 2.0 has no name for the platform {OS} on {ARCH}"),
+    }
+}

@@ -1,0 +1,22 @@
+//! Running other programs.
+
+use anyhow::{Context, Result, bail};
+use std::process::Command;
+
+/// The cargo that runs us, in the project's folder.
+pub fn cargo() -> Command {
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
+    command.current_dir(crate::paths::root());
+    command
+}
+
+/// Runs a command with our standard streams; what fails is an error that shows the command.
+pub fn run(command: &mut Command) -> Result<()> {
+    let words = std::iter::once(command.get_program()).chain(command.get_args());
+    let shown = words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ");
+    let status = command.status().with_context(|| format!("cannot run `{shown}`"))?;
+    if !status.success() {
+        bail!("`{shown}` failed ({status})");
+    }
+    Ok(())
+}

@@ -1,0 +1,29 @@
+//! `scenes` and `describe`: what scenes there are and what they hold.
+
+use crate::paths;
+use anyhow::Result;
+use model::scene::Scene;
+use model::xml;
+
+/// The scene that the user means.
+pub fn find(name_or_path: &str) -> Result<Scene> {
+    Ok(Scene::find(name_or_path, &paths::scenes())?)
+}
+
+/// Lists the scenes and their effects.
+pub fn list() -> Result<()> {
+    let scenes = Scene::names(&paths::scenes()).into_iter().map(|name| find(&name)).collect::<Result<Vec<_>>>()?;
+    let width = scenes.iter().map(|scene| scene.name.len()).max().unwrap_or(0);
+    for scene in scenes {
+        let effects: Vec<_> = scene.effects.iter().map(|(info, _)| info.name).collect();
+        let effects = if effects.is_empty() { "no effects".into() } else { effects.join(", ") };
+        println!("{:width$}  {}  [{effects}]", scene.name, scene.title);
+    }
+    Ok(())
+}
+
+/// Prints a scene's modelDescription.xml.
+pub fn describe(scene: &str) -> Result<()> {
+    print!("{}", xml::model_description(&find(scene)?));
+    Ok(())
+}

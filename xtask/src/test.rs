@@ -1,0 +1,16 @@
+//! `test`: everything that must hold.
+
+use crate::run::{cargo, run};
+use crate::{package, paths, python};
+use anyhow::Result;
+use model::scene::Scene;
+
+/// Runs the Rust tests, the bit tests in the other builds, and the tests of the packaged FMUs.
+pub fn test() -> Result<()> {
+    run(cargo().args(["test", "--quiet", "--workspace"]))?;
+    for profile in ["unoptimised", "release"] {
+        run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile]))?;
+    }
+    package::package(&Scene::names(&paths::scenes()), None)?;
+    run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/fmu"]))
+}
