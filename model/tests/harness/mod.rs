@@ -148,7 +148,7 @@ impl Scene {
     /// Its simulation, started at time 0.
     pub fn started<E: Listed>(&self) -> Simulation<E> {
         let mut simulation = self.simulation();
-        simulation.start(0.0).expect("a possible scene");
+        simulation.start(0.0, None).expect("a possible scene");
         simulation
     }
 

@@ -5,6 +5,7 @@
 //! Source of the series: Taylor's. Checks: `exact_oracles.rs`, against digits in print and unrounded rationals.
 
 use num_bigint::BigInt;
+use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -36,6 +37,11 @@ impl Fixed {
         let magnitude = BigInt::from(mantissa);
         let magnitude = if shift >= 0 { magnitude << shift } else { magnitude >> -shift };
         Self(if x < 0.0 { -magnitude } else { magnitude })
+    }
+
+    /// A rational number, cut at the last place.
+    pub fn rational(x: &BigRational) -> Self {
+        Self((x.numer() << PLACES) / x.denom())
     }
 
     /// A decimal number with a point.

@@ -31,7 +31,7 @@ impl Tree {
         product
     }
 
-    /// The largest |Σ b_i Φ_i(t)|-like sum of magnitudes, by which rounding is judged.
+    /// Σ |b_i| Φ_i(t) with |a| in place of a, by which rounding is judged.
     pub fn magnitude(&self, a: &[Vec<f64>], b: &[f64]) -> f64 {
         let positive: Vec<Vec<f64>> = a.iter().map(|row| row.iter().map(|x| x.abs()).collect()).collect();
         self.weights(&positive).iter().zip(b).map(|(w, b)| w * b.abs()).sum()

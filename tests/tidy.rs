@@ -1,0 +1,156 @@
+//! The house rules that no compiler holds: floors, where `unsafe` may stand, equation labels, the committed XML.
+
+use model::scene::Scene;
+use model::xml;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The rooms of `model` from the ground up; each may import only from rooms below it (docs/architecture.md).
+const ROOMS: [&str; 16] = [
+    "scalar",
+    "dual",
+    "error",
+    "log",
+    "rotation",
+    "integrate",
+    "variable",
+    "body",
+    "state",
+    "effects",
+    "energy",
+    "rotor",
+    "variables",
+    "scene",
+    "xml",
+    "simulation",
+];
+
+/// Where `unsafe` may stand: the FMI shell, and the tests that speak C.
+const UNSAFE: [&str; 6] = ["src/abi.rs", "src/exports.rs", "src/exports", "src/guard.rs", "src/logger.rs", "tests/"];
+
+/// No file is longer than this, in lines.
+const LONGEST: usize = 500;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files below `folder` that end with `suffix`, relative to the root, sorted.
+fn files(folder: &str, suffix: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![root().join(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.to_string_lossy().ends_with(suffix) {
+                found.push(path.strip_prefix(root()).unwrap().to_owned());
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+fn rust_files() -> Vec<PathBuf> {
+    ["src", "model", "tests", "xtask"].iter().flat_map(|folder| files(folder, ".rs")).collect()
+}
+
+fn read(file: &Path) -> String {
+    fs::read_to_string(root().join(file)).unwrap()
+}
+
+/// The names that follow `marker` in a text.
+fn names_after<'t>(text: &'t str, marker: &str) -> Vec<&'t str> {
+    let name = |rest: &'t str| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or("");
+    text.split(marker).skip(1).map(name).collect()
+}
+
+fn imports_from_above(room: &str, text: &str) -> Vec<String> {
+    let floor = |name: &str| ROOMS.iter().position(|room| *room == name);
+    let above = |name: &&str| *name != room && floor(name) >= floor(room);
+    let code: String = text.lines().filter(|line| !line.trim_start().starts_with("//")).collect();
+    names_after(&code, "crate::").into_iter().filter(above).map(str::to_owned).collect()
+}
+
+#[test]
+fn each_room_of_the_model_imports_only_from_below() {
+    let mut seen = BTreeSet::new();
+    for file in files("model/src", ".rs") {
+        let room = file.iter().nth(2).unwrap().to_str().unwrap().trim_end_matches(".rs");
+        if room == "lib" {
+            continue;
+        }
+        assert!(ROOMS.contains(&room), "{}: which floor is this room on? Add it to ROOMS", file.display());
+        let wrong = imports_from_above(room, &read(&file).replace("$crate::", "crate::"));
+        assert!(wrong.is_empty(), "{} imports from its own floor or above: {wrong:?}", file.display());
+        seen.insert(room.to_owned());
+    }
+    assert_eq!(seen.len(), ROOMS.len(), "a room in ROOMS has no file");
+}
+
+#[test]
+fn the_floor_check_sees_an_import_from_above() {
+    assert_eq!(imports_from_above("body", "/// crate::energy\nuse crate::rotor::Rotor; use crate::scalar::Scalar;"), ["rotor"]);
+}
+
+#[test]
+fn unsafe_stands_only_in_the_shell() {
+    for file in rust_files() {
+        let allowed = UNSAFE.iter().any(|place| file.starts_with(place));
+        let opens = read(&file).lines().any(|line| line.starts_with("#![allow(unsafe_code"));
+        assert!(allowed || !opens, "{} opens the door to unsafe code", file.display());
+    }
+}
+
+#[test]
+fn files_are_short_and_finished() {
+    for file in rust_files() {
+        let text = read(&file);
+        assert!(text.lines().count() <= LONGEST, "{} has more than {LONGEST} lines", file.display());
+        for unfinished in [concat!("TO", "DO"), concat!("FIX", "ME"), concat!("todo", "!("), concat!("dbg", "!(")] {
+            assert!(!text.contains(unfinished), "{} holds {unfinished}", file.display());
+        }
+    }
+}
+
+#[test]
+fn equation_labels_of_code_and_theory_match() {
+    let theory = read(Path::new("docs/theory.md"));
+    let numbers = |text: &str, marker: &str| -> Vec<u32> {
+        names_after(text, marker).into_iter().filter_map(|name| name.parse().ok()).collect()
+    };
+    let defined = numbers(&theory, "\\tag{");
+    let distinct: BTreeSet<_> = defined.iter().copied().collect();
+    assert_eq!(distinct.len(), defined.len(), "an equation number stands twice in docs/theory.md");
+    assert!(!distinct.is_empty());
+    let mut used = BTreeSet::new();
+    for file in files("model", ".rs") {
+        for number in numbers(&read(&file), "eq. ") {
+            assert!(distinct.contains(&number), "{} cites eq. {number}, which docs/theory.md lacks", file.display());
+            used.insert(number);
+        }
+    }
+    let unused: Vec<_> = distinct.difference(&used).collect();
+    assert!(unused.is_empty(), "no code and no test cites the equations {unused:?} of docs/theory.md");
+}
+
+#[test]
+fn the_committed_xml_is_what_the_list_renders() {
+    let scene = Scene::find("paper", &root().join("scenes")).unwrap();
+    let committed = read(Path::new("modelDescription/modelDescription.xml"));
+    let remedy = "run `cargo xtask describe > modelDescription/modelDescription.xml`";
+    assert!(committed == xml::model_description(&scene), "modelDescription/modelDescription.xml is out of date: {remedy}");
+}
+
+#[test]
+fn every_scene_can_be_simulated() {
+    let folder = root().join("scenes");
+    let names = Scene::names(&folder);
+    assert!(!names.is_empty());
+    for name in names {
+        Scene::find(&name, &folder).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
