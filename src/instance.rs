@@ -44,6 +44,8 @@ pub struct Instance {
     experiment: Experiment,
     /// What the last fmi2DoStep returned.
     step_status: Status,
+    /// Whether it was said that the tilt is large.
+    warned: bool,
 }
 
 /// What fmi2SetupExperiment said, and what the host set itself.
@@ -70,6 +72,7 @@ impl Instance {
             simulation: fresh(),
             experiment: Experiment::default(),
             step_status: Status::Ok,
+            warned: false,
         }
     }
 
@@ -136,6 +139,7 @@ impl Instance {
         self.experiment = Experiment::default();
         self.state = State::Instantiated;
         self.step_status = Status::Ok;
+        self.warned = false;
         self.logger.log(Status::Ok, Category::Events, "fmi2Reset: all values are those of the scene again");
         Ok(Status::Ok)
     }
@@ -217,7 +221,14 @@ impl Instance {
         if let Some(stop) = self.experiment.stop.filter(|stop| to > *stop && !same_time(to, *stop, step)) {
             return Err(Failure::error(format!("the step to {to:?} goes past the stop time {stop:?}")));
         }
-        match self.simulation.advance(to) {
+        let outcome = self.simulation.advance(to);
+        if self.simulation.has_tilted() && !self.warned {
+            self.warned = true;
+            let message = "fmi2DoStep: the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit \
+                           at pi, and beyond 3.1 rad no step is possible";
+            self.logger.log(Status::Warning, Category::Warning, message);
+        }
+        match outcome {
             Ok(()) => {
                 self.state = State::StepComplete;
                 self.step_status = Status::Ok;

@@ -46,6 +46,11 @@ pub trait Effect: Clone + Default + Send + 'static {
         S::zero()
     }
 
+    /// Whether, with its present parameters, its law has no limit where |γ| = π, because it follows the direction of γ.
+    fn needs_gamma(&self) -> bool {
+        false
+    }
+
     /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
     /// integrals are not solved.
     fn works(&self) -> bool {

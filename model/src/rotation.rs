@@ -3,9 +3,11 @@
 //! Notation of the paper (Sorokin and Zhang 2018). Every vector is in the inertial frame O.
 
 pub mod angle;
+pub mod chart;
 pub mod euler_vector;
 pub mod series;
 pub mod split;
 
 pub use angle::Angle;
+pub use chart::Chart;
 pub use split::Tilt;

@@ -3,8 +3,10 @@
 use crate::body::Body;
 use crate::effects::Effects;
 use crate::integrate::{Refusal, System};
+use crate::rotation::Chart;
 use crate::scalar::Scalar;
-use crate::state::{COORDINATES, Chart, Coordinates, Kinematics};
+use crate::state::{COORDINATES, Coordinates, Kinematics};
+use std::f64::consts::PI;
 
 /// A rotor with what acts on it.
 #[derive(Clone, Default)]
@@ -16,6 +18,17 @@ pub struct Rotor<E> {
     /// The chart in which its state is written.
     pub chart: Chart,
 }
+
+/// |γ| [rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
+pub const LIMIT: f64 = 3.1;
+
+/// In the chart from −e: |γ′| [rad] within which they are refused.
+pub const FORBIDDEN: f64 = PI - LIMIT;
+
+const BEYOND_REACH: Refusal = Refusal("the axis turns too far for one chart, however short the step");
+
+const BEYOND_LIMIT: Refusal =
+    Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2) has no limit at pi");
 
 /// The number of equations without the work integrals, and with them.
 pub const WITHOUT_WORK: usize = COORDINATES;
@@ -37,7 +50,7 @@ impl<E: Effects> Rotor<E> {
             v_c: load.force * S::constant(1.0 / self.body.m),
             k_c: load.moment,
             gamma: motion.tilt.gamma_rate(&motion.omega),
-            phi: motion.axial_rate(),
+            phi: motion.tilt.phi_rate(&motion.omega),
         }
     }
 }
@@ -45,7 +58,7 @@ impl<E: Effects> Rotor<E> {
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     #[inline(always)]
     fn rates(&self, _t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = Kinematics::new(self.body, Coordinates::from_slice(y));
+        let motion = Kinematics::new(self.body, self.chart, Coordinates::from_slice(y));
         let mut rates = [0.0; N];
         self.rates(&motion).write(&mut rates);
         if N == WITH_WORK {
@@ -56,11 +69,13 @@ impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     }
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {
-        let gamma = Coordinates::from_slice(y).gamma;
-        let limit = self.chart.limit();
-        if gamma.dot(&gamma) <= limit * limit {
-            return Ok(());
+        let theta_squared = Coordinates::from_slice(y).gamma.norm_squared();
+        if theta_squared > Chart::REACH * Chart::REACH {
+            return Err(BEYOND_REACH);
         }
-        Err(Refusal("the tilt |gamma| reaches 3.1 rad, and at pi the split rotation is singular"))
+        if self.chart == Chart::FromMinusE && self.effects.needs_gamma() && theta_squared < FORBIDDEN * FORBIDDEN {
+            return Err(BEYOND_LIMIT);
+        }
+        Ok(())
     }
 }

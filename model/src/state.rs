@@ -1,7 +1,7 @@
 //! The state of the motion and its kinematics.
 
 use crate::body::Body;
-use crate::rotation::Tilt;
+use crate::rotation::{Chart, Tilt};
 use crate::scalar::Scalar;
 use nalgebra::{Vector2, Vector3};
 
@@ -16,12 +16,15 @@ pub struct Coordinates<S: Scalar> {
     pub k_c: Vector3<S>,
     /// γ_y and γ_z [rad] in the chart in force.
     pub gamma: Vector2<S>,
-    /// φ [rad], less the whole turns that are counted apart.
+    /// φ [rad] in the chart in force, less the whole turns that are counted apart.
     pub phi: S,
 }
 
 /// How many coordinates a motion has.
 pub const COORDINATES: usize = 12;
+
+/// Where γ stands among them.
+pub const GAMMA: std::ops::Range<usize> = 9..11;
 
 /// Where φ stands among them.
 pub const PHI: usize = 11;
@@ -34,7 +37,7 @@ impl<S: Scalar> Coordinates<S> {
             r_c: Vector3::new(y[0], y[1], y[2]),
             v_c: Vector3::new(y[3], y[4], y[5]),
             k_c: Vector3::new(y[6], y[7], y[8]),
-            gamma: Vector2::new(y[9], y[10]),
+            gamma: Vector2::new(y[GAMMA.start], y[GAMMA.start + 1]),
             phi: y[PHI],
         }
     }
@@ -45,23 +48,6 @@ impl<S: Scalar> Coordinates<S> {
         let [r, v, k, gamma] = [&self.r_c, &self.v_c, &self.k_c, &self.gamma.push(self.phi)];
         for (part, vector) in y.chunks_exact_mut(3).zip([r, v, k, gamma]) {
             part.copy_from_slice(vector.as_slice());
-        }
-    }
-}
-
-/// The chart in which γ is measured. There is one for now: from e.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Chart {
-    /// γ turns e into t; singular where t = −e.
-    #[default]
-    FromE = 1,
-}
-
-impl Chart {
-    /// |γ| [rad] beyond which a step is refused: the chart is singular at π.
-    pub const fn limit(self) -> f64 {
-        match self {
-            Chart::FromE => 3.1,
         }
     }
 }
@@ -80,10 +66,10 @@ pub struct Kinematics<S: Scalar> {
 }
 
 impl<S: Scalar> Kinematics<S> {
-    /// The kinematics of `body` at these coordinates.
+    /// The kinematics of `body` at these coordinates of a chart.
     #[inline(always)]
-    pub fn new(body: Body, at: Coordinates<S>) -> Self {
-        let tilt = Tilt::new(at.gamma);
+    pub fn new(body: Body, chart: Chart, at: Coordinates<S>) -> Self {
+        let tilt = Tilt::new(chart, at.gamma);
         let omega = body.angular_velocity(&at.k_c, &tilt.axis);
         Self { body, at, tilt, omega }
     }
@@ -100,8 +86,7 @@ impl<S: Scalar> Kinematics<S> {
         self.omega.cross(self.axis())
     }
 
-    /// ω_φ = dφ/dt [rad/s].
-    #[inline(always)]
+    /// ω_φ = dφ/dt [rad/s], φ from e.
     pub fn axial_rate(&self) -> S {
         self.tilt.axial_rate(&self.omega)
     }

@@ -194,12 +194,12 @@ const MOTION: &[Always] = &[
     output!("gamma.y", &RADIAN, Depends::On(&["start.gamma.y"]), "transverse Euler vector, y", |_, r| r
         .motion
         .tilt
-        .gamma
+        .gamma()
         .y),
     output!("gamma.z", &RADIAN, Depends::On(&["start.gamma.z"]), "transverse Euler vector, z", |_, r| r
         .motion
         .tilt
-        .gamma
+        .gamma()
         .z),
     output!("omega.x", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, x", |_, r| r.motion.omega.x),
     output!("omega.y", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, y", |_, r| r.motion.omega.y),

@@ -85,6 +85,8 @@ pub trait Effects: Clone + Default + Send + 'static {
     fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
     /// Power that comes from outside [W].
     fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
+    /// Whether the law of any of them has no limit where |γ| = π.
+    fn needs_gamma(&self) -> bool;
     /// Whether any of them can lose energy or be supplied with it.
     fn works(&self) -> bool;
     /// The first parameter whose value is not possible.
@@ -120,6 +122,10 @@ impl Effects for () {
     #[inline(always)]
     fn supply<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
         S::zero()
+    }
+
+    fn needs_gamma(&self) -> bool {
+        false
     }
 
     fn works(&self) -> bool {
@@ -172,6 +178,10 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
         let rest = self.1.supply(motion);
         self.0.active().map_or(rest, |effect| effect.supply(motion) + rest)
+    }
+
+    fn needs_gamma(&self) -> bool {
+        self.0.active().is_some_and(Effect::needs_gamma) || self.1.needs_gamma()
     }
 
     fn works(&self) -> bool {

@@ -42,7 +42,7 @@ impl Support {
     #[inline(always)]
     fn moment<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
         // eq. 14: M = −c2 γ − d2 t×(dt/dt)
-        let spring = motion.tilt.gamma * S::constant(-self.c2);
+        let spring = motion.tilt.gamma() * S::constant(-self.c2);
         if self.d2 == 0.0 { spring } else { spring - motion.axis().cross(&motion.axis_rate()) * S::constant(self.d2) }
     }
 }
@@ -74,9 +74,9 @@ impl Effect for Support {
 
     #[inline(always)]
     fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let r_a = motion.station(-motion.body.l);
+        let (r_a, gamma) = (motion.station(-motion.body.l), motion.tilt.gamma());
         // eq. 15: V = ½ c1 |r_a|² + ½ c2 |γ|²
-        r_a.dot(&r_a) * S::constant(0.5 * self.c1) + motion.tilt.theta_squared() * S::constant(0.5 * self.c2)
+        r_a.dot(&r_a) * S::constant(0.5 * self.c1) + gamma.dot(&gamma) * S::constant(0.5 * self.c2)
     }
 
     #[inline(always)]
@@ -84,6 +84,10 @@ impl Effect for Support {
         let (v_a, t_rate) = (motion.station_velocity(-motion.body.l), motion.axis_rate());
         // eq. 16: P = d1 |v_a|² + d2 |dt/dt|²
         v_a.dot(&v_a) * S::constant(self.d1) + t_rate.dot(&t_rate) * S::constant(self.d2)
+    }
+
+    fn needs_gamma(&self) -> bool {
+        self.c2 != 0.0
     }
 
     fn works(&self) -> bool {

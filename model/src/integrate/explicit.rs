@@ -71,6 +71,33 @@ impl<const N: usize> Explicit<N> {
         &self.y
     }
 
+    /// Its rate there.
+    pub fn rate(&self) -> &[f64; N] {
+        &self.k[self.tableau.last]
+    }
+
+    /// Where the last step began [s].
+    pub fn start_time(&self) -> f64 {
+        self.segment.t
+    }
+
+    /// The state where the last step began.
+    pub fn start_state(&self) -> &[f64; N] {
+        &self.segment.y
+    }
+
+    /// The next step will be no longer than this [s].
+    pub fn limit_step(&mut self, h: f64) {
+        self.h = self.h.min(h);
+    }
+
+    /// Goes on from another description `y` of the state reached. What the last step's dense output needs of the old
+    /// one must have been prepared.
+    pub fn go_on_from(&mut self, system: &impl System<N>, y: [f64; N]) {
+        self.y = y;
+        self.k[self.tableau.last] = self.evaluate(system, self.t, &y);
+    }
+
     /// Replaces a component of the state on which the rates do not depend.
     pub fn replace(&mut self, component: usize, value: f64) {
         self.y[component] = value;
@@ -90,6 +117,8 @@ impl<const N: usize> Explicit<N> {
                 (self.k[self.tableau.last], self.h) = (rate, h);
                 return Err(obstacle.map_or(Fault::Underflow { t: self.t }, |o: Obstacle| o.fault(self.t)));
             }
+            // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
+            self.h = (self.t + self.h) - self.t;
             self.k[0] = rate;
             let y = self.attempt(system);
             let error = self.error_norm(&y);
@@ -122,9 +151,7 @@ impl<const N: usize> Explicit<N> {
         if t == self.segment.t || self.segment.h == 0.0 {
             return self.segment.y;
         }
-        if !self.segment.dense {
-            self.prepare_dense(system);
-        }
+        self.prepare_dense(system);
         let Segment { t: start, h, y, r, .. } = &self.segment;
         let sigma = (t - start) / h;
         let mut sum = [0.0; N];
@@ -204,8 +231,11 @@ impl<const N: usize> Explicit<N> {
         self.segment.r[0] = std::array::from_fn(|n| y[n] - self.segment.y[n]);
     }
 
-    /// Fills the rows of eq. 24.
-    fn prepare_dense(&mut self, system: &impl System<N>) {
+    /// Prepares the last step for [`Explicit::dense`], which otherwise does so when first asked.
+    pub fn prepare_dense(&mut self, system: &impl System<N>) {
+        if self.segment.dense {
+            return;
+        }
         let (t, h, start) = (self.segment.t, self.segment.h, self.segment.y);
         for (i, stage) in (self.tableau.last + 1..).zip(self.tableau.dense_stages) {
             let y = self.advanced(&start, h, stage.a);

@@ -162,9 +162,9 @@ impl Scene {
     pub fn rotor(&self) -> Rotor<Supported> {
         let mut effects = Supported::default();
         let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
-        for (name, value) in self.values().iter().filter(|(name, _)| {
-            name.starts_with("gravity") || name.starts_with("support")
-        }) {
+        for (name, value) in
+            self.values().iter().filter(|(name, _)| name.starts_with("gravity") || name.starts_with("support"))
+        {
             let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
             assert!(effects.set_parameter(variable.place, *value));
         }

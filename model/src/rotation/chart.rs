@@ -1,0 +1,161 @@
+//! The two charts of the split rotation. Each is singular at one point of the sphere of axes, and regular at the other's.
+//!
+//! From e: L = L(γ)·L(φe), singular where t = −e. From −e: L = L(γ′)·Q·L(φ′e), Q a half turn about y, singular where
+//! t = e. What is reported stays in the first, with |γ| ≤ π.
+
+use super::Angle;
+use crate::scalar::Scalar;
+use nalgebra::Vector2;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// The chart in which γ and φ are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Chart {
+    /// γ turns e into t.
+    #[default]
+    FromE = 1,
+    /// γ′ turns −e into t.
+    FromMinusE = 2,
+}
+
+/// π less its double [rad].
+const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
+
+impl Chart {
+    /// Beyond this |γ| [rad] the motion goes on in the other chart. The other's |γ| is then 1.14, so that an axis that
+    /// lingers about the equator (π/2) does not switch to and fro.
+    const SWITCH: f64 = 2.0;
+
+    /// A step that ends beyond this |γ| [rad] was too long: the chart is singular at π.
+    pub const REACH: f64 = 2.6;
+
+    /// +1 where γ turns e into t, −1 where it turns −e into t [1].
+    #[inline(always)]
+    pub const fn sign(self) -> f64 {
+        match self {
+            Chart::FromE => 1.0,
+            Chart::FromMinusE => -1.0,
+        }
+    }
+
+    /// The other one.
+    pub const fn other(self) -> Self {
+        match self {
+            Chart::FromE => Chart::FromMinusE,
+            Chart::FromMinusE => Chart::FromE,
+        }
+    }
+
+    /// Whether a motion at this γ [rad] should go on in the other chart.
+    pub fn is_left_at(self, gamma: Vector2<f64>) -> bool {
+        gamma.norm_squared() > Self::SWITCH * Self::SWITCH
+    }
+
+    /// The chart and γ [rad] in which a motion begins, given γ from e.
+    pub fn best(gamma: Vector2<f64>) -> (Self, Vector2<f64>) {
+        if gamma.norm_squared() <= FRAC_PI_2 * FRAC_PI_2 {
+            (Chart::FromE, gamma)
+        } else {
+            (Chart::FromMinusE, crossed(gamma))
+        }
+    }
+
+    /// φ from e, wrapped, of whole turns, and φ [rad] and γ [rad] in this chart.
+    pub fn axial_angle(self, turns: f64, phi: f64, gamma: Vector2<f64>) -> Angle {
+        let remainder = match self {
+            Chart::FromE => phi,
+            // eq. 27: φ = φ′ + 2β
+            Chart::FromMinusE => phi + 2.0 * azimuth(gamma),
+        };
+        Angle { turns, remainder }.wrapped()
+    }
+
+    /// φ in this chart, wrapped, of φ from e and γ [rad] in this chart.
+    pub fn own_angle(self, phi: Angle, gamma: Vector2<f64>) -> Angle {
+        match self {
+            Chart::FromE => phi,
+            // eq. 27: φ′ = φ − 2β
+            Chart::FromMinusE => Angle { remainder: phi.remainder - 2.0 * azimuth(gamma), ..phi }.wrapped(),
+        }
+    }
+
+    /// The turns that φ from e gains beside φ in this chart, while γ [rad] goes from one value to another by less than
+    /// half a turn about the origin: those of 2β where its azimuth β passes its cut at ±π.
+    pub fn turns_gained(self, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
+        match self {
+            Chart::FromE => 0.0,
+            Chart::FromMinusE => 2.0 * ((azimuth(from) + azimuth_change(from, to) - azimuth(to)) / TAU).round(),
+        }
+    }
+}
+
+/// The same tilt from the other chart: γ′ of γ, or γ of γ′ [rad]. Where γ = 0: a half turn about y backwards.
+pub fn crossed<S: Scalar>(gamma: Vector2<S>) -> Vector2<S> {
+    let theta_squared = gamma.dot(&gamma);
+    if theta_squared.re() == 0.0 {
+        return Vector2::new(S::constant(-PI), S::zero());
+    }
+    let theta = theta_squared.sqrt();
+    // eq. 26: γ′ = −(π − θ) γ/θ, π with its low part
+    let rest = (S::constant(PI) - theta) + S::constant(PI_LOW);
+    gamma * -(rest / theta)
+}
+
+/// [`crossed`] for a switch of chart: to the last bit, so that a switch leaves the motion where it is.
+pub fn crossed_exactly(gamma: Vector2<f64>) -> Vector2<f64> {
+    let ((yy, yy_low), (zz, zz_low)) = (square(gamma.x), square(gamma.y));
+    let (sum, sum_low) = two_sum(yy, zz);
+    let theta_squared_low = sum_low + yy_low + zz_low;
+    let theta = sum.sqrt();
+    if theta == 0.0 {
+        return crossed(gamma);
+    }
+    // θ + θ_low: one step of Newton's method on the exact θ².
+    let (product, product_low) = square(theta);
+    let theta_low = ((sum - product) - product_low + theta_squared_low) / (2.0 * theta);
+    // eq. 26: γ′ = −(π − θ) γ/θ
+    let (rest, rest_low) = two_sum(PI, -theta);
+    let rest_low = rest_low + PI_LOW - theta_low;
+    let ratio = (rest + rest_low) / theta;
+    let (back, back_low) = product_of(ratio, theta);
+    let ratio_low = ((rest - back) - back_low + rest_low - ratio * theta_low) / theta;
+    gamma.map(|component| {
+        let (high, low) = product_of(component, ratio);
+        -(high + (low + component * ratio_low))
+    })
+}
+
+/// a + b and its rounding error (Knuth).
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
+}
+
+/// a b and its rounding error (Dekker; no fused arithmetic).
+fn product_of(a: f64, b: f64) -> (f64, f64) {
+    let halves = |x: f64| {
+        let scaled = 134_217_729.0 * x;
+        let high = scaled - (scaled - x);
+        (high, x - high)
+    };
+    let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
+    let product = a * b;
+    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
+}
+
+/// a² and its rounding error.
+fn square(a: f64) -> (f64, f64) {
+    product_of(a, a)
+}
+
+/// Azimuth β of γ about e, from y towards z [rad], in [−π, π].
+fn azimuth(gamma: Vector2<f64>) -> f64 {
+    libm::atan2(gamma.y, gamma.x)
+}
+
+/// Δβ [rad] from one γ to another, by the shorter way; +π where it is straight through the origin.
+pub fn azimuth_change(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
+    // eq. 28: Δβ = atan2(e·(γ₀×γ₁), γ₀·γ₁); + 0 makes −0 a +0, and so −π a +π
+    libm::atan2(from.perp(&to) + 0.0, from.dot(&to))
+}

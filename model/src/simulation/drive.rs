@@ -1,0 +1,205 @@
+//! A method that drives a rotor: charts, whole turns of φ, and the answer at any time of the last step.
+
+use super::start::{Motion, tolerance};
+use crate::effects::Effects;
+use crate::energy::{self, Ledger};
+use crate::integrate::explicit::Explicit;
+use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
+use crate::integrate::{Cost, Fault};
+use crate::rotation::chart::{azimuth_change, crossed_exactly};
+use crate::rotation::{Angle, Chart, Tilt};
+use crate::rotor::{self, DISSIPATED, Rotor, SUPPLIED, WITH_WORK};
+use crate::state::{Coordinates, GAMMA, Kinematics, PHI};
+use crate::variables::{Reading, Setup};
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
+
+/// A rotor with N equations, its method, and how far its answers are wanted.
+#[derive(Clone)]
+pub(super) struct Drive<E, const N: usize> {
+    /// The rotor, in the chart of the time that the method has reached.
+    rotor: Rotor<E>,
+    method: Explicit<N>,
+    /// Whole turns of φ at the time that the method has reached.
+    turns: f64,
+    last: LastStep,
+    /// The communication point [s].
+    t: f64,
+    /// Total energy at the start [J].
+    total_at_start: f64,
+    relative_tolerance: f64,
+    /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
+    tilted: bool,
+}
+
+/// What must be known of the last step to read it.
+#[derive(Clone, Copy)]
+struct LastStep {
+    /// Its chart; the method may go on in the other one.
+    chart: Chart,
+    /// Whole turns of φ at its start.
+    turns: f64,
+    /// γ [rad] at its start.
+    gamma: Vector2<f64>,
+    /// When [s] and where [rad] γ came closest to the origin, if its azimuth turned much.
+    closest: Option<(f64, Vector2<f64>)>,
+}
+
+/// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely.
+const MUCH: f64 = 0.3;
+
+/// φ [rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
+/// last place for the remainder of φ to stay exact.
+const LONGEST_TURN: f64 = 16.0 * TAU;
+
+impl<E: Effects, const N: usize> Drive<E, N> {
+    /// A drive from time `t` [s].
+    pub(super) fn start(start: Motion<E>, setup: &Setup, t: f64) -> Self {
+        let Motion { rotor, coordinates, turns } = start;
+        let motion = Kinematics::new(rotor.body, rotor.chart, coordinates);
+        let mut y = [0.0; N];
+        coordinates.write(&mut y);
+        let total_at_start = energy::kinetic(&motion) + rotor.effects.potential(&motion);
+        let method = Explicit::start(tableau(setup.solver.method), tolerance(setup), &rotor, t, y);
+        let last = LastStep { chart: rotor.chart, turns, gamma: coordinates.gamma, closest: None };
+        let relative_tolerance = setup.solver.relative_tolerance;
+        let mut drive = Self { rotor, method, turns, last, t, total_at_start, relative_tolerance, tilted: false };
+        drive.watch_tilt(motion.axis().x);
+        drive
+    }
+
+    /// The communication point [s].
+    pub(super) fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
+    pub(super) fn has_tilted(&self) -> bool {
+        self.tilted
+    }
+
+    fn watch_tilt(&mut self, axis_x: f64) {
+        self.tilted |= axis_x < 0.0 && self.rotor.effects.needs_gamma();
+    }
+
+    /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
+    pub(super) fn advance(&mut self, t: f64) -> Result<(), Fault> {
+        while self.method.time() < t {
+            if let Err(fault) = self.step() {
+                self.t = self.method.time();
+                return Err(fault);
+            }
+        }
+        self.t = t;
+        Ok(())
+    }
+
+    fn step(&mut self) -> Result<(), Fault> {
+        let speed = self.method.rate()[PHI].abs();
+        self.method.limit_step(LONGEST_TURN / speed);
+        // Near −e a step can pass where it may not end; then it is taken back.
+        let before = (self.rotor.chart == Chart::FromMinusE && self.rotor.effects.needs_gamma())
+            .then(|| (self.method.clone(), self.last));
+        let mut limit = f64::INFINITY;
+        loop {
+            self.method.step(&self.rotor)?;
+            let gamma = gamma(self.method.start_state());
+            self.last = LastStep { chart: self.rotor.chart, turns: self.turns, gamma, closest: None };
+            if self.rotor.chart == Chart::FromMinusE
+                && azimuth_change(gamma, self::gamma(self.method.state())).abs() > MUCH
+            {
+                self.last.closest = Some(self.closest_to_origin());
+            }
+            match (&before, self.last.closest) {
+                (Some((method, last)), Some((_, closest))) if closest.norm() < rotor::FORBIDDEN => {
+                    limit = 0.5 * limit.min(self.method.time() - method.time());
+                    (self.method, self.last) = (method.clone(), *last);
+                    self.method.limit_step(limit);
+                }
+                _ => break,
+            }
+        }
+        self.settle();
+        Ok(())
+    }
+
+    /// After a step: counts whole turns, and goes on in the other chart where this one is left.
+    fn settle(&mut self) {
+        let y = *self.method.state();
+        let gamma = gamma(&y);
+        self.watch_tilt(Tilt::new(self.rotor.chart, gamma).axis.x);
+        let turns = self.turns_at(self.method.time(), gamma);
+        let chart = self.rotor.chart;
+        if chart.is_left_at(gamma) {
+            // The last step is still to be read, in its own chart.
+            self.method.prepare_dense(&self.rotor);
+            let phi = chart.axial_angle(turns, y[PHI], gamma);
+            let crossed = crossed_exactly(gamma);
+            self.rotor.chart = chart.other();
+            let phi = self.rotor.chart.own_angle(phi, crossed);
+            self.turns = phi.turns;
+            let mut y = y;
+            y[GAMMA].copy_from_slice(crossed.as_slice());
+            y[PHI] = phi.remainder;
+            self.method.go_on_from(&self.rotor, y);
+        } else {
+            let phi = Angle { turns, remainder: y[PHI] }.wrapped();
+            self.turns = phi.turns;
+            self.method.replace(PHI, phi.remainder);
+        }
+    }
+
+    /// The whole turns of φ that go with γ [rad] at a time `t` [s] of the last step.
+    fn turns_at(&self, t: f64, gamma: Vector2<f64>) -> f64 {
+        let LastStep { chart, turns, gamma: from, closest } = self.last;
+        match closest {
+            Some((when, closest)) if when < t => {
+                turns + chart.turns_gained(from, closest) + chart.turns_gained(closest, gamma)
+            }
+            _ => turns + chart.turns_gained(from, gamma),
+        }
+    }
+
+    /// When [s] and where [rad] γ came closest to the origin in the last step, by golden sections of its dense output.
+    fn closest_to_origin(&mut self) -> (f64, Vector2<f64>) {
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        let (start, end) = (self.method.start_time(), self.method.time());
+        let (mut low, mut high) = (start, end);
+        let mut at = |t: f64| gamma(&self.method.dense(&self.rotor, t));
+        for _ in 0..80 {
+            let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+            if at(a).norm_squared() < at(b).norm_squared() { high = b } else { low = a }
+        }
+        let t = 0.5 * (low + high);
+        (t, at(t))
+    }
+
+    /// What the communication point shows.
+    pub(super) fn read(&mut self) -> Reading {
+        let (y, chart, turns) = if self.t == self.method.time() {
+            (*self.method.state(), self.rotor.chart, self.turns)
+        } else {
+            let y = self.method.dense(&self.rotor, self.t);
+            (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
+        };
+        let coordinates = Coordinates::from_slice(&y);
+        let motion = Kinematics::new(self.rotor.body, chart, coordinates);
+        let [supplied, dissipated] = if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] };
+        let spent = self.method.cost();
+        Reading {
+            motion,
+            phi: chart.axial_angle(turns, coordinates.phi, coordinates.gamma),
+            ledger: Ledger::new(&motion, &self.rotor.effects, supplied, dissipated, self.total_at_start),
+            cost: Cost { error_estimate: spent.error_estimate * self.relative_tolerance, ..spent },
+        }
+    }
+}
+
+fn gamma(y: &[f64]) -> Vector2<f64> {
+    Vector2::new(y[GAMMA.start], y[GAMMA.start + 1])
+}
+
+/// The method of this number; checked before.
+fn tableau(number: i32) -> &'static Tableau {
+    if number == 2 { &DOPRI5 } else { &DOP853 }
+}
