@@ -16,6 +16,7 @@ use model::state::{Coordinates, Kinematics};
 use model::variable::Place;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use proptest::prelude::*;
+use std::f64::consts::TAU;
 
 const BODY: Body = Body { m: 5.0, Ja: 0.15625, Jt: 0.078125, l: 0.75 };
 
@@ -26,7 +27,7 @@ fn about_e(angle: f64) -> Matrix3<f64> {
 
 /// Where charts are switched: |γ| [rad] from 1.1 to 2.1.
 fn tilt() -> impl Strategy<Value = Vector2<f64>> {
-    (1.1..2.1_f64, 0.0..6.283_f64)
+    (1.1..2.1_f64, 0.0..TAU)
         .prop_map(|(theta, azimuth)| Vector2::new(theta * libm::cos(azimuth), theta * libm::sin(azimuth)))
 }
 
@@ -84,7 +85,7 @@ proptest! {
     }
 
     #[test]
-    fn exact_attitude_across_a_switch(gamma in tilt(), phi in 0.0..6.283_f64) {
+    fn exact_attitude_across_a_switch(gamma in tilt(), phi in 0.0..TAU) {
         // L(γ)·L(φe) = L(γ′)·Q·L(φ′e), Q = diag(−1, 1, −1)
         let other = crossed_exactly(gamma);
         let angle = model::rotation::Angle { turns: 0.0, remainder: phi };

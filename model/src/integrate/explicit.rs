@@ -173,13 +173,28 @@ impl<const N: usize> Explicit<N> {
     /// All stages of a step of size h from (t, y); the state at its end.
     fn attempt(&mut self, system: &impl System<N>) -> [f64; N] {
         let (t, h, start) = (self.t, self.h, self.y);
-        let mut y = start;
+        let (end, inner) = self.tableau.stages.split_last().expect("a tableau has stages");
         // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j); the last stage stands at the end of the step
-        for (i, stage) in (1..).zip(self.tableau.stages) {
-            y = self.advanced(&start, h, stage.a);
+        for (i, stage) in (1..).zip(inner) {
+            let y = self.advanced(&start, h, stage.a);
             self.k[i] = self.evaluate(system, t + stage.c * h, &y);
         }
+        let y = self.ended(&start, h, end.a);
+        self.k[self.tableau.last] = self.evaluate(system, t + h, &y);
         y
+    }
+
+    /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
+    /// is not 1: a uniform rotation would run away from its angle by 3e-9 rad in 10⁶ turns.
+    fn ended(&self, y: &[f64; N], h: f64, b: Combination) -> [f64; N] {
+        let first = &self.k[0];
+        let mut sum = [0.0; N];
+        for &(j, coefficient) in &b[1..] {
+            for n in 0..N {
+                sum[n] += coefficient * (self.k[j][n] - first[n]);
+            }
+        }
+        std::array::from_fn(|n| y[n] + h * (first[n] + sum[n]))
     }
 
     /// y + h Σ a_j k_j.
