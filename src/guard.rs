@@ -74,6 +74,7 @@ pub unsafe fn values<'a, T>(first: *const T, n: Size, what: &str) -> Result<&'a 
     match (n, first.is_null()) {
         (0, _) => Ok(&[]),
         (_, true) => Err(Failure::error(format!("{what} is a null pointer"))),
+        _ if n > isize::MAX as usize / size_of::<T>() => Err(Failure::error(format!("{n} of {what} cannot be"))),
         // SAFETY: see above.
         (_, false) => Ok(unsafe { std::slice::from_raw_parts(first, n) }),
     }
@@ -87,6 +88,7 @@ pub unsafe fn places<'a, T>(first: *mut T, n: Size, what: &str) -> Result<&'a mu
     match (n, first.is_null()) {
         (0, _) => Ok(&mut []),
         (_, true) => Err(Failure::error(format!("{what} is a null pointer"))),
+        _ if n > isize::MAX as usize / size_of::<T>() => Err(Failure::error(format!("{n} of {what} cannot be"))),
         // SAFETY: see above.
         (_, false) => Ok(unsafe { std::slice::from_raw_parts_mut(first, n) }),
     }
@@ -102,4 +104,56 @@ pub unsafe fn text<'a>(text: Text, what: &str) -> Result<&'a CStr, Failure> {
     }
     // SAFETY: see above.
     Ok(unsafe { CStr::from_ptr(text) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::abi::{CallbackFunctions, Environment, LoggerCallback};
+    use crate::calls::call;
+    use crate::logger::Logger;
+    use std::ffi::CStr;
+    use std::sync::Mutex;
+
+    type Lines = Mutex<Vec<(Status, String)>>;
+
+    extern "C" fn record(environment: Environment, _: Text, status: Status, _: Text, message: Text) {
+        // SAFETY: the environment is the test's own, and messages are strings.
+        let (lines, message) = unsafe { (&*environment.cast::<Lines>(), CStr::from_ptr(message)) };
+        lines.lock().unwrap().push((status, message.to_str().unwrap().to_owned()));
+    }
+
+    #[test]
+    fn a_panic_is_fatal_and_logged_and_loses_the_instance() {
+        let lines = Lines::default();
+        type Plain = extern "C" fn(Environment, Text, Status, Text, Text);
+        // SAFETY: stable Rust cannot define a C-variadic function; named arguments travel alike (tests/harness).
+        let logger = unsafe { std::mem::transmute::<Plain, LoggerCallback>(record) };
+        let callbacks = CallbackFunctions {
+            logger: Some(logger),
+            allocate_memory: None,
+            free_memory: None,
+            step_finished: None,
+            environment: (&raw const lines).cast_mut().cast(),
+        };
+        let mut instance = Instance::new(Logger::new(&callbacks, c"rotor", false));
+        let component: Component = (&raw mut instance).cast();
+        for panic in [|| panic!("100% unexpected"), || panic!("{}", "100% unexpected".to_owned()) as fn() -> ()] {
+            instance.state = State::Instantiated;
+            // SAFETY: the instance lives, and only this thread uses it.
+            let status = unsafe {
+                enter(component, &call::GET_REAL, |_| {
+                    panic();
+                    Ok(Status::Ok)
+                })
+            };
+            assert_eq!(status, Status::Fatal);
+            let line = "fmi2GetReal: internal failure: 100%% unexpected; free the instance".to_owned();
+            assert_eq!(std::mem::take(&mut *lines.lock().unwrap()), [(Status::Fatal, line)]);
+            // SAFETY: as above. Nothing but fmi2FreeInstance is legal any more, fmi2Reset neither, and nobody is told again.
+            let status = unsafe { enter(component, &call::RESET_INSTANCE, |instance| instance.reset()) };
+            assert_eq!((status, instance.state), (Status::Fatal, State::Lost));
+            assert!(lines.lock().unwrap().is_empty());
+        }
+    }
 }

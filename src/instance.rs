@@ -176,7 +176,10 @@ impl Instance {
 
     fn get<T>(&mut self, references: &[u32], values: &mut [T], kind: Type, convert: fn(f64) -> T) -> Reply {
         for reference in references {
-            typed(*reference, kind)?;
+            // What cannot be calculated is refused before anything is written.
+            if let Role::Output(_) = typed(*reference, kind)?.role {
+                self.simulation.read().map_err(|invalid| Failure::error(invalid.to_string()))?;
+            }
         }
         for (reference, value) in references.iter().zip(values) {
             let got =
@@ -190,7 +193,7 @@ impl Instance {
         for reference in references {
             let meta = typed(*reference, kind)?;
             if let Role::Output(_) = meta.role {
-                return Err(Failure::error(format!("{} (value reference {reference}) is an output", meta.name)));
+                return Err(Failure::error(format!("{} is an output and cannot be set", shown(*reference))));
             }
         }
         for (reference, value) in references.iter().zip(values) {
@@ -295,7 +298,13 @@ fn typed(reference: u32, kind: Type) -> Result<&'static Meta, Failure> {
     if own == kind {
         return Ok(meta);
     }
-    Err(Failure::error(format!("{} (value reference {reference}) is of type {own:?}, not {kind:?}", meta.name)))
+    Err(Failure::error(format!("{} is of type {own:?}, not {kind:?}", shown(reference))))
+}
+
+/// A variable in a message.
+fn shown(reference: u32) -> String {
+    let name = Parameters::<Effects>::name(Place::of(reference)).unwrap_or_default();
+    format!("{name} (value reference {reference})")
 }
 
 fn unknown(reference: u32) -> Failure {

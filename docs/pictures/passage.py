@@ -37,7 +37,7 @@ plt.rcParams.update(
 E = np.array([1.0, 0.0, 0.0])
 # Along and across the passage in the plane normal to e, as γ′ shows them; t has γ′×e with the sign reversed (eq. 29).
 ALONG = np.cross(E, [0.0, np.cos(HEADING), np.sin(HEADING)])
-ACROSS = np.cross(E, [0.0, -np.sin(HEADING), np.cos(HEADING)])
+ACROSS = np.cross(E, [0.0, np.sin(HEADING), -np.cos(HEADING)])
 NEAREST = -np.cos(DELTA) * E + np.sin(DELTA) * ACROSS  # t at time 0
 OMEGA = RATE * np.cross(NEAREST, ALONG)
 
@@ -88,10 +88,10 @@ for axes, values, prime, title in (
     axes.axhline(0.0, color=GREY, lw=0.8)
     axes.plot(milliseconds, values[:, 0], color=BLUE, lw=1.8, label=f"γ{prime}_y")
     axes.plot(milliseconds, values[:, 1], color=ORANGE, lw=1.8, label=f"γ{prime}_z")
-    axes.set(ylabel=f"γ{prime}  [rad]")
+    axes.set_ylabel(f"γ{prime}  [rad]")
     axes.set_title(title, fontsize=11)
-    axes.legend(frameon=False, loc="upper left" if prime else "upper right")
-low_right.set(xlabel="time  [ms]")
+    axes.legend(frameon=False, loc="upper left" if prime else "lower left")
+low_right.set(yticks=[-0.4, 0.0, 0.4], xlabel="time  [ms]")
 
 figure.savefig(
     Path(__file__).with_name("passage.svg"),

@@ -81,7 +81,7 @@ cuts = pieces(t)
 colours = {1: BLUE, -1: ORANGE}
 
 figure, (left, middle, right) = plt.subplots(
-    1, 3, figsize=(9.0, 3.7), layout="constrained", width_ratios=[1.1, 1.0, 1.0]
+    1, 3, figsize=(9.0, 3.7), layout="constrained", width_ratios=[1.08, 1.0, 1.0]
 )
 
 # The sphere: x to the right, z up, seen from −y.
@@ -111,7 +111,7 @@ left.text(-edge, 1.02, "θ′ = 2.0", color=ORANGE, ha="center", va="bottom", fo
 left.text(0.0, -1.04, "either", color=GREY, ha="center", va="top", fontsize=9)
 left.text(0.72, -1.04, "chart from e", color=BLUE, ha="center", va="top", fontsize=9)
 left.text(-0.72, -1.04, "chart from −e", color=ORANGE, ha="center", va="top", fontsize=9)
-left.set(xlim=(-1.3, 1.3), ylim=(-1.25, 1.25), aspect="equal")
+left.set(xlim=(-1.22, 1.22), ylim=(-1.22, 1.22), aspect="equal")
 left.set_title("Axes t, seen from the side", fontsize=11)
 left.axis("off")
 

@@ -5,6 +5,7 @@
 pub mod angle;
 pub mod chart;
 pub mod euler_vector;
+pub mod exact;
 pub mod series;
 pub mod split;
 

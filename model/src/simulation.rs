@@ -31,6 +31,12 @@ enum Run<E> {
     Working(Drive<E, WITH_WORK>),
 }
 
+impl<E: Effects> From<Parameters<E>> for Simulation<E> {
+    fn from(parameters: Parameters<E>) -> Self {
+        Self { parameters, run: None, reading: None }
+    }
+}
+
 impl<E: Effects> Simulation<E> {
     /// A simulation with each parameter as the list gives it; `starts` are places and values.
     pub fn new(starts: impl IntoIterator<Item = (Place, f64)>) -> Self {

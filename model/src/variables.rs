@@ -63,6 +63,32 @@ pub struct Reading {
     pub cost: Cost,
 }
 
+impl Reading {
+    fn r_c(&self) -> &Vector3<f64> {
+        &self.motion.at.r_c
+    }
+
+    fn v_c(&self) -> &Vector3<f64> {
+        &self.motion.at.v_c
+    }
+
+    fn k_c(&self) -> &Vector3<f64> {
+        &self.motion.at.k_c
+    }
+
+    fn gamma(&self) -> Vector3<f64> {
+        self.motion.tilt.gamma()
+    }
+
+    fn omega(&self) -> &Vector3<f64> {
+        &self.motion.omega
+    }
+
+    fn axis(&self) -> &Vector3<f64> {
+        self.motion.axis()
+    }
+}
+
 /// The type of `solver.method`.
 pub static METHODS: Enumeration = Enumeration {
     name: "SolverMethod",
@@ -168,61 +194,35 @@ const SOLVER: &[Always] = &[
 ];
 
 const MOTION: &[Always] = &[
-    output!("r_c.x", &METRE, Depends::On(&["start.r_c.x"]), "position of the mass centre, x", |_, r| r.motion.at.r_c.x),
-    output!("r_c.y", &METRE, Depends::On(&["start.r_c.y"]), "position of the mass centre, y", |_, r| r.motion.at.r_c.y),
-    output!("r_c.z", &METRE, Depends::On(&["start.r_c.z"]), "position of the mass centre, z", |_, r| r.motion.at.r_c.z),
+    output!("r_c.x", &METRE, Depends::On(&["start.r_c.x"]), "position of the mass centre, x", |_, r| r.r_c().x),
+    output!("r_c.y", &METRE, Depends::On(&["start.r_c.y"]), "position of the mass centre, y", |_, r| r.r_c().y),
+    output!("r_c.z", &METRE, Depends::On(&["start.r_c.z"]), "position of the mass centre, z", |_, r| r.r_c().z),
     output!("v_c.x", &METRE_PER_SECOND, Depends::On(&["start.v_c.x"]), "velocity of the mass centre, x", |_, r| r
-        .motion
-        .at
-        .v_c
+        .v_c()
         .x),
     output!("v_c.y", &METRE_PER_SECOND, Depends::On(&["start.v_c.y"]), "velocity of the mass centre, y", |_, r| r
-        .motion
-        .at
-        .v_c
+        .v_c()
         .y),
     output!("v_c.z", &METRE_PER_SECOND, Depends::On(&["start.v_c.z"]), "velocity of the mass centre, z", |_, r| r
-        .motion
-        .at
-        .v_c
+        .v_c()
         .z),
     output!("phi", &RADIAN, Depends::On(&["start.phi"]), "axial angle, 2 pi turns + angle", |_, r| r.phi.radians()),
     output!("turns", &ONE, Depends::On(&["start.phi"]), "whole turns of the axial angle", |_, r| r.phi.turns),
     output!("angle", &RADIAN, Depends::On(&["start.phi"]), "axial angle less its whole turns, in [0, 2 pi)", |_, r| r
         .phi
         .remainder),
-    output!("gamma.y", &RADIAN, Depends::On(&["start.gamma.y"]), "transverse Euler vector, y", |_, r| r
-        .motion
-        .tilt
-        .gamma()
-        .y),
-    output!("gamma.z", &RADIAN, Depends::On(&["start.gamma.z"]), "transverse Euler vector, z", |_, r| r
-        .motion
-        .tilt
-        .gamma()
-        .z),
-    output!("omega.x", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, x", |_, r| r.motion.omega.x),
-    output!("omega.y", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, y", |_, r| r.motion.omega.y),
-    output!("omega.z", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, z", |_, r| r.motion.omega.z),
+    output!("gamma.y", &RADIAN, Depends::On(&["start.gamma.y"]), "transverse Euler vector, y", |_, r| r.gamma().y),
+    output!("gamma.z", &RADIAN, Depends::On(&["start.gamma.z"]), "transverse Euler vector, z", |_, r| r.gamma().z),
+    output!("omega.x", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, x", |_, r| r.omega().x),
+    output!("omega.y", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, y", |_, r| r.omega().y),
+    output!("omega.z", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, z", |_, r| r.omega().z),
     output!("omega_phi", &RADIAN_PER_SECOND, OMEGA_PHI, "axial rate, the rate of phi", |_, r| r.motion.axial_rate()),
-    output!("K_c.x", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, x", |_, r| r
-        .motion
-        .at
-        .k_c
-        .x),
-    output!("K_c.y", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, y", |_, r| r
-        .motion
-        .at
-        .k_c
-        .y),
-    output!("K_c.z", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, z", |_, r| r
-        .motion
-        .at
-        .k_c
-        .z),
-    output!("axis.x", &ONE, ATTITUDE, "rotor axis t, x", |_, r| r.motion.axis().x),
-    output!("axis.y", &ONE, ATTITUDE, "rotor axis t, y", |_, r| r.motion.axis().y),
-    output!("axis.z", &ONE, ATTITUDE, "rotor axis t, z", |_, r| r.motion.axis().z),
+    output!("K_c.x", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, x", |_, r| r.k_c().x),
+    output!("K_c.y", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, y", |_, r| r.k_c().y),
+    output!("K_c.z", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, z", |_, r| r.k_c().z),
+    output!("axis.x", &ONE, ATTITUDE, "rotor axis t, x", |_, r| r.axis().x),
+    output!("axis.y", &ONE, ATTITUDE, "rotor axis t, y", |_, r| r.axis().y),
+    output!("axis.z", &ONE, ATTITUDE, "rotor axis t, z", |_, r| r.axis().z),
 ];
 
 const KINETIC: &[&str] = &["rotor.m", "rotor.Ja", "rotor.Jt", "start.v_c", "start.gamma", "start.omega"];
@@ -287,6 +287,11 @@ pub struct Parameters<E> {
 }
 
 impl<E: Effects> Parameters<E> {
+    /// The full name of the variable at this place; None where there is none.
+    pub fn name(place: Place) -> Option<String> {
+        always(place).map_or_else(|| E::name(place), |row| Some(row.meta.name.to_owned()))
+    }
+
     /// What is said of the variable at this place, parameter or output; None where there is none.
     pub fn meta(place: Place) -> Option<&'static Meta> {
         always(place).map_or_else(|| E::meta(place), |row| Some(&row.meta))

@@ -41,8 +41,12 @@ pub unsafe extern "C" fn fmi2Instantiate(
         logger.log(Status::Error, Category::Error, &format!("fmi2Instantiate: {}", failure.message));
         std::ptr::null_mut()
     };
-    if let Err(failure) = name {
-        return refusal(failure);
+    match name {
+        Err(failure) => return refusal(failure),
+        Ok(name) if name.to_bytes().trim_ascii().is_empty() => {
+            return refusal(Failure::error("instanceName must have a character that is not white space"));
+        }
+        Ok(_) => {}
     }
     // SAFETY: as above.
     match unsafe { text(guid, "fmuGUID") } {

@@ -93,6 +93,8 @@ pub trait Effects: Clone + Default + Send + 'static {
     fn check(&self) -> Result<(), Invalid>;
     /// What is said of the variable at this place; None where there is none.
     fn meta(place: Place) -> Option<&'static Meta>;
+    /// The full name of the variable at this place; None where there is none.
+    fn name(place: Place) -> Option<String>;
     /// The value of a parameter; None where there is none at this place.
     fn parameter(&self, place: Place) -> Option<f64>;
     /// Sets a parameter; false where there is none at this place.
@@ -137,6 +139,10 @@ impl Effects for () {
     }
 
     fn meta(_place: Place) -> Option<&'static Meta> {
+        None
+    }
+
+    fn name(_place: Place) -> Option<String> {
         None
     }
 
@@ -191,8 +197,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     fn check(&self) -> Result<(), Invalid> {
         for row in self.0.active().map_or(&[] as &[_], |_| H::Effect::ROWS) {
             if let Access::Parameter { get, .. } = row.access {
-                let full_name = || format!("{}.{}", H::Effect::NAME, row.meta.name);
-                row.meta.check(full_name, get(self.0.effect()))?;
+                row.meta.check(|| full_name::<H>(row.meta.name), get(self.0.effect()))?;
             }
         }
         self.1.check()
@@ -200,6 +205,10 @@ impl<H: Member, T: Effects> Effects for (H, T) {
 
     fn meta(place: Place) -> Option<&'static Meta> {
         row::<H>(place).map_or_else(|| T::meta(place), |row| row.map(|row| &row.meta))
+    }
+
+    fn name(place: Place) -> Option<String> {
+        row::<H>(place).map_or_else(|| T::name(place), |row| row.map(|row| full_name::<H>(row.meta.name)))
     }
 
     fn parameter(&self, place: Place) -> Option<f64> {
@@ -239,6 +248,10 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         }
         self.1.switch_on(block);
     }
+}
+
+fn full_name<M: Member>(name: &str) -> String {
+    format!("{}.{name}", M::Effect::NAME)
 }
 
 /// The block of value references of a member.

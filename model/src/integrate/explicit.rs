@@ -111,9 +111,11 @@ impl<const N: usize> Explicit<N> {
     /// One step forward of the method's own choice. Where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl System<N>) -> Result<(), Fault> {
         let (rate, h) = (self.k[self.tableau.last], self.h);
-        let mut obstacle = None;
+        let mut obstacle = (!rate.iter().all(|rate| rate.is_finite())).then_some(Obstacle::NotFinite);
         loop {
-            if self.t + 0.1 * self.h <= self.t {
+            // A step that is not a number does not advance the time either.
+            let advances = self.t + 0.1 * self.h > self.t;
+            if !advances {
                 (self.k[self.tableau.last], self.h) = (rate, h);
                 return Err(obstacle.map_or(Fault::Underflow { t: self.t }, |o: Obstacle| o.fault(self.t)));
             }

@@ -1,10 +1,9 @@
 //! An angle of any size without loss: whole turns and the remainder apart.
 
+use super::exact;
 use std::f64::consts::TAU;
 
-/// 2π in three parts whose products with a whole number below 2²⁰ are exact but for the last (Cody and Waite).
-const TAU_HIGH: f64 = f64::from_bits(TAU.to_bits() & (u64::MAX << 27));
-const TAU_MIDDLE: f64 = TAU - TAU_HIGH;
+/// What the double nearest 2π lacks [rad].
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
 /// 2π·turns + remainder.
@@ -19,12 +18,13 @@ pub struct Angle {
 impl Angle {
     /// The same angle with its remainder in [0, 2π); where rounding gives 2π itself: 0 and one turn more.
     pub fn wrapped(self) -> Self {
-        // eq. 20: φ = 2π·turns + angle
+        // eq. 20: φ = 2π·turns + angle, 2π·turns with its rounding error and with what the double of 2π lacks
         let whole = (self.remainder / TAU).floor();
         if whole == 0.0 {
             return self;
         }
-        let remainder = ((self.remainder - whole * TAU_HIGH) - whole * TAU_MIDDLE) - whole * TAU_LOW;
+        let (high, low) = exact::product(whole, TAU);
+        let remainder = ((self.remainder - high) - low) - whole * TAU_LOW;
         let turns = self.turns + whole;
         // `whole` may be one off where the remainder is within rounding of a whole turn.
         if remainder < 0.0 {
@@ -41,6 +41,7 @@ impl Angle {
     /// The angle as one number [rad].
     pub fn radians(self) -> f64 {
         // eq. 20
-        TAU * self.turns + self.remainder
+        let (high, low) = exact::product(self.turns, TAU);
+        high + (self.remainder + (low + self.turns * TAU_LOW))
     }
 }

@@ -3,7 +3,7 @@
 //! From e: L = L(γ)·L(φe), singular where t = −e. From −e: L = L(γ′)·Q·L(φ′e), Q a half turn about y, singular where
 //! t = e. What is reported stays in the first, with |γ| ≤ π.
 
-use super::Angle;
+use super::{Angle, exact};
 use crate::scalar::Scalar;
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -103,50 +103,26 @@ pub fn crossed<S: Scalar>(gamma: Vector2<S>) -> Vector2<S> {
 
 /// [`crossed`] for a switch of chart: to the last bit, so that a switch leaves the motion where it is.
 pub fn crossed_exactly(gamma: Vector2<f64>) -> Vector2<f64> {
-    let ((yy, yy_low), (zz, zz_low)) = (square(gamma.x), square(gamma.y));
-    let (sum, sum_low) = two_sum(yy, zz);
+    let ((yy, yy_low), (zz, zz_low)) = (exact::product(gamma.x, gamma.x), exact::product(gamma.y, gamma.y));
+    let (sum, sum_low) = exact::sum(yy, zz);
     let theta_squared_low = sum_low + yy_low + zz_low;
     let theta = sum.sqrt();
     if theta == 0.0 {
         return crossed(gamma);
     }
     // θ + θ_low: one step of Newton's method on the exact θ².
-    let (product, product_low) = square(theta);
+    let (product, product_low) = exact::product(theta, theta);
     let theta_low = ((sum - product) - product_low + theta_squared_low) / (2.0 * theta);
     // eq. 26: γ′ = −(π − θ) γ/θ
-    let (rest, rest_low) = two_sum(PI, -theta);
+    let (rest, rest_low) = exact::sum(PI, -theta);
     let rest_low = rest_low + PI_LOW - theta_low;
     let ratio = (rest + rest_low) / theta;
-    let (back, back_low) = product_of(ratio, theta);
+    let (back, back_low) = exact::product(ratio, theta);
     let ratio_low = ((rest - back) - back_low + rest_low - ratio * theta_low) / theta;
     gamma.map(|component| {
-        let (high, low) = product_of(component, ratio);
+        let (high, low) = exact::product(component, ratio);
         -(high + (low + component * ratio_low))
     })
-}
-
-/// a + b and its rounding error (Knuth).
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
-}
-
-/// a b and its rounding error (Dekker; no fused arithmetic).
-fn product_of(a: f64, b: f64) -> (f64, f64) {
-    let halves = |x: f64| {
-        let scaled = 134_217_729.0 * x;
-        let high = scaled - (scaled - x);
-        (high, x - high)
-    };
-    let ((a_high, a_low), (b_high, b_low)) = (halves(a), halves(b));
-    let product = a * b;
-    (product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low)
-}
-
-/// a² and its rounding error.
-fn square(a: f64) -> (f64, f64) {
-    product_of(a, a)
 }
 
 /// Azimuth β of γ about e, from y towards z [rad], in [−π, π].
