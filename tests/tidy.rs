@@ -93,7 +93,10 @@ fn each_room_of_the_model_imports_only_from_below() {
 
 #[test]
 fn the_floor_check_sees_an_import_from_above() {
-    assert_eq!(imports_from_above("body", "/// crate::energy\nuse crate::rotor::Rotor; use crate::scalar::Scalar;"), ["rotor"]);
+    assert_eq!(
+        imports_from_above("body", "/// crate::energy\nuse crate::rotor::Rotor; use crate::scalar::Scalar;"),
+        ["rotor"]
+    );
 }
 
 #[test]
@@ -142,7 +145,10 @@ fn the_committed_xml_is_what_the_list_renders() {
     let scene = Scene::find("paper", &root().join("scenes")).unwrap();
     let committed = read(Path::new("modelDescription/modelDescription.xml"));
     let remedy = "run `cargo xtask describe > modelDescription/modelDescription.xml`";
-    assert!(committed == xml::model_description(&scene), "modelDescription/modelDescription.xml is out of date: {remedy}");
+    assert!(
+        committed == xml::model_description(&scene),
+        "modelDescription/modelDescription.xml is out of date: {remedy}"
+    );
 }
 
 #[test]
