@@ -2,8 +2,8 @@
 
     python demo.py FMU --out DIR
 
-writes DIR/report.html and DIR/trajectory.csv. Exit code 1 where the run fails or its energy does not
-add up, with the reason on stderr.
+writes DIR/report.html and, at the steps of the scene's experiment, DIR/trajectory.csv. Exit code 1 where
+the run fails or its energy does not add up, with the reason on stderr.
 """
 
 import argparse
@@ -37,7 +37,7 @@ def main():
     arguments.out.mkdir(parents=True, exist_ok=True)
     report = arguments.out / "report.html"
     report.write_text(render(scene, run), encoding="utf-8")
-    _write_csv(arguments.out / "trajectory.csv", run.result)
+    _write_csv(arguments.out / "trajectory.csv", run.experiment)
 
     balance = energy_balance(run.result, scene.relative_tolerance)
     print(summary(scene, run, balance, report))

@@ -23,6 +23,7 @@ def render(scene, run):
     )
     return templates.get_template("report.html.j2").render(
         scene=scene,
+        step=run.step,
         blocks=[(name, list(rows)) for name, rows in groupby(scene.parameters.values(), lambda p: p.block)],
         figures={
             draw.__name__: Markup(draw(run.result, scene))
@@ -46,7 +47,7 @@ def _costs(scene, run):
         ("relative tolerance", number(scene.relative_tolerance), ""),
         ("steps", count(last["solver.steps"]), ""),
         ("rejected steps", count(last["solver.rejected"]), ""),
-        ("evaluations of the right-hand side", count(last["solver.evaluations"]), ""),
+        ("evaluations of the right-hand side, those for sampling included", count(last["solver.evaluations"]), ""),
         ("sum of the local error estimates", number(last["solver.error_estimate"], 2), ""),
         ("wall time, fmpy’s own work included", number(run.wall_time, 2), "s"),
         ("simulated time over wall time", number((scene.stop - scene.start) / run.wall_time, 3), ""),

@@ -1,5 +1,6 @@
 """One run of an FMU with fmpy: co-simulation from the start to the stop of its default experiment."""
 
+import math
 from dataclasses import dataclass
 from tempfile import TemporaryDirectory
 from time import perf_counter
@@ -8,6 +9,9 @@ import numpy as np
 from fmpy import extract, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.simulation import instantiate_fmu
+
+LEAST_POINTS = 10_000
+"""A run is looked at this often or more: a maximum between samples is then missed by little."""
 
 STATUS = ("ok", "warning", "discard", "error", "fatal", "pending")  # fmi2Status, by number
 
@@ -22,15 +26,27 @@ class Run:
 
     result: np.ndarray
     """Structured: `time` [s] and every output, a row a communication point."""
+    step: float
+    """Between two communication points [s]."""
+    stride: int
+    """How many of them make a step of the scene's experiment."""
     wall_time: float
     """From the set-up of the experiment to its end, fmpy's own work included [s]."""
     log: list[str]
     """What the FMU logged, `status category: message`."""
 
+    @property
+    def experiment(self):
+        """The result at the steps of the scene's experiment, and at its end."""
+        rows = np.arange(0, len(self.result), self.stride)
+        return self.result[np.union1d(rows, len(self.result) - 1)]
+
 
 def simulate(fmu_path, description, scene):
     """Run the FMU at `fmu_path`; `description` is fmpy's ModelDescription of it."""
     log = []
+    stride = max(1, math.ceil(LEAST_POINTS * scene.step / (scene.stop - scene.start) * (1.0 - 1e-9)))
+    step = scene.step / stride
 
     def logger(_environment, _instance, status, category, message):
         log.append(" ".join((STATUS[status], f"{_text(category)}:", _text(message))))
@@ -50,7 +66,7 @@ def simulate(fmu_path, description, scene):
                 model_description=description,
                 start_time=scene.start,
                 stop_time=scene.stop,
-                output_interval=scene.step,
+                output_interval=step,
             )
             wall_time = perf_counter() - began
         except FMICallException as failure:
@@ -61,7 +77,7 @@ def simulate(fmu_path, description, scene):
     reached = result["time"][-1]
     if not np.isclose(reached, scene.stop):
         raise _failed(f"the FMU stopped at {reached:g} s of {scene.stop:g} s", log)
-    return Run(result, wall_time, log)
+    return Run(result, step, stride, wall_time, log)
 
 
 def _failed(reason, log):

@@ -1,0 +1,185 @@
+//! The same inputs give the same bits: in debug and release, with and without wide vectors, over the list of all effects
+//! and over that of the scene alone, from the library and (tests/fmu/test_golden_bits.py) from the packaged FMU.
+//!
+//! A trajectory's hash is FNV-1a, 64 bits, over the little-endian bytes of every Real variable of the scene in the order
+//! of value references, at t = 0, 1/64, … 2 s.
+
+mod harness;
+
+use harness::{Instance, reals, scenes};
+use model::effects::{All, Effects, Wrench};
+use model::error::Invalid;
+use model::scalar::Scalar;
+use model::scene::Scene;
+use model::simulation::Simulation;
+use model::state::Kinematics;
+use model::variable::{Meta, Place};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Communication points lie this far apart [s], exact in binary.
+const STEP: f64 = 1.0 / 64.0;
+const STEPS: u32 = 128;
+
+/// Number and name of the methods.
+const METHODS: [(i32, &str); 2] = [(2, "dopri5"), (3, "dop853")];
+
+const HEADER: &str = "\
+# The hash of a trajectory for each scene and method: tests/bits.rs says of what, and computes it.
+# After a change that is meant to change the bits: UPDATE_GOLDEN=1 cargo test --test bits
+scene,method,hash
+";
+
+/// FNV-1a, 64 bits.
+struct Hash(u64);
+
+impl Hash {
+    fn new() -> Self {
+        Self(0xcbf2_9ce4_8422_2325)
+    }
+
+    fn add(&mut self, value: u64) {
+        for byte in value.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+}
+
+/// The list of all effects, those whose catalogue number is a bit of `ON` switched on: a simulation makes its list
+/// itself, with `Default`.
+#[derive(Clone)]
+struct Switches<const ON: u32>(All);
+
+impl<const ON: u32> Default for Switches<ON> {
+    fn default() -> Self {
+        let mut all = All::default();
+        for number in (1..32).filter(|number| ON >> number & 1 == 1) {
+            all.switch_on(Place::effect_block(number, 1));
+        }
+        Self(all)
+    }
+}
+
+impl<const ON: u32> Effects for Switches<ON> {
+    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        self.0.load(motion)
+    }
+
+    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        self.0.potential(motion)
+    }
+
+    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        self.0.loss(motion)
+    }
+
+    fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        self.0.supply(motion)
+    }
+
+    fn works(&self) -> bool {
+        self.0.works()
+    }
+
+    fn check(&self) -> Result<(), Invalid> {
+        self.0.check()
+    }
+
+    fn meta(place: Place) -> Option<&'static Meta> {
+        All::meta(place)
+    }
+
+    fn parameter(&self, place: Place) -> Option<f64> {
+        self.0.parameter(place)
+    }
+
+    fn set_parameter(&mut self, place: Place, value: f64) -> bool {
+        self.0.set_parameter(place, value)
+    }
+
+    fn output(&self, place: Place, motion: &Kinematics<f64>) -> Option<f64> {
+        self.0.output(place, motion)
+    }
+
+    fn switch_on(&mut self, block: u32) {
+        self.0.switch_on(block);
+    }
+}
+
+/// The hash of a scene's trajectory over the list of all effects, of which those of the scene are the bits of `ON`.
+fn hash_over_all_effects<const ON: u32>(name: &str, method: i32) -> u64 {
+    let scene = Scene::find(name, &scenes()).unwrap_or_else(|error| panic!("{error}"));
+    let called = scene.effects.iter().fold(0, |bits, (info, index)| {
+        assert_eq!(*index, 1);
+        bits | 1 << info.number
+    });
+    assert_eq!(ON, called, "the test switches on what {name} calls for");
+    let mut simulation =
+        Simulation::<Switches<ON>>::new(scene.starts.iter().map(|(place, value)| (Place::of(*place), *value)));
+    let choice = scene.variables.iter().find(|variable| variable.name == "solver.method").expect("it is always there");
+    assert!(simulation.set_parameter(choice.place, f64::from(method)));
+    simulation.start(0.0, None).unwrap_or_else(|invalid| panic!("{invalid}"));
+    let (references, mut hash) = (reals(&scene), Hash::new());
+    for i in 0..=STEPS {
+        if i > 0 {
+            simulation.advance(f64::from(i) * STEP).unwrap_or_else(|fault| panic!("{fault}"));
+        }
+        for reference in &references {
+            let value = simulation.get(Place::of(*reference)).expect("the parameters are possible");
+            let value = value.expect("the scene has this variable");
+            assert!(value.is_finite(), "{reference}");
+            hash.add(value.to_bits());
+        }
+    }
+    hash.0
+}
+
+/// The hash of the compiled-in scene's trajectory through the exported functions.
+fn hash_through_the_exports(method: i32) -> u64 {
+    let mut instance = Instance::quiet();
+    instance.set_method(method);
+    let mut instance = instance.started(&[]);
+    let mut hash = Hash::new();
+    instance.bits().into_iter().for_each(|bits| hash.add(bits));
+    instance.run(0.0, STEP, STEPS).into_iter().flatten().for_each(|bits| hash.add(bits));
+    hash.0
+}
+
+fn golden() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/bits.csv")
+}
+
+#[test]
+fn the_hash_is_fnv_1a() {
+    // The empty string, and the bytes "foobar\0\0", by the definition of Fowler, Noll and Vo.
+    let mut hash = Hash::new();
+    assert_eq!(hash.0, 0xcbf2_9ce4_8422_2325);
+    hash.add(u64::from_le_bytes(*b"foobar\0\0"));
+    let zero_bytes = 0x8594_4171_f739_67e8_u64.wrapping_mul(0x0000_0100_0000_01b3).wrapping_mul(0x0000_0100_0000_01b3);
+    assert_eq!(hash.0, zero_bytes);
+}
+
+#[test]
+fn golden_trajectories_have_the_same_bits() {
+    let mut found = HEADER.to_owned();
+    for (scene, hash) in
+        [("paper", hash_over_all_effects::<0b110> as fn(&str, i32) -> u64), ("free_top", hash_over_all_effects::<0>)]
+    {
+        for (number, method) in METHODS {
+            writeln!(found, "{scene},{method},{:016x}", hash(scene, number)).expect("writing to memory does not fail");
+        }
+    }
+    if std::env::var_os("UPDATE_GOLDEN").is_some_and(|value| value == "1") {
+        std::fs::write(golden(), &found).expect("tests/golden can be written");
+    }
+    let expected = std::fs::read_to_string(golden()).expect("tests/golden/bits.csv is there").replace("\r\n", "\n");
+    assert_eq!(found, expected, "the trajectories differ from tests/golden/bits.csv, whose head says what to do");
+}
+
+#[test]
+fn exact_compiled_list_and_list_of_all_effects_agree_bit_for_bit() {
+    for (number, method) in METHODS {
+        let (exports, all) = (hash_through_the_exports(number), hash_over_all_effects::<0b110>("paper", number));
+        assert_eq!(exports, all, "{method}");
+    }
+}

@@ -1,0 +1,103 @@
+"""Fixtures of the tests of the packaged FMUs. Make these with `cargo xtask package <scene> ...`."""
+
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from fmpy import extract, read_model_description, simulate_fmu
+from fmpy.model_description import ModelDescription
+
+import project
+from host import Host
+
+
+@dataclass(frozen=True)
+class Fmu:
+    """An FMU, packed and unpacked."""
+
+    scene: str
+    path: Path
+    directory: Path
+    description: ModelDescription
+    xml: ElementTree.Element
+
+    @property
+    def variables(self):
+        """fmpy's variables by name."""
+        return {variable.name: variable for variable in self.description.modelVariables}
+
+    def host(self, **options):
+        """A new instance."""
+        return Host(self, **options)
+
+    def simulate(self, **options):
+        """fmpy's result: a structured array, a row a communication point."""
+        return simulate_fmu(str(self.directory), model_description=self.description, **options)
+
+
+def unpack(path, directory):
+    """The FMU in this file."""
+    extract(str(path), str(directory))
+    description = read_model_description(str(path), validate=False)
+    return Fmu(path.stem, path, directory, description, ElementTree.parse(directory / "modelDescription.xml").getroot())
+
+
+@pytest.fixture(scope="session")
+def fmus(tmp_path_factory):
+    """Every scene's FMU, by the scene's name."""
+    missing = [scene for scene in project.SCENES if not (project.PACKAGES / f"{scene}.fmu").is_file()]
+    if missing:
+        pytest.fail(f"not packaged: run `cargo xtask package {' '.join(missing)}`", pytrace=False)
+    folder = tmp_path_factory.mktemp("fmus")
+    return {scene: unpack(project.PACKAGES / f"{scene}.fmu", folder / scene) for scene in project.SCENES}
+
+
+@pytest.fixture(params=project.SCENES)
+def fmu(request, fmus):
+    """Each scene's FMU."""
+    return fmus[request.param]
+
+
+@pytest.fixture(scope="session")
+def paper(fmus):
+    """The rotor of Sorokin and Zhang."""
+    return fmus["paper"]
+
+
+@pytest.fixture(scope="session")
+def free_top(fmus):
+    """The rotor with nothing acting on it."""
+    return fmus["free_top"]
+
+
+@pytest.fixture(scope="session")
+def xtask():
+    """Runs xtask with these words; a finished process with its text."""
+    program = project.build_xtask()
+    return lambda *words: subprocess.run(
+        [program, *map(str, words)], cwd=project.ROOT, capture_output=True, encoding="utf-8", check=False
+    )
+
+
+@pytest.fixture(scope="session")
+def package(xtask, tmp_path_factory):
+    """Packages the scene in this TOML text under this name."""
+
+    def make(name, text):
+        folder = tmp_path_factory.mktemp(name)
+        scene = folder / f"{name}.toml"
+        scene.write_text(text, encoding="utf-8")
+        done = xtask("package", scene, "--out", folder)
+        assert done.returncode == 0, done.stderr
+        return unpack(folder / f"{name}.fmu", folder / "unpacked")
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def reference():
+    """The paper's rotor from two formulations in quadruple precision: data/README.md."""
+    return np.genfromtxt(Path(__file__).parent / "data" / "paper_reference.csv", delimiter=",", names=True)

@@ -1,0 +1,19 @@
+"""Where the project's files are, and its command line."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
+PACKAGES = ROOT / "target" / "fmu"
+
+
+def build_xtask():
+    """Builds xtask once, if it is not up to date; the path of its program."""
+    cargo = os.environ.get("CARGO", "cargo")
+    command = [cargo, "build", "--quiet", "--release", "--package", "xtask", "--message-format=json"]
+    built = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
+    messages = map(json.loads, built.stdout.splitlines())
+    return next(message["executable"] for message in messages if message.get("executable"))

@@ -1,0 +1,46 @@
+"""The GUID follows the scene: its values, and nothing else."""
+
+import re
+
+import project
+import pytest
+
+PAPER = (project.ROOT / "scenes" / "paper.toml").read_text(encoding="utf-8")
+
+
+@pytest.fixture
+def guid(xtask, tmp_path):
+    """The GUID of a text as the scene `paper`."""
+
+    def of(text):
+        scene = tmp_path / "paper.toml"
+        scene.write_text(text, encoding="utf-8")
+        described = xtask("describe", scene)
+        assert described.returncode == 0, described.stderr
+        return re.search('guid="([^"]+)"', described.stdout)[1]
+
+    return of
+
+
+@pytest.mark.parametrize(
+    "old, new",
+    [
+        ("m = 5.0", "m = 5.000000000000001"),
+        ("c2 = 500.0", "c2 = 501.0"),
+        ('method = "dop853"', 'method = "dopri5"'),
+        ("stop = 10.0", "stop = 11.0"),
+        ("[effects.gravity]\ng = { z = -9.81 }\n", ""),
+        ("Rotor in a block", "A rotor in a block"),
+    ],
+    ids=["last digit of a value", "stiffness", "method", "stop time", "effect", "title"],
+)
+def test_exact_guid_follows_a_change(paper, guid, old, new):
+    assert PAPER.count(old) == 1
+    assert guid(PAPER.replace(old, new)) != paper.description.guid
+
+
+def test_exact_guid_does_not_follow_comments_and_order(paper, guid):
+    head, _, experiment = PAPER.partition("[experiment]")
+    assert guid(f"# another comment\n{head}[experiment]{experiment}") == paper.description.guid
+    title, _, rest = head.partition("[rotor]")
+    assert guid(f"{title}[experiment]{experiment}[rotor]{rest}") == paper.description.guid

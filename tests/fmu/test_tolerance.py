@@ -1,0 +1,94 @@
+"""Which tolerance and which method are in force, and that the log says so."""
+
+import numpy as np
+import pytest
+
+TIMES = np.arange(0, 101) / 100.0  # [s]
+SCENE, EXPERIMENT, OWN = 1e-10, 1e-4, 1e-7
+SAME_MOTION = 1e-8  # [rad], dopri5 against dop853 at 1e-10, axis after 1 s, measured 7e-10
+DOPRI5, DOP853 = 2, 3
+
+
+@pytest.fixture
+def run(paper):
+    """Runs with these start values and this experiment: evaluations, what the log says of the tolerance."""
+
+    def evaluations(values=(), **experiment):
+        with paper.host() as host:
+            host.start(values, **experiment).run(TIMES)
+            said = [message.text for message in host.log if message.category == "logSolver"]
+            return host.read("solver.evaluations"), said
+
+    return evaluations
+
+
+def test_exact_the_scene_rules_when_nobody_else_says(run):
+    _, said = run()
+    assert said == ["the relative tolerance in force is 1e-10, the one of the scene"]
+
+
+def test_exact_the_experiment_rules_over_the_scene(run):
+    evaluations, said = run(tolerance=EXPERIMENT)
+    assert said == ["the relative tolerance in force is 0.0001, the one of fmi2SetupExperiment"]
+    assert evaluations < 0.5 * run()[0]
+
+
+@pytest.mark.parametrize("own", [SCENE, OWN])
+def test_exact_the_host_rules_over_the_experiment(run, own):
+    """Even where the host sets what the scene has already."""
+    evaluations, said = run({"solver.relative_tolerance": own}, tolerance=EXPERIMENT)
+    assert said == [f"the relative tolerance in force is {own!r}, ".replace("1e-07", "1e-7") +
+                    "the one that the host set as solver.relative_tolerance"]
+    assert evaluations == run({"solver.relative_tolerance": own})[0]
+    assert evaluations > run(tolerance=EXPERIMENT)[0]
+
+
+def test_exact_the_parameter_stays_what_was_set(paper):
+    with paper.host() as host:
+        host.start(tolerance=EXPERIMENT)
+        assert host.read("solver.relative_tolerance") == SCENE
+
+
+@pytest.mark.parametrize("tolerance", [0.0, -1e-6, 1e-15, 0.2, np.nan])
+def test_exact_an_impossible_tolerance_is_refused(paper, tolerance):
+    shown = "NaN" if np.isnan(tolerance) else repr(tolerance).replace("e-0", "e-")
+    with paper.host() as host:
+        assert host.refused("setupExperiment", tolerance=tolerance) == (
+            f"fmi2SetupExperiment: tolerance = {shown} is not possible: it must be a number from 1e-14 to 0.1"
+        )
+
+
+def test_exact_the_absolute_tolerance_is_in_force(run):
+    loose = {"solver.relative_tolerance": 1e-10, "solver.absolute_tolerance": 1e-5}
+    assert run(loose)[0] < run()[0]
+
+
+@pytest.mark.parametrize("method, stages, dense", [(DOPRI5, 6, 0), (DOP853, 12, 3)], ids=["dopri5", "dop853"])
+def test_exact_the_method_is_chosen_by_number(paper, method, stages, dense):
+    """Two evaluations find the first step; a step's last stage is the first of the next; one look between steps."""
+    with paper.host() as host:
+        host.set_method(method)
+        host.start()
+        host.step(0.0, 1.0)
+        steps, rejected, evaluations = host.read("solver.steps", "solver.rejected", "solver.evaluations")
+        assert host.slave.getInteger([host.reference("solver.method")]) == [method]
+    assert evaluations == 2 + stages * (steps + rejected) + dense
+
+
+def test_exact_both_methods_find_the_same_motion(paper):
+    axes = []
+    for method in (DOPRI5, DOP853):
+        with paper.host() as host:
+            host.set_method(method)
+            host.start().run(TIMES)
+            axes.append(host.read("axis.x", "axis.y", "axis.z"))
+    assert np.linalg.norm(np.subtract(*axes)) <= SAME_MOTION
+
+
+def test_exact_a_method_that_is_not_listed_is_refused(paper):
+    with paper.host() as host:
+        host.set_method(7)
+        host.slave.enterInitializationMode()
+        assert host.refused("exitInitializationMode") == (
+            "fmi2ExitInitializationMode: solver.method = 7.0 is not possible: it must be 2 (dopri5) or 3 (dop853)"
+        )
