@@ -193,7 +193,7 @@ impl Instance {
         for reference in references {
             let meta = typed(*reference, kind)?;
             if let Role::Output(_) = meta.role {
-                return Err(Failure::error(format!("{} is an output and cannot be set", shown(*reference))));
+                return Err(Failure::error(format!("{} is an output: only parameters can be set", shown(*reference))));
             }
         }
         for (reference, value) in references.iter().zip(values) {

@@ -73,8 +73,12 @@ impl Scene {
         if file.is_file() {
             return Self::read(&file);
         }
-        let names = Self::names(folder).join(", ");
-        let message = format!("there is no such scene: give a path to a TOML file, or one of the names {names}");
+        let message = if is_path {
+            "there is no such file".into()
+        } else {
+            let names = Self::names(folder).join(", ");
+            format!("there is no such scene: give a path to a TOML file, or one of the names {names}")
+        };
         Err(SceneError { file, line: None, message })
     }
 
@@ -110,7 +114,12 @@ impl Scene {
             starts: found.starts,
             experiment: found.experiment,
         };
-        scene.parameters().check().map_err(|invalid| file_error(None, invalid.to_string()))?;
+        scene.parameters().check().map_err(|invalid| {
+            // A bound on several components, such as |start.gamma|, is shown at the first that the file names.
+            let name = invalid.variable.trim_matches('|');
+            let line = found.lines.iter().find(|(key, _)| key.starts_with(name)).map(|(_, line)| *line);
+            file_error(line, invalid.to_string())
+        })?;
         Ok(scene)
     }
 

@@ -62,6 +62,10 @@ impl<E: Effects> Simulation<E> {
     pub fn start(&mut self, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid> {
         self.parameters.check()?;
         self.reading = None;
+        let total = at_start(&self.parameters).ledger.total();
+        if !total.is_finite() {
+            return Err(Invalid::new("energy.total", total, "finite: the start values or parameters are too large"));
+        }
         let mut setup = self.parameters.setup.clone();
         setup.solver.relative_tolerance = relative_tolerance.unwrap_or(setup.solver.relative_tolerance);
         let motion = Motion::at_start(&self.parameters);

@@ -107,7 +107,6 @@ const ANY: Bound = Bound::Finite;
 const ATTITUDE: Depends = Depends::On(&["start.gamma"]);
 const MOMENTUM: Depends = Depends::On(&["rotor.Ja", "rotor.Jt", "start.gamma", "start.omega"]);
 const NOTHING: Depends = Depends::On(&[]);
-const OMEGA_PHI: Depends = Depends::On(&["start.gamma", "start.omega"]);
 
 /// The blocks that are always there, in the order of their value references.
 pub static BLOCKS: [&[Always]; 5] = [ROTOR, START, SOLVER, MOTION, ENERGY];
@@ -181,9 +180,13 @@ const SOLVER: &[Always] = &[
     output!("solver.evaluations", &ONE, NOTHING, "evaluations of the right-hand side so far", |_, r| r
         .cost
         .evaluations),
-    output!("solver.next_step", &SECOND, NOTHING, "the step that the solver would like; 0 before the first", |_, r| r
-        .cost
-        .next_step),
+    output!(
+        "solver.next_step",
+        &SECOND,
+        NOTHING,
+        "the step that the solver would like next; 0 before the run",
+        |_, r| r.cost.next_step
+    ),
     output!(
         "solver.error_estimate",
         &ONE,
@@ -216,7 +219,7 @@ const MOTION: &[Always] = &[
     output!("omega.x", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, x", |_, r| r.omega().x),
     output!("omega.y", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, y", |_, r| r.omega().y),
     output!("omega.z", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, z", |_, r| r.omega().z),
-    output!("omega_phi", &RADIAN_PER_SECOND, OMEGA_PHI, "axial rate, the rate of phi", |_, r| r.motion.axial_rate()),
+    output!("omega_phi", &RADIAN_PER_SECOND, MOMENTUM, "axial rate, the rate of phi", |_, r| r.motion.axial_rate()),
     output!("K_c.x", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, x", |_, r| r.k_c().x),
     output!("K_c.y", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, y", |_, r| r.k_c().y),
     output!("K_c.z", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, z", |_, r| r.k_c().z),

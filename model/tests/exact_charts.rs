@@ -136,7 +136,7 @@ fn exact_phi_is_the_integral_of_its_rate() {
                 while quadrature.time() < t {
                     // A peak is as wide as δ/Ω: no step may jump over one.
                     quadrature.limit_step(0.01);
-                    quadrature.step(&AxialRate(omega)).unwrap();
+                    quadrature.step(&AxialRate(omega), 0.0).unwrap();
                 }
                 let exact = quadrature.dense(&AxialRate(omega), t)[0];
                 worst = worst.max((simulation.read().unwrap().phi.radians() - exact).abs());

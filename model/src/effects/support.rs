@@ -23,10 +23,29 @@ pub struct Support {
     pub d2: f64,
 }
 
-/// What F depends on at the start; M adds the springs and dampers against tilt.
-const FORCE_DEPENDS: Depends =
-    Depends::On(&["rotor.l", "start.r_c", "start.v_c", "start.gamma", "start.omega", "support.c1", "support.d1"]);
-const MOMENT_DEPENDS: Depends = Depends::On(&["start.gamma", "start.omega", "support.c2", "support.d2"]);
+/// What a component of F depends on at the start, that of r_c and v_c named by it.
+macro_rules! force_depends {
+    ($r_c:literal, $v_c:literal) => {
+        Depends::On(&[
+            "rotor.Ja",
+            "rotor.Jt",
+            "rotor.l",
+            $r_c,
+            $v_c,
+            "start.gamma",
+            "start.omega",
+            "support.c1",
+            "support.d1",
+        ])
+    };
+}
+
+const FORCE_X: Depends = force_depends!("start.r_c.x", "start.v_c.x");
+const FORCE_Y: Depends = force_depends!("start.r_c.y", "start.v_c.y");
+const FORCE_Z: Depends = force_depends!("start.r_c.z", "start.v_c.z");
+const MOMENT_X: Depends = Depends::On(&["rotor.Ja", "rotor.Jt", "start.gamma", "start.omega", "support.d2"]);
+const MOMENT: Depends =
+    Depends::On(&["rotor.Ja", "rotor.Jt", "start.gamma", "start.omega", "support.c2", "support.d2"]);
 
 impl Support {
     /// Force at a [N].
@@ -53,12 +72,12 @@ impl Effect for Support {
         parameter!(c2, &NEWTON_METRE_PER_RADIAN, Some(0.0), Bound::NotNegative, "stiffness against tilt"),
         parameter!(d1, &NEWTON_SECOND_PER_METRE, Some(0.0), Bound::NotNegative, "damping of the displacement of a"),
         parameter!(d2, &NEWTON_METRE_SECOND_PER_RADIAN, Some(0.0), Bound::NotNegative, "damping of the tilt"),
-        output!("F.x", &NEWTON, FORCE_DEPENDS, "force of the support on the rotor at a, along x", |s, m| s.force(m).x),
-        output!("F.y", &NEWTON, FORCE_DEPENDS, "force of the support on the rotor at a, along y", |s, m| s.force(m).y),
-        output!("F.z", &NEWTON, FORCE_DEPENDS, "force of the support on the rotor at a, along z", |s, m| s.force(m).z),
-        output!("M.x", &NEWTON_METRE, MOMENT_DEPENDS, "moment against tilt on the rotor about x", |s, m| s.moment(m).x),
-        output!("M.y", &NEWTON_METRE, MOMENT_DEPENDS, "moment against tilt on the rotor about y", |s, m| s.moment(m).y),
-        output!("M.z", &NEWTON_METRE, MOMENT_DEPENDS, "moment against tilt on the rotor about z", |s, m| s.moment(m).z),
+        output!("F.x", &NEWTON, FORCE_X, "force of the support on the rotor at a, along x", |s, m| s.force(m).x),
+        output!("F.y", &NEWTON, FORCE_Y, "force of the support on the rotor at a, along y", |s, m| s.force(m).y),
+        output!("F.z", &NEWTON, FORCE_Z, "force of the support on the rotor at a, along z", |s, m| s.force(m).z),
+        output!("M.x", &NEWTON_METRE, MOMENT_X, "moment against tilt on the rotor about x", |s, m| s.moment(m).x),
+        output!("M.y", &NEWTON_METRE, MOMENT, "moment against tilt on the rotor about y", |s, m| s.moment(m).y),
+        output!("M.z", &NEWTON_METRE, MOMENT, "moment against tilt on the rotor about z", |s, m| s.moment(m).z),
     ];
 
     const POTENTIAL_DEPENDS: &'static [&'static str] =

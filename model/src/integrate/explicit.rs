@@ -18,7 +18,28 @@ pub struct Explicit<const N: usize> {
     h: f64,
     /// The stages k_i of the last step; `k[tableau.last]` is the rate at its end.
     k: [[f64; N]; MOST_STAGES],
+    stall: Stall,
     segment: Segment<N>,
+}
+
+/// So many steps in a row may be shorter than what gets anywhere: a first step may start tiny and grow.
+const PATIENCE: u32 = 1000;
+
+/// Attempts that get nowhere, and what stood in their way.
+#[derive(Clone, Copy, Debug, Default)]
+struct Stall {
+    attempts: u32,
+    obstacle: Option<Obstacle>,
+}
+
+impl Stall {
+    fn count(&mut self, h: f64, least: f64) {
+        if h < least {
+            self.attempts += 1;
+        } else {
+            *self = Self::default();
+        }
+    }
 }
 
 /// The last step.
@@ -54,6 +75,7 @@ impl<const N: usize> Explicit<N> {
             y,
             h: 0.0,
             k: [[0.0; N]; MOST_STAGES],
+            stall: Stall::default(),
             segment: Segment { t, h: 0.0, y, r: [[0.0; N]; MOST_DENSE - 1], dense: false },
         };
         method.k[tableau.last] = method.evaluate(system, t, &y);
@@ -109,31 +131,38 @@ impl<const N: usize> Explicit<N> {
     }
 
     /// One step forward of the method's own choice. Where none is possible, the method stands as before.
-    pub fn step(&mut self, system: &impl System<N>) -> Result<(), Fault> {
+    ///
+    /// Steps below `least` [s] get nowhere: after [`PATIENCE`] of them in a row, none is possible.
+    pub fn step(&mut self, system: &impl System<N>, least: f64) -> Result<(), Fault> {
         let (rate, h) = (self.k[self.tableau.last], self.h);
-        let mut obstacle = (!rate.iter().all(|rate| rate.is_finite())).then_some(Obstacle::NotFinite);
+        if !rate.iter().all(|rate| rate.is_finite()) {
+            return Err(Fault::NotFinite { t: self.t });
+        }
         loop {
+            self.stall.count(self.h, least);
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * self.h > self.t;
-            if !advances {
+            if !advances || self.stall.attempts > PATIENCE {
                 (self.k[self.tableau.last], self.h) = (rate, h);
-                return Err(obstacle.map_or(Fault::Underflow { t: self.t }, |o: Obstacle| o.fault(self.t)));
+                let stall = std::mem::take(&mut self.stall);
+                return Err(stall.obstacle.map_or(Fault::Underflow { t: self.t }, |obstacle| obstacle.fault(self.t)));
             }
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             self.h = (self.t + self.h) - self.t;
             self.k[0] = rate;
             let y = self.attempt(system);
             let error = self.error_norm(&y);
-            if !error.is_finite() {
-                obstacle = Some(Obstacle::NotFinite);
+            let obstacle = if !error.is_finite() {
+                Some(Obstacle::NotFinite)
             } else if error > 1.0 {
-                obstacle = None;
+                None
             } else if let Err(refusal) = system.admits(self.t + self.h, &y) {
-                obstacle = Some(Obstacle::Refused(refusal));
+                Some(Obstacle::Refused(refusal))
             } else {
                 self.accept(y, error);
                 return Ok(());
-            }
+            };
+            self.stall.obstacle = obstacle;
             self.cost.rejected += 1.0;
             self.h *= self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
         }
@@ -290,8 +319,8 @@ impl<const N: usize> Explicit<N> {
     }
 }
 
-/// What stood in the way of the last attempt, besides its error.
-#[derive(Clone, Copy)]
+/// What stood in the way of an attempt, besides its error.
+#[derive(Clone, Copy, Debug)]
 enum Obstacle {
     NotFinite,
     Refused(Refusal),

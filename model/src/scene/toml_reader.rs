@@ -15,6 +15,21 @@ pub(super) struct Found {
     pub variables: Vec<Variable>,
     pub starts: BTreeMap<u32, f64>,
     pub experiment: Experiment,
+    /// The line of each parameter that the file names.
+    pub lines: Vec<(String, usize)>,
+}
+
+/// The values of a scene, while they are read.
+struct Values<'v> {
+    variables: &'v [Variable],
+    starts: BTreeMap<u32, f64>,
+    lines: Vec<(String, usize)>,
+}
+
+impl<'v> Values<'v> {
+    fn parameters(&self) -> impl Iterator<Item = &'v Variable> + use<'v> {
+        self.variables.iter().filter(|variable| matches!(variable.meta.role, Role::Parameter { .. }))
+    }
 }
 
 /// A line from 1, where one is to blame, and what is wrong with it.
@@ -57,29 +72,34 @@ impl Reader<'_> {
             }
         }
         let variables = variables::of_scene(&effects);
-        let mut starts = defaults(&variables);
+        let mut values = Values { variables: &variables, starts: defaults(&variables), lines: Vec::new() };
         for section in ["rotor", "start", "solver"] {
             if let Some(value) = root.get(section) {
-                self.block(self.table(value, section)?, section, section, &variables, &mut starts)?;
+                self.block(self.table(value, section)?, section, section, &mut values)?;
             }
         }
         if let Some(called) = root.get("effects").and_then(|value| value.get_ref().as_table()) {
             for (key, value) in called {
                 let name = key.get_ref().as_ref();
                 let section = format!("effects.{name}");
-                self.block(self.table(value, &section)?, name, &section, &variables, &mut starts)?;
+                self.block(self.table(value, &section)?, name, &section, &mut values)?;
             }
         }
-        self.nothing_missing(&variables, &starts)?;
+        nothing_missing(&values)?;
+        let Values { starts, lines, .. } = values;
         let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
         let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
         let experiment = self.experiment(root.get("experiment"), tolerance)?;
-        Ok(Found { title, effects, variables, starts, experiment })
+        Ok(Found { title, effects, variables, starts, experiment, lines })
     }
 
     /// The effects that are called for, in the order of the catalogue.
     fn effects(&self, called: &DeTable) -> Result<Vec<(&'static Info, u32)>, Wrong> {
-        for (key, _) in called {
+        for (key, value) in called {
+            if value.get_ref().is_array() {
+                let message = format!("there is only one {0}: write [effects.{0}]", key.get_ref());
+                return Err((Some(self.line(key.span().start)), message));
+            }
             if effects::named(key.get_ref()).is_none() {
                 let known: Vec<_> = CATALOGUE.iter().map(|info| info.name).collect();
                 let message = format!("unknown effect `{}`: there are {}", key.get_ref(), known.join(", "));
@@ -90,26 +110,22 @@ impl Reader<'_> {
     }
 
     /// Takes the values of a table whose keys are variables beginning with `prefix`; `section` is its key in the file.
-    fn block(
-        &self,
-        table: &DeTable,
-        prefix: &str,
-        section: &str,
-        variables: &[Variable],
-        starts: &mut BTreeMap<u32, f64>,
-    ) -> Result<(), Wrong> {
-        let parameters = || variables.iter().filter(|variable| matches!(variable.meta.role, Role::Parameter { .. }));
+    fn block(&self, table: &DeTable, prefix: &str, section: &str, values: &mut Values) -> Result<(), Wrong> {
         for (key, value) in table {
             let name = format!("{prefix}.{}", key.get_ref());
             let in_file = format!("{section}.{}", key.get_ref());
             let within = format!("{name}.");
-            if let Some(variable) = parameters().find(|variable| variable.name == name) {
+            if let Some(variable) = values.parameters().find(|variable| variable.name == name) {
                 let number = self.number(value, variable, &in_file)?;
-                starts.insert(variable.place.value_reference(), number);
-            } else if parameters().any(|variable| variable.name.starts_with(&within)) {
-                self.block(self.table(value, &in_file)?, &name, &in_file, variables, starts)?;
+                values.starts.insert(variable.place.value_reference(), number);
+                values.lines.push((name, self.line(value.span().start)));
+            } else if values.parameters().any(|variable| variable.name.starts_with(&within)) {
+                let keys = next_keys(values.parameters(), &name);
+                let right = format!("a table of {}, such as {{ {} = 0.1 }}", keys.join(", "), keys[0]);
+                let table = value.get_ref().as_table().ok_or_else(|| self.wrong_type(value, &in_file, &right))?;
+                self.block(table, &name, &in_file, values)?;
             } else {
-                let known = next_keys(parameters(), prefix);
+                let known = next_keys(values.parameters(), prefix);
                 let message = if known.is_empty() {
                     format!("unknown key `{in_file}`: [{section}] has no keys")
                 } else {
@@ -142,18 +158,6 @@ impl Reader<'_> {
         Ok(number)
     }
 
-    fn nothing_missing(&self, variables: &[Variable], starts: &BTreeMap<u32, f64>) -> Result<(), Wrong> {
-        let given = |variable: &&Variable| starts.contains_key(&variable.place.value_reference());
-        for variable in variables {
-            if matches!(variable.meta.role, Role::Parameter { .. }) && !given(&variable) {
-                let unit = variable.meta.unit.name;
-                let what = variable.meta.description;
-                return Err((None, format!("`{}` is missing: give the {what} in {unit}", variable.name)));
-            }
-        }
-        Ok(())
-    }
-
     fn experiment(&self, value: Option<&Value>, tolerance: f64) -> Result<Experiment, Wrong> {
         let mut given = [const { None }; 4];
         if let Some(value) = value {
@@ -179,7 +183,9 @@ impl Reader<'_> {
         let start = or(0, 0.0, Bound::Finite, "a finite number in s")?;
         let after_start = Bound::Within(start + f64::MIN_POSITIVE.max(start.abs() * f64::EPSILON), f64::MAX);
         let stop = or(1, start + 10.0, after_start, &format!("later than experiment.start = {start:?} s"))?;
-        let step = or(2, (stop - start) / 1000.0, Bound::Positive, "a number of seconds > 0")?;
+        let within = Bound::Within(f64::MIN_POSITIVE, stop - start);
+        let right = format!("a number of seconds > 0, at most stop - start = {:?} s", stop - start);
+        let step = or(2, (stop - start) / 1000.0, within, &right)?;
         let bound = Bound::Within(LEAST_TOLERANCE, 0.1);
         let tolerance = or(3, tolerance, bound, &bound.words())?;
         Ok(Experiment { start, stop, step, tolerance })
@@ -197,6 +203,19 @@ impl Reader<'_> {
     fn line(&self, offset: usize) -> usize {
         self.text[..offset].matches('\n').count() + 1
     }
+}
+
+/// Every parameter has a value.
+fn nothing_missing(values: &Values) -> Result<(), Wrong> {
+    for variable in values.parameters() {
+        if !values.starts.contains_key(&variable.place.value_reference()) {
+            let (unit, what) = (variable.meta.unit.name, variable.meta.description);
+            let (section, key) = variable.name.split_once('.').unwrap_or(("", &variable.name));
+            let right = format!("give the {what} in {unit} as `{key} = ...` under [{section}]");
+            return Err((None, format!("`{}` is missing: {right}", variable.name)));
+        }
+    }
+    Ok(())
 }
 
 fn as_number(value: &DeValue) -> Option<f64> {

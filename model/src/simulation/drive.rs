@@ -23,6 +23,8 @@ pub(super) struct Drive<E, const N: usize> {
     /// Whole turns of φ at the time that the method has reached.
     turns: f64,
     last: LastStep,
+    /// The longest step so far [s].
+    longest: f64,
     /// The communication point [s].
     t: f64,
     /// Total energy at the start [J].
@@ -48,6 +50,9 @@ struct LastStep {
 /// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely.
 const MUCH: f64 = 0.3;
 
+/// Steps below this part of the time wanted, or of the longest step, get nowhere: that would take 10¹² of them.
+const LEAST_PART: f64 = 1e-12;
+
 /// φ [rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
 /// last place for the remainder of φ to stay exact.
 const LONGEST_TURN: f64 = 16.0 * TAU;
@@ -63,7 +68,8 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let method = Explicit::start(tableau(setup.solver.method), tolerance(setup), &rotor, t, y);
         let last = LastStep { chart: rotor.chart, turns, gamma: coordinates.gamma, closest: None };
         let relative_tolerance = setup.solver.relative_tolerance;
-        let mut drive = Self { rotor, method, turns, last, t, total_at_start, relative_tolerance, tilted: false };
+        let mut drive =
+            Self { rotor, method, turns, last, longest: 0.0, t, total_at_start, relative_tolerance, tilted: false };
         drive.watch_tilt(motion.axis().x);
         drive
     }
@@ -84,8 +90,10 @@ impl<E: Effects, const N: usize> Drive<E, N> {
 
     /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
     pub(super) fn advance(&mut self, t: f64) -> Result<(), Fault> {
+        let wanted = t - self.method.time();
         while self.method.time() < t {
-            if let Err(fault) = self.step() {
+            let least = LEAST_PART * wanted.max(self.longest);
+            if let Err(fault) = self.step(least) {
                 self.t = self.method.time();
                 return Err(fault);
             }
@@ -94,7 +102,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         Ok(())
     }
 
-    fn step(&mut self) -> Result<(), Fault> {
+    fn step(&mut self, least: f64) -> Result<(), Fault> {
         let speed = self.method.rate()[PHI].abs();
         self.method.limit_step(LONGEST_TURN / speed);
         // Near −e a step can pass where it may not end; then it is taken back.
@@ -102,7 +110,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             .then(|| (self.method.clone(), self.last));
         let mut limit = f64::INFINITY;
         loop {
-            self.method.step(&self.rotor)?;
+            self.method.step(&self.rotor, least)?;
             let gamma = gamma(self.method.start_state());
             self.last = LastStep { chart: self.rotor.chart, turns: self.turns, gamma, closest: None };
             if self.rotor.chart == Chart::FromMinusE
@@ -119,6 +127,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
                 _ => break,
             }
         }
+        self.longest = self.longest.max(self.method.time() - self.method.start_time());
         self.settle();
         Ok(())
     }
