@@ -148,13 +148,7 @@ fn literature_trees_are_as_many_as_cayley_counted() {
 }
 
 fn free_rotor() -> FreeRotor {
-    FreeRotor {
-        Ja: 0.3,
-        Jt: 0.2,
-        phi: 0.4,
-        gamma: Vector2::new(0.5, -0.3),
-        omega: Vector3::new(9.0, 2.0, -1.5),
-    }
+    FreeRotor { Ja: 0.3, Jt: 0.2, phi: 0.4, gamma: Vector2::new(0.5, -0.3), omega: Vector3::new(9.0, 2.0, -1.5) }
 }
 
 /// dL/dt = ω×L of the closed form [1/s], of 9 rad/s: measured 2.1e-12.
@@ -199,7 +193,9 @@ const WHIRL_DEFECT: f64 = 6e-14;
 #[test]
 fn exact_whirl_obeys_newton_and_euler() {
     let mut worst: f64 = 0.0;
-    for (theta, rate, g, c2) in [(0.1, 100.0, 0.0, 500.0), (1.3, 37.0, 0.0, 500.0), (2.5, 100.0, 0.0, 500.0), (0.8, 15.0, 9.81, 0.0)] {
+    for (theta, rate, g, c2) in
+        [(0.1, 100.0, 0.0, 500.0), (1.3, 37.0, 0.0, 500.0), (2.5, 100.0, 0.0, 500.0), (0.8, 15.0, 9.81, 0.0)]
+    {
         let whirl = Whirl { m: 5.0, Ja: 0.15625, Jt: 0.078125, l: 0.75, c1: 2000.0, c2, g, theta, rate };
         let t = 0.0123;
         let step = 0.5 / rate;
@@ -239,7 +235,15 @@ fn literature_small_whirl_rates() {
     let scene = harness::Scene::paper();
     let body = scene.body;
     let rotor = Whirl {
-        m: body.m, Ja: body.Ja, Jt: body.Jt, l: body.l, c1: scene.c1, c2: scene.c2, g: 0.0, theta: 0.0, rate: 0.0
+        m: body.m,
+        Ja: body.Ja,
+        Jt: body.Jt,
+        l: body.l,
+        c1: scene.c1,
+        c2: scene.c2,
+        g: 0.0,
+        theta: 0.0,
+        rate: 0.0,
     };
     for (computed, (printed, digit)) in small_whirl(&rotor, 50.0).into_iter().zip(WHIRL_RATES) {
         within("small whirl", (computed - printed).abs(), digit * (1.0 + 1e-9));
@@ -273,7 +277,8 @@ fn literature_reference_keeps_what_is_constant() {
     let scene = harness::Scene::paper();
     for instant in paper::instants() {
         let t = rotation::axis(&instant.gamma);
-        let omega = instant.k_c / scene.body.Jt + t * ((1.0 / scene.body.Ja - 1.0 / scene.body.Jt) * instant.k_c.dot(&t));
+        let omega =
+            instant.k_c / scene.body.Jt + t * ((1.0 / scene.body.Ja - 1.0 / scene.body.Jt) * instant.k_c.dot(&t));
         let r_a = instant.r_c - t * scene.body.l;
         let energy = 0.5 * scene.body.m * instant.v_c.norm_squared()
             + 0.5 * omega.dot(&instant.k_c)
