@@ -14,6 +14,7 @@ use model::state::{Coordinates, Kinematics};
 use model::variable::Role;
 use model::variables::{Reading, of_scene};
 use nalgebra::{Vector2, Vector3};
+use proptest::test_runner::{Config as ProptestConfig, RngSeed};
 
 /// Gravity and the support: the paper's effects.
 pub type Supported = (Called<Gravity, 1>, (Called<Support, 1>, ()));
@@ -202,6 +203,17 @@ pub fn momentum_about_e(motion: &Kinematics<f64>) -> f64 {
 /// Times from 0 to `end` [s], `parts` + 1 of them.
 pub fn times(end: f64, parts: u32) -> impl Iterator<Item = f64> {
     (0..=parts).map(move |i| end * f64::from(i) / f64::from(parts))
+}
+
+/// A property is tried on `cases` cases, the same in every run; PROPTEST_CASES and PROPTEST_RNG_SEED ask for others.
+pub fn properties(cases: u32) -> ProptestConfig {
+    let asked = ProptestConfig::default();
+    ProptestConfig {
+        cases: if std::env::var_os("PROPTEST_CASES").is_some() { asked.cases } else { cases },
+        rng_seed: if asked.rng_seed == RngSeed::Random { RngSeed::Fixed(2018) } else { asked.rng_seed },
+        failure_persistence: None,
+        ..asked
+    }
 }
 
 /// The largest, or NaN where there is one.

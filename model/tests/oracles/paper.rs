@@ -1,6 +1,6 @@
-//! The reference motion of the paper's example, from `tests/fmu/data/paper_reference.csv`: two formulations in quadruple
-//! precision and a third code agree to 24 digits (the README beside it). Check: its energy and K_c·t are constant, in
-//! `exact_oracles.rs`.
+//! The reference motion of the paper's example, from `tests/fmu/data/paper_reference.csv`: two formulations in
+//! quadruple precision and a third code agree to 24 digits (the README beside it). Check: its energy and K_c·t are
+//! constant, in `exact_oracles.rs`.
 
 use nalgebra::{Vector2, Vector3};
 

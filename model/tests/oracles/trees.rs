@@ -1,8 +1,8 @@
 //! Rooted trees, and with them every order condition of a Runge–Kutta method.
 //!
-//! Source: Butcher (1963); Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, section II.2: a method
-//! has order p if and only if Σ b_i Φ_i(t) = 1/γ(t) for every rooted tree t of at most p nodes. Check: the known numbers
-//! of trees 1, 1, 2, 4, 9, 20, 48, 115 (Cayley 1857) in `exact_oracles.rs`.
+//! Source: Butcher (1963); Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, section II.2: a
+//! method has order p if and only if Σ b_i Φ_i(t) = 1/γ(t) for every rooted tree t of at most p nodes. Check: the known
+//! numbers of trees 1, 1, 2, 4, 9, 20, 48, 115 (Cayley 1857) in `exact_oracles.rs`.
 
 /// A rooted tree: the branches at its root.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
