@@ -195,9 +195,9 @@ fn fmi_no_step_goes_past_the_stop_time() {
     assert_eq!(instance.do_step(0.0, 12.0), Status::Ok);
 }
 
-/// No spring, no spin, 30 rad/s about y: γ_y = 30 rad/s · t until the axis is about to reach −e, at 3.1 rad.
+/// Next to no spring, no spin, 30 rad/s about y: γ_y = 30 rad/s · t until 3.1 rad, where the law of c2 ends.
 const TUMBLING: [(&str, Real); 4] =
-    [("support.c1", 0.0), ("support.c2", 0.0), ("start.omega.x", 0.0), ("start.omega.y", 30.0)];
+    [("support.c1", 0.0), ("support.c2", 1e-300), ("start.omega.x", 0.0), ("start.omega.y", 30.0)];
 
 #[test]
 fn exact_a_step_that_cannot_be_done_stands_at_the_last_successful_time() {
@@ -223,7 +223,7 @@ fn exact_a_step_that_cannot_be_done_stands_at_the_last_successful_time() {
         // The values are those of that time: exactly γ_y = 30 t, and gravity has let the rotor fall.
         assert!(instance.bits().into_iter().all(|bits| Real::from_bits(bits).is_finite()));
         let [gamma_y, gamma_z, z, phi, omega_y] = instance.get_all(["gamma.y", "gamma.z", "r_c.z", "phi", "omega.y"]);
-        assert!(gamma_y <= 3.1 && (gamma_y - 30.0 * last).abs() < NEARNESS, "{gamma_y:?}");
+        assert!(gamma_y <= 3.1 + NEARNESS && (gamma_y - 30.0 * last).abs() < NEARNESS, "{gamma_y:?}");
         assert!((z + 0.5 * 9.81 * last * last).abs() < NEARNESS, "{z:?}");
         assert!(gamma_z == 0.0 && phi == 0.0 && (omega_y - 30.0).abs() < NEARNESS);
         assert!(instance.get("energy.residual").abs() < NEARNESS * instance.get("energy.total"));
@@ -257,7 +257,6 @@ fn fmi_after_a_step_that_cannot_be_done() {
 }
 
 #[test]
-#[ignore = "hangs: the first step size is NaN, and Explicit::step then never ends"]
 fn fmi_a_force_that_overflows_is_a_discarded_step() {
     let mut instance = Instance::quiet().started(&[("support.c1", 1e305), ("start.r_c.x", 1e10)]);
     assert_eq!(instance.do_step(0.0, 0.01), Status::Discard);

@@ -59,20 +59,25 @@ impl<E: Effects> Simulation<E> {
     }
 
     /// Starts the motion at time `t` [s]; a relative tolerance [1] given here stands in for that of the parameters.
+    ///
+    /// # Panics
+    /// Where `t` is not finite.
     pub fn start(&mut self, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid> {
-        self.parameters.check()?;
+        assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
+        let mut parameters = self.parameters.clone();
+        let solver = &mut parameters.setup.solver;
+        solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
+        parameters.check()?;
         self.reading = None;
-        let total = at_start(&self.parameters).ledger.total();
+        let total = at_start(&parameters).ledger.total();
         if !total.is_finite() {
             return Err(Invalid::new("energy.total", total, "finite: the start values or parameters are too large"));
         }
-        let mut setup = self.parameters.setup.clone();
-        setup.solver.relative_tolerance = relative_tolerance.unwrap_or(setup.solver.relative_tolerance);
-        let motion = Motion::at_start(&self.parameters);
-        self.run = Some(if self.parameters.effects.works() {
-            Run::Working(Drive::start(motion, &setup, t))
+        let motion = Motion::at_start(&parameters);
+        self.run = Some(if parameters.effects.works() {
+            Run::Working(Drive::start(motion, &parameters.setup, t))
         } else {
-            Run::Conservative(Drive::start(motion, &setup, t))
+            Run::Conservative(Drive::start(motion, &parameters.setup, t))
         });
         Ok(())
     }
@@ -80,7 +85,7 @@ impl<E: Effects> Simulation<E> {
     /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
     ///
     /// # Panics
-    /// Before [`Simulation::start`].
+    /// Before [`Simulation::start`], or where `t` lies before the communication point or is not a number.
     pub fn advance(&mut self, t: f64) -> Result<(), Fault> {
         self.reading = None;
         match self.run.as_mut().expect("a run was started") {

@@ -25,9 +25,9 @@ fn about_e(angle: f64) -> Matrix3<f64> {
     Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
 }
 
-/// Where charts are switched: |γ| [rad] from 1.1 to 2.1.
+/// Where charts are switched: |γ| [rad] from 2.0, where a chart is left, to 2.6, where a step may end.
 fn tilt() -> impl Strategy<Value = Vector2<f64>> {
-    (1.1..2.1_f64, 0.0..TAU)
+    (2.0..2.6_f64, 0.0..TAU)
         .prop_map(|(theta, azimuth)| Vector2::new(theta * libm::cos(azimuth), theta * libm::sin(azimuth)))
 }
 

@@ -8,6 +8,7 @@ use harness::{Scene, largest, properties, within};
 use model::body::Body;
 use model::dual::Dual;
 use model::integrate::System;
+use model::rotation::Chart;
 use model::scalar::Scalar;
 use model::state::{COORDINATES, Coordinates, Kinematics};
 use nalgebra::{Vector2, Vector3};
@@ -19,7 +20,7 @@ use std::f64::consts::TAU;
 fn jacobian(scene: &Scene, y: &[f64; COORDINATES]) -> [[f64; COORDINATES]; COORDINATES] {
     let duals: [Dual<COORDINATES>; COORDINATES] = std::array::from_fn(|n| Dual::variable(y[n], n));
     let mut rates = [Dual::constant(0.0); COORDINATES];
-    scene.rotor().rates(&Kinematics::new(scene.body, Coordinates::from_slice(&duals))).write(&mut rates);
+    scene.rotor().rates(&Kinematics::new(scene.body, Chart::FromE, Coordinates::from_slice(&duals))).write(&mut rates);
     rates.map(|rate| rate.eps)
 }
 
@@ -82,7 +83,7 @@ proptest! {
         let y = scene.state();
         let duals: [Dual<COORDINATES>; COORDINATES] = std::array::from_fn(|n| Dual::variable(y[n], n));
         let mut dual_rates = [Dual::constant(0.0); COORDINATES];
-        scene.rotor().rates(&Kinematics::new(scene.body, Coordinates::from_slice(&duals))).write(&mut dual_rates);
+        scene.rotor().rates(&Kinematics::new(scene.body, Chart::FromE, Coordinates::from_slice(&duals))).write(&mut dual_rates);
         // The same lines in the same order: the same bits.
         prop_assert_eq!(dual_rates.map(Scalar::re), rates(&scene, &y));
     }

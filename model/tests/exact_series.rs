@@ -5,7 +5,7 @@ mod harness;
 mod oracles;
 
 use harness::{largest, within};
-use model::rotation::{Tilt, series};
+use model::rotation::{Chart, Tilt, series};
 use nalgebra::{Vector2, Vector3};
 use oracles::fixed::{Fixed, decoded};
 use std::f64::consts::PI;
@@ -66,7 +66,7 @@ fn relative(computed: f64, unit: f64, exact: &Fixed) -> f64 {
 
 /// Relative errors of (τ, κ) at γ [1].
 fn errors(gamma: Vector2<f64>) -> (f64, f64) {
-    let tilt = Tilt::new(gamma);
+    let tilt = Tilt::new(Chart::FromE, gamma);
     let (y, z) = (Fixed::of(gamma.x), Fixed::of(gamma.y));
     let theta_squared = &(&y * &y) + &(&z * &z);
     // With ω along y, g·ω = γ_z: ω_φ = τ γ_z, and the z component of dγ/dt is κ γ_z γ_y.
@@ -100,13 +100,13 @@ fn exact_rates_keep_full_precision_at_any_tilt() {
 #[test]
 fn exact_rates_without_tilt() {
     for gamma in [Vector2::zeros(), Vector2::new(-0.0, 0.0), Vector2::new(f64::from_bits(1), 0.0)] {
-        let (tilt, omega) = (Tilt::new(gamma), Vector3::new(50.0, 3.0, -4.0));
+        let (tilt, omega) = (Tilt::new(Chart::FromE, gamma), Vector3::new(50.0, 3.0, -4.0));
         assert_eq!(tilt.axial_rate(&omega), 50.0);
         assert_eq!(tilt.gamma_rate(&omega), Vector2::new(3.0, -4.0));
         assert_eq!(tilt.axis, Vector3::new(1.0, gamma.y, -gamma.x));
     }
     // A tilt of 1e-300 rad and a spin of 1: dγ/dt = −g, exactly.
-    let tilt = Tilt::new(Vector2::new(3e-300, 1e-300));
+    let tilt = Tilt::new(Chart::FromE, Vector2::new(3e-300, 1e-300));
     assert_eq!(tilt.gamma_rate(&Vector3::x()), Vector2::new(-1e-300, 3e-300));
     assert_eq!(tilt.axis, Vector3::new(1.0, 1e-300, -3e-300));
 }

@@ -123,12 +123,12 @@ proptest! {
             r_c: at.r_c,
             v_c: -at.v_c,
             phi: there.phi.radians(),
-            gamma: at.gamma,
+            gamma: there.motion.tilt.gamma().yz(),
             omega: -there.motion.omega,
             ..scene.clone()
         });
         within("r_c", (back.motion.at.r_c - scene.r_c).norm(), REVERSED[0]);
-        within("gamma", (back.motion.at.gamma - scene.gamma).norm(), REVERSED[1]);
+        within("gamma", (back.motion.tilt.gamma().yz() - scene.gamma).norm(), REVERSED[1]);
         within("phi", (back.phi.radians() - scene.phi).abs(), REVERSED[2]);
     }
 

@@ -22,6 +22,9 @@ pub struct Explicit<const N: usize> {
     segment: Segment<N>,
 }
 
+/// A first step spans at least so many units in the last place of the time.
+const LEAST_FIRST: f64 = 100.0;
+
 /// So many steps in a row may be shorter than what gets anywhere: a first step may start tiny and grow.
 const PATIENCE: u32 = 1000;
 
@@ -79,7 +82,8 @@ impl<const N: usize> Explicit<N> {
             segment: Segment { t, h: 0.0, y, r: [[0.0; N]; MOST_DENSE - 1], dense: false },
         };
         method.k[tableau.last] = method.evaluate(system, t, &y);
-        method.h = method.first_step(system);
+        // A first guess may be too short to advance a late time; one too long is rejected.
+        method.h = method.first_step(system).max(LEAST_FIRST * (t.abs().next_up() - t.abs()));
         method
     }
 

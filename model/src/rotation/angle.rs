@@ -19,10 +19,10 @@ impl Angle {
     /// The same angle with its remainder in [0, 2π); where rounding gives 2π itself: 0 and one turn more.
     pub fn wrapped(self) -> Self {
         // eq. 20: φ = 2π·turns + angle, 2π·turns with its rounding error and with what the double of 2π lacks
-        let whole = (self.remainder / TAU).floor();
-        if whole == 0.0 {
+        if (0.0..TAU).contains(&self.remainder) {
             return self;
         }
+        let whole = (self.remainder / TAU).floor();
         let (high, low) = exact::product(whole, TAU);
         let remainder = ((self.remainder - high) - low) - whole * TAU_LOW;
         let turns = self.turns + whole;

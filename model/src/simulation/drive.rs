@@ -90,6 +90,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
 
     /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
     pub(super) fn advance(&mut self, t: f64) -> Result<(), Fault> {
+        assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
         let wanted = t - self.method.time();
         while self.method.time() < t {
             let least = LEAST_PART * wanted.max(self.longest);
