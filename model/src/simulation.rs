@@ -7,6 +7,7 @@ use crate::effects::Effects;
 use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::{Cost, Fault};
+use crate::rotation::Angle;
 use crate::rotor::{WITH_WORK, WITHOUT_WORK};
 use crate::state::Kinematics;
 use crate::variable::{Access, Place, Row};
@@ -144,9 +145,9 @@ impl<E: Effects> Simulation<E> {
 
 /// The reading before the start: what the parameters make of it.
 fn at_start<E: Effects>(parameters: &Parameters<E>) -> Reading {
-    let Motion { rotor, coordinates, turns } = Motion::at_start(parameters);
+    let Motion { rotor, coordinates, .. } = Motion::at_start(parameters);
     let motion = Kinematics::new(rotor.body, rotor.chart, coordinates);
-    let phi = rotor.chart.axial_angle(turns, coordinates.phi, coordinates.gamma);
+    let phi = Angle { turns: 0.0, remainder: parameters.setup.start.phi }.wrapped();
     let mut ledger = Ledger::new(&motion, &rotor.effects, 0.0, 0.0, 0.0);
     ledger.total_at_start = ledger.total();
     Reading { motion, phi, ledger, cost: Cost::default() }

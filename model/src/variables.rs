@@ -214,8 +214,8 @@ const MOTION: &[Always] = &[
     output!("angle", &RADIAN, Depends::On(&["start.phi"]), "axial angle less its whole turns, in [0, 2 pi)", |_, r| r
         .phi
         .remainder),
-    output!("gamma.y", &RADIAN, Depends::On(&["start.gamma.y"]), "transverse Euler vector, y", |_, r| r.gamma().y),
-    output!("gamma.z", &RADIAN, Depends::On(&["start.gamma.z"]), "transverse Euler vector, z", |_, r| r.gamma().z),
+    output!("gamma.y", &RADIAN, ATTITUDE, "transverse Euler vector, y", |_, r| r.gamma().y),
+    output!("gamma.z", &RADIAN, ATTITUDE, "transverse Euler vector, z", |_, r| r.gamma().z),
     output!("omega.x", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, x", |_, r| r.omega().x),
     output!("omega.y", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, y", |_, r| r.omega().y),
     output!("omega.z", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, z", |_, r| r.omega().z),

@@ -127,7 +127,7 @@ proptest! {
     #[test]
     fn literature_closed_forms_are_the_papers_equations(gamma in attitudes(), omega in omegas()) {
         let tilt = Tilt::new(Chart::FromE, gamma);
-        // The paper's (8) and (6), with its matrices: eqs. 5 and 7.
+        // The paper's (8) and (6), with its matrices: eq. 5 and eq. 7.
         let inverse = inverse_rate(&tilt.gamma());
         let omega_phi = (inverse * omega).x / (inverse * rotation(&tilt.gamma()) * Vector3::x()).x;
         let gamma_rate = inverse * (omega - rotation(&tilt.gamma()) * Vector3::x() * omega_phi);

@@ -43,13 +43,13 @@ CASES = {
         "stop = 10.0", 'stop = "ten"', ', line 27: experiment.stop = "ten" is not possible: it must be a number in s',
     ),
     "number for a table": (
-        "r_c = { x = 0.75 }", "r_c = 0.75", ", line 12: start.r_c = 0.75 is not possible: it must be a table",
+        "r_c = { x = 0.75 }", "r_c = 0.75", ", line 12: start.r_c = 0.75 is not possible: it must be a table of x, y, z, such as { x = 0.1 }",
     ),
     "number for a title": (
         'title = "Rotor in a block of springs (Sorokin and Zhang 2018)"', "title = 5",
         ", line 3: title = 5 is not possible: it must be a string",
     ),
-    "missing mass": ("m = 5.0\n", "", ": `rotor.m` is missing: give the mass in kg"),
+    "missing mass": ("m = 5.0\n", "", ": `rotor.m` is missing: give the mass in kg as `m = ...` under [rotor]"),
     "negative mass": (
         "m = 5.0", "m = -5.0", ", line 6: rotor.m = -5.0 is not possible: it must be a finite number > 0",
     ),
@@ -63,11 +63,11 @@ CASES = {
     ),
     "impossible inertia": (
         "Jt = 0.078125", "Jt = 0.05",
-        ": rotor.Ja = 0.15625 is not possible: it must be at most 2 rotor.Jt = 0.1 (a thin disk has Ja = 2 Jt)",
+        ", line 7: rotor.Ja = 0.15625 is not possible: it must be at most 2 rotor.Jt = 0.1 (a thin disk has Ja = 2 Jt)",
     ),
     "too large a tilt": (
         "[start]", "[start]\ngamma = { y = 3.0, z = 4.0 }",
-        ": |start.gamma| = 5.0 is not possible: it must be at most pi = 3.141592653589793",
+        ", line 12: |start.gamma| = 5.0 is not possible: it must be at most pi = 3.141592653589793",
     ),
     "unknown method": (
         '"dop853"', '"rk4"', ', line 23: solver.method = "rk4" is not possible: it must be one of "dopri5", "dop853"',
@@ -85,7 +85,7 @@ CASES = {
     ),
     "no step": (
         "step = 0.01", "step = 0.0",
-        ", line 28: experiment.step = 0.0 is not possible: it must be a number of seconds > 0",
+        ", line 28: experiment.step = 0.0 is not possible: it must be a number of seconds > 0, at most stop - start = 10.0 s",
     ),
     "broken TOML": ("m = 5.0", "m = = 5.0", ", line 6: is not TOML: extra `=`, expected nothing"),
     "open string": (
@@ -123,8 +123,8 @@ def test_exact_message_where_there_is_no_scene(xtask, given):
     described = xtask("describe", given)
     assert (described.returncode, described.stdout) == (1, "")
     file = project.ROOT / "scenes" / "nosuch.toml" if given == "nosuch" else given
-    known = f"give a path to a TOML file, or one of the names {', '.join(project.SCENES)}"
-    assert described.stderr == f"error: {file}: there is no such scene: {known}\n"
+    scene = f"scene: give a path to a TOML file, or one of the names {', '.join(project.SCENES)}"
+    assert described.stderr == f"error: {file}: there is no such {scene if given == 'nosuch' else 'file'}\n"
 
 
 def test_exact_message_of_a_file_that_is_not_text(xtask, tmp_path):
