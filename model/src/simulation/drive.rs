@@ -57,6 +57,9 @@ const LEAST_PART: f64 = 1e-12;
 /// last place for the remainder of φ to stay exact.
 const LONGEST_TURN: f64 = 16.0 * TAU;
 
+/// γ [rad] advances by about so much at most in a step, so that a chart is left well before its end.
+const LONGEST_TILT: f64 = 0.5;
+
 impl<E: Effects, const N: usize> Drive<E, N> {
     /// A drive from time `t` [s].
     pub(super) fn start(start: Motion<E>, setup: &Setup, t: f64) -> Self {
@@ -104,8 +107,9 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     }
 
     fn step(&mut self, least: f64) -> Result<(), Fault> {
-        let speed = self.method.rate()[PHI].abs();
-        self.method.limit_step(LONGEST_TURN / speed);
+        let rate = self.method.rate();
+        let (spin, tilting) = (rate[PHI].abs(), gamma(rate).norm());
+        self.method.limit_step((LONGEST_TURN / spin).min(LONGEST_TILT / tilting));
         // Near −e a step can pass where it may not end; then it is taken back.
         let before = (self.rotor.chart == Chart::FromMinusE && self.rotor.effects.needs_gamma())
             .then(|| (self.method.clone(), self.last));

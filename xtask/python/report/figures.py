@@ -117,6 +117,24 @@ def attitude(figure, result, scene):
     _path_and_components(figure, result["time"], (y, z), [y, z, theta], "rad", floor=1e-6)
 
 
+@_inline(4.6, "Axial angle, rotor axis and transverse Euler vector against time, around the largest tilt")
+def passage(figure, result, scene):
+    """φ, the axis t and γ while the axis leans by more than a right angle, around the largest tilt."""
+    shown = result[measure.around_largest_tilt(result)]
+    time = shown["time"]
+    angle, axis, gamma = figure.subplots(3, sharex=True)
+    angle.plot(time, shown["phi"], color=BLUE)
+    angle.set(ylabel=r"$\varphi$ [rad]")
+    for panel, name, components in ((axis, "axis", "xyz"), (gamma, "gamma", "yz")):
+        for component, color in zip(components, (BLUE, VERMILLION, GREEN)[-len(components) :]):
+            symbol = rf"$t_{component}$" if name == "axis" else rf"$\gamma_{component}$"
+            panel.plot(time, shown[f"{name}.{component}"], color=color, label=symbol)
+        panel.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
+    axis.set(ylabel="axis t [1]", ylim=(-1.08, 1.08))
+    gamma.set(ylabel=r"$\gamma$ [rad]", xlabel="time [s]")
+    figure.align_ylabels()
+
+
 @_inline(2.6, "Deviation of the axial rate from its start value against time")
 def spin(figure, result, scene):
     """How far ω_φ strays from its start value (the paper's Figure 6)."""

@@ -63,6 +63,15 @@ def spin_deviation(result):
     return Deviation(difference, "rad/s")
 
 
+def around_largest_tilt(result):
+    """The slice of the run in which the axis leans by more than a right angle without a break, the largest tilt in it."""
+    theta = tilt(result)
+    largest = int(theta.argmax())
+    upright = np.flatnonzero(theta <= np.pi / 2.0)
+    before, after = upright[upright < largest], upright[upright > largest]
+    return slice(before[-1] if before.size else 0, after[0] + 1 if after.size else len(theta))
+
+
 def tilt(result):
     """θ = |γ|, the angle between rotor axis and reference axis [rad]."""
     return np.hypot(result["gamma.y"], result["gamma.z"])

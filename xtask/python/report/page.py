@@ -5,6 +5,7 @@ from itertools import groupby
 from pathlib import Path
 
 import fmpy
+import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
@@ -25,10 +26,7 @@ def render(scene, run):
         scene=scene,
         step=run.step,
         blocks=[(name, list(rows)) for name, rows in groupby(scene.parameters.values(), lambda p: p.block)],
-        figures={
-            draw.__name__: Markup(draw(run.result, scene))
-            for draw in (figures.trajectory, figures.spin, figures.energy, figures.attitude)
-        },
+        figures={draw.__name__: Markup(draw(run.result, scene)) for draw in _drawn(run)},
         energy=measure.energy_balance(run.result, scene.relative_tolerance),
         largest_tilt=measure.tilt(run.result).max(),
         comparisons=list(paper.comparisons(run.result)) if scene.identifier == paper.IDENTIFIER else [],
@@ -37,6 +35,14 @@ def render(scene, run):
         log=run.log,
         number=number,
     )
+
+
+def _drawn(run):
+    """The figures that suit the run."""
+    drawn = [figures.trajectory, figures.spin, figures.energy, figures.attitude]
+    if measure.tilt(run.result).max() > np.pi / 2.0:
+        drawn.append(figures.passage)
+    return drawn
 
 
 def _costs(scene, run):
