@@ -16,14 +16,16 @@ fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
 }
 
 prop_compose! {
-    /// A rotor on springs that hold it well short of −e.
+    /// A rotor on springs that hold it well short of −e, or one that nothing keeps upright and that passes from chart to
+    /// chart.
     fn scenes()(
         (r_c, v_c, transverse, g) in (vector(0.2), vector(1.0), vector(3.0), vector(10.0)),
         (theta, psi, spin, phi) in (0.0..1.2_f64, 0.0..TAU, -60.0..60.0_f64, -10.0..10.0_f64),
         (c1, c2) in (500.0..3000.0_f64, 200.0..600.0_f64),
         [m, jt, shape, l] in [1.0..5.0_f64, 0.05..0.3_f64, 0.3..2.0_f64, 0.0..0.5_f64],
-        dop853 in any::<bool>(),
+        [dop853, wild] in any::<[bool; 2]>(),
     ) -> Scene {
+        let (theta, transverse, c2) = if wild { (2.5 * theta, 5.0 * transverse, 0.0) } else { (theta, transverse, c2) };
         let gamma = Vector2::new(libm::cos(psi), libm::sin(psi)) * theta;
         let axis = oracles::rotation::axis(&gamma);
         Scene {
@@ -43,17 +45,17 @@ prop_compose! {
 
 /// Drift of the energy, relative to the largest sum of its parts [1]: measured 3.4e-10.
 const ENERGY: f64 = 1e-9;
-/// Drift of K_c·t, relative to |K_c| [1]: measured 9.2e-11.
-const AXIAL_MOMENTUM: f64 = 3e-10;
-/// Drift of the angular momentum about e, relative to its parts [1]: measured 3.4e-12.
-const MOMENTUM_ABOUT_E: f64 = 1e-11;
-/// A motion and the same one turned about e by any angle: r_c [m], axis [1], φ [rad]: measured 2.6e-12, 3.3e-11,
-/// 7.1e-11.
-const TURNED: [f64; 3] = [8e-12, 1e-10, 2.2e-10];
-/// The way back: r_c [m], γ [rad], φ [rad]: measured 4.2e-11, 7.0e-10, 3.6e-9.
-const REVERSED: [f64; 3] = [1.3e-10, 2.2e-9, 1.1e-8];
-/// In other units: r_c [m], axis [1], φ [rad]: measured 4.5e-12, 7.0e-11, 1.4e-10.
-const SCALED: [f64; 3] = [1.4e-11, 2.1e-10, 4.5e-10];
+/// Drift of K_c·t, relative to |K_c| [1]: measured 1.1e-10.
+const AXIAL_MOMENTUM: f64 = 3.5e-10;
+/// Drift of the angular momentum about e, relative to its parts [1]: measured 1.4e-11.
+const MOMENTUM_ABOUT_E: f64 = 4e-11;
+/// A motion and the same one turned about e by any angle: r_c [m], axis [1], φ [rad]: measured 2.6e-12, 6.7e-11,
+/// 2.9e-10.
+const TURNED: [f64; 3] = [8e-12, 2e-10, 9e-10];
+/// The way back: r_c [m], axis [1], φ [rad]: measured 4.8e-11, 7.5e-10, 2.9e-9.
+const REVERSED: [f64; 3] = [1.4e-10, 2.2e-9, 1.1e-8];
+/// In other units: r_c [m], axis [1], φ [rad]: measured 6.8e-12, 1.2e-10, 2.9e-10.
+const SCALED: [f64; 3] = [2e-11, 3.6e-10, 9e-10];
 
 /// How long each motion lasts [s].
 const END: f64 = 0.5;
@@ -128,7 +130,7 @@ proptest! {
             ..scene.clone()
         });
         within("r_c", (back.motion.at.r_c - scene.r_c).norm(), REVERSED[0]);
-        within("gamma", (back.motion.tilt.gamma().yz() - scene.gamma).norm(), REVERSED[1]);
+        within("axis", (back.motion.axis() - oracles::rotation::axis(&scene.gamma)).norm(), REVERSED[1]);
         within("phi", (back.phi.radians() - scene.phi).abs(), REVERSED[2]);
     }
 
