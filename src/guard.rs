@@ -23,11 +23,12 @@ pub unsafe fn enter(
 ) -> Status {
     // SAFETY: see above.
     let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return Status::Error };
-    if instance.state == State::Lost {
+    if instance.memory.state == State::Lost {
         return Status::Fatal;
     }
-    if !call.is_legal(instance.state) {
-        let message = format!("{}: not legal in the state \"{}\": {}", call.name, instance.state.name(), call.remedy);
+    if !call.is_legal(instance.memory.state) {
+        let message =
+            format!("{}: not legal in the state \"{}\": {}", call.name, instance.memory.state.name(), call.remedy);
         instance.logger.log(Status::Error, Category::Error, &message);
         return Status::Error;
     }
@@ -38,7 +39,7 @@ pub unsafe fn enter(
             failure.status
         }
         Err(panic) => {
-            instance.state = State::Lost;
+            instance.memory.state = State::Lost;
             let message = format!("{}: internal failure: {panic}; free the instance", call.name);
             // The host's logger may itself be what failed.
             let _ = caught(|| instance.logger.log(Status::Fatal, Category::Error, &message));
@@ -139,7 +140,7 @@ mod tests {
         let mut instance = Instance::new(Logger::new(&callbacks, c"rotor", false));
         let component: Component = (&raw mut instance).cast();
         for panic in [|| panic!("100% unexpected"), || panic!("{}", "100% unexpected".to_owned()) as fn() -> ()] {
-            instance.state = State::Instantiated;
+            instance.memory.state = State::Instantiated;
             // SAFETY: the instance lives, and only this thread uses it.
             let status = unsafe {
                 enter(component, &call::GET_REAL, |_| {
@@ -152,7 +153,7 @@ mod tests {
             assert_eq!(std::mem::take(&mut *lines.lock().unwrap()), [(Status::Fatal, line)]);
             // SAFETY: as above. Nothing but fmi2FreeInstance is legal any more, fmi2Reset neither, and nobody is told again.
             let status = unsafe { enter(component, &call::RESET_INSTANCE, |instance| instance.reset()) };
-            assert_eq!((status, instance.state), (Status::Fatal, State::Lost));
+            assert_eq!((status, instance.memory.state), (Status::Fatal, State::Lost));
             assert!(lines.lock().unwrap().is_empty());
         }
     }

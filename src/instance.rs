@@ -36,10 +36,18 @@ pub type Reply = Result<Status, Failure>;
 
 /// An instance of the FMU.
 pub struct Instance {
-    /// Where it is in its life.
-    pub state: State,
     /// Where its messages go.
     pub logger: Logger,
+    /// Everything else.
+    pub memory: Memory,
+}
+
+/// All that a saved FMU state holds and brings back: what follows is then equal to the last bit, because the solver's own
+/// history is in it.
+#[derive(Clone)]
+pub struct Memory {
+    /// Where the instance is in its life.
+    pub state: State,
     simulation: Simulation,
     experiment: Experiment,
     /// What the last fmi2DoStep returned.
@@ -66,14 +74,7 @@ impl Instance {
     /// A new instance with the scene's start values.
     pub fn new(logger: Logger) -> Self {
         logger.log(Status::Ok, Category::Events, "fmi2Instantiate: instantiated for co-simulation");
-        Self {
-            state: State::Instantiated,
-            logger,
-            simulation: fresh(),
-            experiment: Experiment::default(),
-            step_status: Status::Ok,
-            warned: false,
-        }
+        Self { logger, memory: Memory::new() }
     }
 
     /// fmi2SetDebugLogging
@@ -96,25 +97,25 @@ impl Instance {
             let bound = format!("a number from {LEAST_TOLERANCE:?} to 0.1");
             return Err(Failure::error(format!("tolerance = {tolerance:?} is not possible: it must be {bound}")));
         }
-        self.experiment = Experiment { start, stop, tolerance, ..self.experiment };
+        self.memory.experiment = Experiment { start, stop, tolerance, ..self.memory.experiment };
         Ok(Status::Ok)
     }
 
     /// fmi2EnterInitializationMode
     pub fn enter_initialization_mode(&mut self) -> Reply {
-        self.state = State::Initialization;
+        self.memory.state = State::Initialization;
         Ok(Status::Ok)
     }
 
     /// fmi2ExitInitializationMode
     pub fn exit_initialization_mode(&mut self) -> Reply {
-        let Experiment { start, tolerance, host_set_tolerance, .. } = self.experiment;
+        let Experiment { start, tolerance, host_set_tolerance, .. } = self.memory.experiment;
         let tolerance = tolerance.filter(|_| !host_set_tolerance);
-        self.simulation.start(start, tolerance).map_err(|invalid| Failure::error(invalid.to_string()))?;
-        self.state = State::StepComplete;
-        self.step_status = Status::Ok;
+        self.memory.simulation.start(start, tolerance).map_err(|invalid| Failure::error(invalid.to_string()))?;
+        self.memory.state = State::StepComplete;
+        self.memory.step_status = Status::Ok;
         if self.logger.hears(Category::Solver) {
-            let scene = self.simulation.parameters().setup.solver.relative_tolerance;
+            let scene = self.memory.simulation.parameters().setup.solver.relative_tolerance;
             let (value, origin) = match tolerance {
                 Some(value) => (value, "of fmi2SetupExperiment"),
                 None if host_set_tolerance => (scene, "that the host set as solver.relative_tolerance"),
@@ -128,19 +129,21 @@ impl Instance {
 
     /// fmi2Terminate
     pub fn terminate(&mut self) -> Reply {
-        self.state = State::Terminated;
+        self.memory.state = State::Terminated;
         self.logger.log(Status::Ok, Category::Events, "fmi2Terminate: terminated");
         Ok(Status::Ok)
     }
 
     /// fmi2Reset
     pub fn reset(&mut self) -> Reply {
-        self.simulation = fresh();
-        self.experiment = Experiment::default();
-        self.state = State::Instantiated;
-        self.step_status = Status::Ok;
-        self.warned = false;
+        self.memory = Memory::new();
         self.logger.log(Status::Ok, Category::Events, "fmi2Reset: all values are those of the scene again");
+        Ok(Status::Ok)
+    }
+
+    /// fmi2SetFMUstate
+    pub fn restore(&mut self, saved: &Memory) -> Reply {
+        self.memory.clone_from(saved);
         Ok(Status::Ok)
     }
 
@@ -178,12 +181,15 @@ impl Instance {
         for reference in references {
             // What cannot be calculated is refused before anything is written.
             if let Role::Output(_) = typed(*reference, kind)?.role {
-                self.simulation.read().map_err(|invalid| Failure::error(invalid.to_string()))?;
+                self.memory.simulation.read().map_err(|invalid| Failure::error(invalid.to_string()))?;
             }
         }
         for (reference, value) in references.iter().zip(values) {
-            let got =
-                self.simulation.get(Place::of(*reference)).map_err(|invalid| Failure::error(invalid.to_string()))?;
+            let got = self
+                .memory
+                .simulation
+                .get(Place::of(*reference))
+                .map_err(|invalid| Failure::error(invalid.to_string()))?;
             *value = convert(got.ok_or_else(|| unknown(*reference))?);
         }
         Ok(Status::Ok)
@@ -197,15 +203,15 @@ impl Instance {
             }
         }
         for (reference, value) in references.iter().zip(values) {
-            self.simulation.set_parameter(Place::of(*reference), convert(value));
-            self.experiment.host_set_tolerance |= typed(*reference, kind)?.name == "solver.relative_tolerance";
+            self.memory.simulation.set_parameter(Place::of(*reference), convert(value));
+            self.memory.experiment.host_set_tolerance |= typed(*reference, kind)?.name == "solver.relative_tolerance";
         }
         Ok(Status::Ok)
     }
 
     /// fmi2DoStep
     pub fn do_step(&mut self, from: Real, step: Real) -> Reply {
-        let now = self.simulation.time().unwrap_or(self.experiment.start);
+        let now = self.memory.simulation.time().unwrap_or(self.memory.experiment.start);
         let to = from + step;
         if !(step > 0.0 && step.is_finite()) {
             return Err(Failure::error(format!("communicationStepSize = {step:?} must be a finite number > 0")));
@@ -221,25 +227,25 @@ impl Instance {
                 2.0 * ulp(now)
             )));
         }
-        if let Some(stop) = self.experiment.stop.filter(|stop| to > *stop && !same_time(to, *stop, step)) {
+        if let Some(stop) = self.memory.experiment.stop.filter(|stop| to > *stop && !same_time(to, *stop, step)) {
             return Err(Failure::error(format!("the step to {to:?} goes past the stop time {stop:?}")));
         }
-        let outcome = self.simulation.advance(to);
-        if self.simulation.has_tilted() && !self.warned {
-            self.warned = true;
+        let outcome = self.memory.simulation.advance(to);
+        if self.memory.simulation.has_tilted() && !self.memory.warned {
+            self.memory.warned = true;
             let message = "fmi2DoStep: the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit \
                            at pi, and beyond 3.1 rad no step is possible";
             self.logger.log(Status::Warning, Category::Warning, message);
         }
         match outcome {
             Ok(()) => {
-                self.state = State::StepComplete;
-                self.step_status = Status::Ok;
+                self.memory.state = State::StepComplete;
+                self.memory.step_status = Status::Ok;
                 Ok(Status::Ok)
             }
             Err(fault) => {
-                self.state = State::StepFailed;
-                self.step_status = Status::Discard;
+                self.memory.state = State::StepFailed;
+                self.memory.step_status = Status::Discard;
                 Err(Failure::discard(fault.to_string()))
             }
         }
@@ -248,7 +254,7 @@ impl Instance {
     /// fmi2GetStatus
     pub fn status(&self, kind: Choice) -> Result<Status, Failure> {
         match kind {
-            status_kind::DO_STEP => Ok(self.step_status),
+            status_kind::DO_STEP => Ok(self.memory.step_status),
             _ => Err(wrong_kind(kind, "fmi2DoStepStatus")),
         }
     }
@@ -256,7 +262,9 @@ impl Instance {
     /// fmi2GetRealStatus
     pub fn real_status(&self, kind: Choice) -> Result<Real, Failure> {
         match kind {
-            status_kind::LAST_SUCCESSFUL_TIME => Ok(self.simulation.time().unwrap_or(self.experiment.start)),
+            status_kind::LAST_SUCCESSFUL_TIME => {
+                Ok(self.memory.simulation.time().unwrap_or(self.memory.experiment.start))
+            }
             _ => Err(wrong_kind(kind, "fmi2LastSuccessfulTime")),
         }
     }
@@ -264,7 +272,7 @@ impl Instance {
     /// fmi2GetBooleanStatus: after a step that could not be done, no shorter one can.
     pub fn boolean_status(&self, kind: Choice) -> Result<Boolean, Failure> {
         match kind {
-            status_kind::TERMINATED => Ok(Boolean::from(self.step_status == Status::Discard)),
+            status_kind::TERMINATED => Ok(Boolean::from(self.memory.step_status == Status::Discard)),
             _ => Err(wrong_kind(kind, "fmi2Terminated")),
         }
     }
@@ -283,9 +291,18 @@ pub enum Type {
     String,
 }
 
-/// A simulation with the scene's start values.
-fn fresh() -> Simulation {
-    Simulation::new(STARTS.iter().map(|(reference, value)| (Place::of(*reference), *value)))
+impl Memory {
+    /// That of a new instance, with the scene's start values.
+    fn new() -> Self {
+        let starts = STARTS.iter().map(|(reference, value)| (Place::of(*reference), *value));
+        Self {
+            state: State::Instantiated,
+            simulation: Simulation::new(starts),
+            experiment: Experiment::default(),
+            step_status: Status::Ok,
+            warned: false,
+        }
+    }
 }
 
 /// What is said of a variable, if it is of this type.

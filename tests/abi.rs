@@ -117,9 +117,9 @@ calls! {
     fmi2SetInteger([reference("solver.method")].as_ptr(), 1, [2].as_ptr()) I | N;
     fmi2SetBoolean(null(), 0, null()) I | N;
     fmi2SetString(null(), 0, null()) I | N;
-    fmi2GetFMUstate([null_mut()].as_mut_ptr()) ANY, absent;
+    fmi2GetFMUstate([null_mut()].as_mut_ptr()) ANY;
     fmi2SetFMUstate(null_mut()) ANY, absent;
-    fmi2FreeFMUstate([null_mut()].as_mut_ptr()) ANY, absent;
+    fmi2FreeFMUstate([null_mut()].as_mut_ptr()) ANY;
     fmi2SerializedFMUstateSize(null_mut(), [0].as_mut_ptr()) ANY, absent;
     fmi2SerializeFMUstate(null_mut(), [0; 8].as_mut_ptr(), 8) ANY, absent;
     fmi2DeSerializeFMUstate([0; 8].as_ptr(), 8, [null_mut()].as_mut_ptr()) ANY, absent;

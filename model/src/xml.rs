@@ -51,6 +51,7 @@ fn write(out: &mut Out, scene: &Scene, guid: &str) -> io::Result<()> {
             ("modelIdentifier", scene.identifier()),
             ("canHandleVariableCommunicationStepSize", "true".into()),
             ("canNotUseMemoryManagementFunctions", "true".into()),
+            ("canGetAndSetFMUstate", "true".into()),
         ];
         empty(out, "CoSimulation", &capabilities)?;
         units(out, &scene.variables)?;

@@ -4,7 +4,7 @@ use super::absent;
 use crate::abi::*;
 use crate::calls::call;
 use crate::guard::{caught, enter, places, text, values};
-use crate::instance::{Failure, Instance, Type};
+use crate::instance::{Failure, Instance, Memory, Type};
 use crate::logger::Logger;
 use crate::scene::GUID;
 use model::log::Category;
@@ -258,25 +258,46 @@ pub unsafe extern "C" fn fmi2SetString(
     }
 }
 
-/// Not there yet.
+/// Saves all that the instance holds; an object saved before is used again.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, _state: *mut FmuState) -> Status {
-    // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::GET_FMU_STATE, NO_STATE) }
+pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut FmuState) -> Status {
+    // SAFETY: the host keeps the contract of the standard: a state that is not null came from this function.
+    unsafe {
+        enter(component, &call::GET_FMU_STATE, |instance| {
+            let place = state.as_mut().ok_or_else(|| Failure::error("FMUstate is a null pointer"))?;
+            match place.cast::<Memory>().as_mut() {
+                Some(saved) => saved.clone_from(&instance.memory),
+                None => *place = Box::into_raw(Box::new(instance.memory.clone())).cast(),
+            }
+            Ok(Status::Ok)
+        })
+    }
 }
 
-/// Not there yet.
+/// Brings back all that was saved.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, _state: FmuState) -> Status {
-    // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::SET_FMU_STATE, NO_STATE) }
+pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, state: FmuState) -> Status {
+    // SAFETY: as above.
+    unsafe {
+        enter(component, &call::SET_FMU_STATE, |instance| {
+            instance
+                .restore(state.cast::<Memory>().as_ref().ok_or_else(|| Failure::error("FMUstate is a null pointer"))?)
+        })
+    }
 }
 
-/// Not there yet.
+/// Frees a saved state, and makes the pointer null; a null state is left alone.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, _state: *mut FmuState) -> Status {
-    // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::FREE_FMU_STATE, NO_STATE) }
+pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut FmuState) -> Status {
+    // SAFETY: as above, and the host uses the state no more.
+    unsafe {
+        enter(component, &call::FREE_FMU_STATE, |_| {
+            if let Some(place) = state.as_mut().filter(|place| !place.is_null()) {
+                drop(Box::from_raw(std::mem::replace(place, std::ptr::null_mut()).cast::<Memory>()));
+            }
+            Ok(Status::Ok)
+        })
+    }
 }
 
 /// Not there yet.
@@ -329,6 +350,5 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     unsafe { absent(component, &call::GET_DIRECTIONAL_DERIVATIVE, NO_DERIVATIVE) }
 }
 
-const NO_STATE: &str = "the FMU state cannot be saved yet: canGetAndSetFMUstate is false";
 const NO_BYTES: &str = "the FMU state cannot be serialized yet: canSerializeFMUstate is false";
 const NO_DERIVATIVE: &str = "there are no directional derivatives yet: providesDirectionalDerivative is false";

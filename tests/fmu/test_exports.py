@@ -44,10 +44,6 @@ def test_exact_platform_and_version(host):
 @pytest.mark.parametrize(
     "call, arguments, reason",
     [
-        ("getFMUstate", (), "fmi2GetFMUstate: the FMU state cannot be saved yet: canGetAndSetFMUstate is false"),
-        ("setFMUstate", (None,), "fmi2SetFMUstate: the FMU state cannot be saved yet: canGetAndSetFMUstate is false"),
-        ("freeFMUstate", (ctypes.c_void_p(),), "fmi2FreeFMUstate: the FMU state cannot be saved yet: "
-                                               "canGetAndSetFMUstate is false"),
         ("serializeFMUstate", (None,), "fmi2SerializedFMUstateSize: the FMU state cannot be serialized yet: "
                                        "canSerializeFMUstate is false"),
         ("deSerializeFMUstate", (b"state",), "fmi2DeSerializeFMUstate: the FMU state cannot be serialized yet: "

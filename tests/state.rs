@@ -1,0 +1,138 @@
+//! Rollback: after fmi2SetFMUstate everything goes on with the bits that followed when the state was saved, whatever
+//! happened in between.
+#![allow(unsafe_code, reason = "FMU states are raw pointers")]
+
+mod harness;
+
+use harness::Instance;
+use proptest::prelude::*;
+use split_rotor::abi::{FmuState, Real, Status};
+use split_rotor::exports::{fmi2FreeFMUstate, fmi2GetFMUstate, fmi2SetFMUstate};
+use std::ptr::null_mut;
+
+/// A saved state, freed with the instance that it came from.
+struct Saved(FmuState);
+
+impl Saved {
+    fn of(instance: &Instance) -> Self {
+        let mut saved = Self(null_mut());
+        saved.again(instance);
+        assert!(!saved.0.is_null());
+        saved
+    }
+
+    /// Saves into the same object.
+    fn again(&mut self, instance: &Instance) {
+        // SAFETY: a live instance; null, or a state of this FMU's.
+        assert_eq!(unsafe { fmi2GetFMUstate(instance.component(), &raw mut self.0) }, Status::Ok);
+    }
+
+    fn restore(&self, instance: &Instance) {
+        // SAFETY: a live instance and a state of this FMU's.
+        assert_eq!(unsafe { fmi2SetFMUstate(instance.component(), self.0) }, Status::Ok);
+    }
+
+    fn free(mut self, instance: &Instance) {
+        // SAFETY: as above.
+        assert_eq!(unsafe { fmi2FreeFMUstate(instance.component(), &raw mut self.0) }, Status::Ok);
+        assert!(self.0.is_null());
+        // A second time there is nothing to free, which is no error.
+        // SAFETY: as above.
+        assert_eq!(unsafe { fmi2FreeFMUstate(instance.component(), &raw mut self.0) }, Status::Ok);
+    }
+}
+
+/// The paper's rotor; one that is damped; one that tumbles through both charts.
+const STARTS: [&[(&str, Real)]; 3] = [
+    &[],
+    &[("support.d1", 30.0), ("support.d2", 0.5)],
+    &[("support.c2", 0.0), ("start.omega.x", 1.0), ("start.omega.y", 20.0)],
+];
+
+/// Walks through steps [s] from a time, and what all variables show after each.
+fn walk(instance: &mut Instance, from: Real, steps: &[Real]) -> Vec<Vec<u64>> {
+    let mut t = from;
+    let one = |step: &Real| {
+        assert_eq!(instance.do_step(t, *step), Status::Ok);
+        t += step;
+        instance.bits()
+    };
+    steps.iter().map(one).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(48) })]
+
+    #[test]
+    fn exact_what_follows_a_rollback_has_the_same_bits(
+        start in 0..STARTS.len(),
+        method in 2..=3,
+        before in prop::collection::vec(1e-4..0.1_f64, 0..8),
+        after in prop::collection::vec(1e-4..0.1_f64, 1..8),
+        detour in prop::collection::vec(1e-4..0.3_f64, 0..4),
+    ) {
+        let mut instance = Instance::quiet();
+        instance.set_method(method);
+        let mut instance = instance.started(STARTS[start]);
+        walk(&mut instance, 0.0, &before);
+        let now: Real = before.iter().fold(0.0, |t, step| t + step);
+        let here = instance.bits();
+        let mut saved = Saved::of(&instance);
+        let expected = walk(&mut instance, now, &after);
+        saved.restore(&instance);
+        prop_assert_eq!(instance.bits(), here.clone());
+        // Another way, and back; saved once more into the same object.
+        walk(&mut instance, now, &detour);
+        saved.restore(&instance);
+        saved.again(&instance);
+        prop_assert_eq!(walk(&mut instance, now, &after), expected.clone());
+        // After the end, and after a reset.
+        assert_eq!(instance.terminate(), Status::Ok);
+        saved.restore(&instance);
+        prop_assert_eq!(walk(&mut instance, now, &after), expected.clone());
+        assert_eq!(instance.reset(), Status::Ok);
+        saved.restore(&instance);
+        prop_assert_eq!(walk(&mut instance, now, &after), expected.clone());
+        // In another instance.
+        let mut other = Instance::quiet();
+        saved.restore(&other);
+        prop_assert_eq!(walk(&mut other, now, &after), expected);
+        saved.free(&instance);
+    }
+}
+
+#[test]
+fn exact_a_state_brings_back_a_failed_step_and_settings() {
+    let mut instance = Instance::quiet();
+    let fresh = Saved::of(&instance);
+    instance.set_all(&[("support.c1", 0.0), ("support.c2", 1e-300), ("start.omega.x", 0.0), ("start.omega.y", 30.0)]);
+    let mut instance = instance.initialized();
+    let start = Saved::of(&instance);
+    assert_eq!(instance.do_step(0.0, 1.0), Status::Discard);
+    let failed = (Saved::of(&instance), instance.last_successful_time(), instance.bits());
+    start.restore(&instance);
+    assert_eq!(instance.last_successful_time(), Ok(0.0));
+    assert_eq!(instance.do_step(0.0, 0.05), Status::Ok);
+    failed.0.restore(&instance);
+    assert_eq!((instance.last_successful_time(), instance.bits()), (failed.1, failed.2));
+    assert_eq!((instance.step_status(), instance.terminated()), (Ok(Status::Discard), Ok(true)));
+    // Back to before anything was set.
+    fresh.restore(&instance);
+    assert_eq!(instance.get("support.c1"), 2000.0);
+    let expected = Instance::quiet().started(&[]).run(0.0, 0.01, 20);
+    assert_eq!(instance.started(&[]).run(0.0, 0.01, 20), expected);
+}
+
+#[test]
+fn fmi_null_states_are_errors() {
+    let instance = Instance::quiet();
+    // SAFETY: a live instance and null pointers.
+    unsafe {
+        assert_eq!(fmi2GetFMUstate(instance.component(), null_mut()), Status::Error);
+        assert_eq!(fmi2SetFMUstate(instance.component(), null_mut()), Status::Error);
+        assert_eq!(fmi2FreeFMUstate(instance.component(), null_mut()), Status::Ok);
+    }
+    let messages: Vec<_> = instance.journal.take().into_iter().map(|record| record.message).collect();
+    let null = "FMUstate is a null pointer";
+    assert_eq!(messages, [format!("fmi2GetFMUstate: {null}"), format!("fmi2SetFMUstate: {null}")]);
+}
