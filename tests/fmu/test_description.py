@@ -10,6 +10,7 @@ from fmpy.validation import validate_fmu
 
 STRUCTURED = re.compile(r"[A-Za-z]\w*(\[[1-4]\])?(\.\w+)*|der\(.*\)", re.ASCII)
 CAPABILITIES = {
+    "canGetAndSetFMUstate": "true",
     "canHandleVariableCommunicationStepSize": "true",
     "canNotUseMemoryManagementFunctions": "true",
 }

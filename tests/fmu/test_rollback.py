@@ -1,6 +1,5 @@
 """fmpy saves and restores the FMU state of the packaged FMU: what follows has the same bits."""
 
-import pytest
 from host import OK
 
 STEP = 0.013  # [s]
@@ -24,8 +23,3 @@ def test_exact_rollback(fmu):
         host.slave.setFMUState(saved)
         assert walk(host, 7 * STEP, 20) == expected
         host.slave.freeFMUState(saved)
-
-
-@pytest.mark.parametrize("flag", ["canGetAndSetFMUstate"])
-def test_exact_the_capability_is_declared(fmu, flag):
-    assert getattr(fmu.description.coSimulation, flag) is True
