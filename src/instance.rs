@@ -4,6 +4,7 @@ use crate::abi::{Boolean, Choice, Integer, Real, Status, status_kind};
 use crate::calls::State;
 use crate::logger::Logger;
 use crate::scene::{Effects, STARTS, Simulation};
+use model::integrate::Cost;
 use model::log::Category;
 use model::variable::{Kind, Meta, Place, Role};
 use model::variables::{LEAST_TOLERANCE, Parameters};
@@ -90,8 +91,8 @@ impl Instance {
         if !start.is_finite() {
             return Err(Failure::error(format!("startTime = {start:?} must be a finite number of seconds")));
         }
-        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop <= start) {
-            return Err(Failure::error(format!("stopTime = {stop:?} must be later than startTime = {start:?}")));
+        if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
+            return Err(Failure::error(format!("stopTime = {stop:?} must not be before startTime = {start:?}")));
         }
         if let Some(tolerance) = tolerance.filter(|value| !(LEAST_TOLERANCE..=0.1).contains(value)) {
             let bound = format!("a number from {LEAST_TOLERANCE:?} to 0.1");
@@ -124,6 +125,7 @@ impl Instance {
             let message = format!("the relative tolerance in force is {value:?}, the one {origin}");
             self.logger.log(Status::Ok, Category::Solver, &message);
         }
+        self.warn_of_tilt();
         Ok(Status::Ok)
     }
 
@@ -131,6 +133,14 @@ impl Instance {
     pub fn terminate(&mut self) -> Reply {
         self.memory.state = State::Terminated;
         self.logger.log(Status::Ok, Category::Events, "fmi2Terminate: terminated");
+        if self.logger.hears(Category::Solver)
+            && let Ok(reading) = self.memory.simulation.read()
+        {
+            let Cost { steps, rejected, evaluations, .. } = reading.cost;
+            let message =
+                format!("the solver spent {steps} steps, {rejected} rejected ones, {evaluations} evaluations");
+            self.logger.log(Status::Ok, Category::Solver, &message);
+        }
         Ok(Status::Ok)
     }
 
@@ -223,7 +233,7 @@ impl Instance {
         }
         if to <= now {
             return Err(Failure::error(format!(
-                "communicationStepSize = {step:?} is too small to advance the time {now:?}: at least {:?} is needed",
+                "communicationStepSize = {step:?} is too small to advance the time {now:?}: about {:?} is needed",
                 2.0 * ulp(now)
             )));
         }
@@ -231,12 +241,7 @@ impl Instance {
             return Err(Failure::error(format!("the step to {to:?} goes past the stop time {stop:?}")));
         }
         let outcome = self.memory.simulation.advance(to);
-        if self.memory.simulation.has_tilted() && !self.memory.warned {
-            self.memory.warned = true;
-            let message = "fmi2DoStep: the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit \
-                           at pi, and beyond 3.1 rad no step is possible";
-            self.logger.log(Status::Warning, Category::Warning, message);
-        }
+        self.warn_of_tilt();
         match outcome {
             Ok(()) => {
                 self.memory.state = State::StepComplete;
@@ -248,6 +253,16 @@ impl Instance {
                 self.memory.step_status = Status::Discard;
                 Err(Failure::discard(fault.to_string()))
             }
+        }
+    }
+
+    /// Says once that the tilt is large, where that matters.
+    fn warn_of_tilt(&mut self) {
+        if self.memory.simulation.has_tilted() && !self.memory.warned {
+            self.memory.warned = true;
+            let message = "the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit at pi, and \
+                           beyond 3.1 rad no step is possible";
+            self.logger.log(Status::Warning, Category::Warning, message);
         }
     }
 

@@ -52,9 +52,9 @@ pub trait Effect: Clone + Default + Send + 'static {
     }
 
     /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
-    /// integrals are not solved.
+    /// integrals are not solved. An effect that never can says false here; to forget it costs time, not energy.
     fn works(&self) -> bool {
-        false
+        true
     }
 }
 

@@ -70,10 +70,7 @@ impl<E: Effects> Simulation<E> {
         solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
         parameters.check()?;
         self.reading = None;
-        let total = at_start(&parameters).ledger.total();
-        if !total.is_finite() {
-            return Err(Invalid::new("energy.total", total, "finite: the start values or parameters are too large"));
-        }
+        at_start(&parameters)?;
         let motion = Motion::at_start(&parameters);
         self.run = Some(if parameters.effects.works() {
             Run::Working(Drive::start(motion, &parameters.setup, t))
@@ -135,7 +132,7 @@ impl<E: Effects> Simulation<E> {
                 Some(Run::Working(drive)) => drive.read(),
                 None => {
                     self.parameters.check()?;
-                    at_start(&self.parameters)
+                    at_start(&self.parameters)?
                 }
             });
         }
@@ -143,12 +140,16 @@ impl<E: Effects> Simulation<E> {
     }
 }
 
-/// The reading before the start: what the parameters make of it.
-fn at_start<E: Effects>(parameters: &Parameters<E>) -> Reading {
+/// The reading before the start: what the parameters make of it. An error where it overflows.
+fn at_start<E: Effects>(parameters: &Parameters<E>) -> Result<Reading, Invalid> {
     let Motion { rotor, coordinates, .. } = Motion::at_start(parameters);
     let motion = Kinematics::new(rotor.body, rotor.chart, coordinates);
     let phi = Angle { turns: 0.0, remainder: parameters.setup.start.phi }.wrapped();
     let mut ledger = Ledger::new(&motion, &rotor.effects, 0.0, 0.0, 0.0);
     ledger.total_at_start = ledger.total();
-    Reading { motion, phi, ledger, cost: Cost::default() }
+    if !ledger.total().is_finite() {
+        let bound = "finite: the start values or parameters are too large";
+        return Err(Invalid::new("energy.total", ledger.total(), bound));
+    }
+    Ok(Reading { motion, phi, ledger, cost: Cost::default() })
 }

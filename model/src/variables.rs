@@ -76,8 +76,10 @@ impl Reading {
         &self.motion.at.k_c
     }
 
+    /// γ from e [rad], where rounding gives |γ| > π: π.
     fn gamma(&self) -> Vector3<f64> {
-        self.motion.tilt.gamma()
+        let gamma = self.motion.tilt.gamma();
+        if gamma.norm() > PI { gamma * (1.0 - 2.0 * f64::EPSILON) } else { gamma }
     }
 
     fn omega(&self) -> &Vector3<f64> {
@@ -177,9 +179,13 @@ const SOLVER: &[Always] = &[
     ),
     output!("solver.steps", &ONE, NOTHING, "steps accepted so far", |_, r| r.cost.steps),
     output!("solver.rejected", &ONE, NOTHING, "steps rejected so far", |_, r| r.cost.rejected),
-    output!("solver.evaluations", &ONE, NOTHING, "evaluations of the right-hand side so far", |_, r| r
-        .cost
-        .evaluations),
+    output!(
+        "solver.evaluations",
+        &ONE,
+        NOTHING,
+        "evaluations of the right-hand side so far, those for outputs between two steps included",
+        |_, r| r.cost.evaluations
+    ),
     output!(
         "solver.next_step",
         &SECOND,

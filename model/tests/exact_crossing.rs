@@ -18,16 +18,17 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
-const BODY: Body = Body { m: 5.0, Ja: 0.15625, Jt: 0.078125, l: 0.75 };
+/// From the thin disk to a needle: Ja/Jt [1].
+const SHAPES: [f64; 4] = [2.0, 0.5, 0.1, 0.01];
 
 fn about_e(angle: f64) -> Matrix3<f64> {
     let (sin, cos) = libm::sincos(angle);
     Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
 }
 
-/// Where charts are switched: |γ| [rad] from 2.0, where a chart is left, to 2.6, where a step may end.
+/// Where charts are switched: |γ| [rad] from 2.0, where a chart is left, to 2.8, where a step may end.
 fn tilt() -> impl Strategy<Value = Vector2<f64>> {
-    (2.0..2.6_f64, 0.0..TAU)
+    (2.0..2.8_f64, 0.0..TAU)
         .prop_map(|(theta, azimuth)| Vector2::new(theta * libm::cos(azimuth), theta * libm::sin(azimuth)))
 }
 
@@ -35,11 +36,12 @@ fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
     (-size..size, -size..size, -size..size).prop_map(|(x, y, z)| Vector3::new(x, y, z))
 }
 
-/// Energy of the state before and after a switch, both without rounding [ulp of a double]; measured 1.7.
+/// Energy of the state before and after a switch, both without rounding [ulp of a double], √(Jt/Ja) times that for a
+/// slender rotor; measured 1.7 where Ja ≥ Jt/2, 12 where Ja = Jt/100.
 const ENERGY: f64 = 2.0;
 
-/// The same as doubles show it, rounding and all [ulp]; measured 0 in half of all cases, at most 2 in 98 %, 6 at worst.
-const ENERGY_AS_SHOWN: f64 = 8.0;
+/// The same as doubles show it, rounding and all [ulp]; measured 0 in half of all cases, at most 2 in 98 %, 11 at worst.
+const ENERGY_AS_SHOWN: f64 = 16.0;
 
 /// There and back, relative [1]; measured 2.1e-16, one unit in the last place.
 const ROUND_TRIP: f64 = 3e-16;
@@ -55,8 +57,8 @@ fn mount() -> Mount {
     mount
 }
 
-/// Total energy [J] in a chart, over any scalar.
-fn total<S: Scalar>(chart: Chart, at: Coordinates<f64>) -> S {
+/// Total energy [J] of a body of this shape in a chart, over any scalar.
+fn total<S: Scalar>(shape: f64, chart: Chart, at: Coordinates<f64>) -> S {
     let at = Coordinates {
         r_c: at.r_c.map(S::constant),
         v_c: at.v_c.map(S::constant),
@@ -64,7 +66,7 @@ fn total<S: Scalar>(chart: Chart, at: Coordinates<f64>) -> S {
         gamma: at.gamma.map(S::constant),
         phi: S::constant(at.phi),
     };
-    let motion = Kinematics::new(BODY, chart, at);
+    let motion = Kinematics::new(Body { m: 5.0, Ja: shape * 0.078125, Jt: 0.078125, l: 0.75 }, chart, at);
     energy::kinetic(&motion) + mount().potential(&motion)
 }
 
@@ -72,14 +74,16 @@ proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(20_000) })]
 
     #[test]
-    fn exact_energy_across_a_switch(gamma in tilt(), v_c in vector(10.0), k_c in vector(10.0), r_c in vector(1.0)) {
+    fn exact_energy_across_a_switch(shape in 0..SHAPES.len(), gamma in tilt(), v_c in vector(10.0), k_c in vector(10.0), r_c in vector(1.0)) {
+        // What the rounding of γ′ to doubles alone moves: ω_a |K| of ½Ja ω_a² + ½K²/Jt.
+        let (shape, slender) = (SHAPES[shape], (1.0 / SHAPES[shape]).sqrt().max(1.0));
         let before = Coordinates { r_c, v_c, k_c, gamma, phi: 0.0 };
         let after = Coordinates { gamma: crossed_exactly(gamma), ..before };
-        let change = total::<DoubleDouble>(Chart::FromMinusE, after) - total(Chart::FromE, before);
-        let shown: (f64, f64) = (total(Chart::FromE, before), total(Chart::FromMinusE, after));
+        let change = total::<DoubleDouble>(shape, Chart::FromMinusE, after) - total(shape, Chart::FromE, before);
+        let shown: (f64, f64) = (total(shape, Chart::FromE, before), total(shape, Chart::FromMinusE, after));
         let ulp = shown.0.next_up() - shown.0;
-        prop_assert!(change.high.abs() <= ENERGY * ulp, "{} ulp", change.high / ulp);
-        prop_assert!((shown.0 - shown.1).abs() <= ENERGY_AS_SHOWN * ulp, "{} ulp", (shown.0 - shown.1) / ulp);
+        prop_assert!(change.high.abs() <= ENERGY * slender * ulp, "{} ulp", change.high / ulp);
+        prop_assert!((shown.0 - shown.1).abs() <= ENERGY_AS_SHOWN * slender * ulp, "{} ulp", (shown.0 - shown.1) / ulp);
         let back = crossed_exactly(after.gamma);
         prop_assert!((back - gamma).norm() <= ROUND_TRIP * gamma.norm(), "{:e}", (back - gamma).norm() / gamma.norm());
     }

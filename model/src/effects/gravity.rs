@@ -29,6 +29,10 @@ impl Effect for Gravity {
         Wrench { force: (self.g * motion.body.m).map(S::constant), moment: Vector3::zeros() }
     }
 
+    fn works(&self) -> bool {
+        false
+    }
+
     #[inline(always)]
     fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
         // eq. 13: V = −m g·r_c

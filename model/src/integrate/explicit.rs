@@ -22,6 +22,9 @@ pub struct Explicit<const N: usize> {
     segment: Segment<N>,
 }
 
+/// A refused step is tried again with this part of it.
+const REFUSED: f64 = 0.6;
+
 /// A first step spans at least so many units in the last place of the time.
 const LEAST_FIRST: f64 = 100.0;
 
@@ -168,7 +171,11 @@ impl<const N: usize> Explicit<N> {
             };
             self.stall.obstacle = obstacle;
             self.cost.rejected += 1.0;
-            self.h *= self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
+            self.h *= match obstacle {
+                None => self.controller.rejected(error),
+                Some(Obstacle::Refused(_)) => self.controller.rejected(f64::INFINITY).max(REFUSED),
+                Some(Obstacle::NotFinite) => self.controller.rejected(f64::INFINITY),
+            };
         }
     }
 

@@ -27,7 +27,7 @@ impl Chart {
     const SWITCH: f64 = 2.0;
 
     /// A step that ends beyond this |γ| [rad] was too long: the chart is singular at π.
-    pub const REACH: f64 = 2.6;
+    pub const REACH: f64 = 2.8;
 
     /// +1 where γ turns e into t, −1 where it turns −e into t [1].
     #[inline(always)]

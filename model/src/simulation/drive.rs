@@ -47,8 +47,12 @@ struct LastStep {
     closest: Option<(f64, Vector2<f64>)>,
 }
 
-/// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely.
-const MUCH: f64 = 0.3;
+/// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely: on a
+/// curved path it may have turned by more than π. What whirls steadily turns by less ([`LONGEST_WHIRL`]).
+const MUCH: f64 = 1.2;
+
+/// So near −e [rad], a law that ends close to it makes every step looked at: an axis may go there and back within one.
+const NEAR: f64 = 1.0;
 
 /// Steps below this part of the time wanted, or of the longest step, get nowhere: that would take 10¹² of them.
 const LEAST_PART: f64 = 1e-12;
@@ -57,8 +61,12 @@ const LEAST_PART: f64 = 1e-12;
 /// last place for the remainder of φ to stay exact.
 const LONGEST_TURN: f64 = 16.0 * TAU;
 
-/// γ [rad] advances by about so much at most in a step, so that a chart is left well before its end.
-const LONGEST_TILT: f64 = 0.5;
+/// γ [rad] advances by about so much at most in a step: through −e it may go straight, where no error is seen that would
+/// keep the step from growing, and be dense output at both ends.
+const LONGEST_TILT: f64 = 1.0;
+
+/// The azimuth of γ from −e [rad] advances by about so much at most in a step, so that its turns can be counted.
+const LONGEST_WHIRL: f64 = 1.0;
 
 impl<E: Effects, const N: usize> Drive<E, N> {
     /// A drive from time `t` [s].
@@ -101,26 +109,36 @@ impl<E: Effects, const N: usize> Drive<E, N> {
                 self.t = self.method.time();
                 return Err(fault);
             }
+            self.settle(t);
         }
         self.t = t;
         Ok(())
     }
 
+    /// A step that keeps to what the chart and the counting of turns allow.
+    fn limit_step(&mut self) {
+        let (at, rate) = (gamma(self.method.state()), gamma(self.method.rate()));
+        self.method.limit_step(LONGEST_TURN / self.method.rate()[PHI].abs());
+        // At its present rate γ stays within reach of its chart.
+        self.method.limit_step((Chart::REACH - at.norm()).min(LONGEST_TILT) / rate.norm());
+        if self.rotor.chart == Chart::FromMinusE {
+            // dβ/dt = e·(γ×dγ/dt)/|γ|²
+            self.method.limit_step(LONGEST_WHIRL * at.norm_squared() / at.perp(&rate).abs());
+        }
+    }
+
     fn step(&mut self, least: f64) -> Result<(), Fault> {
-        let rate = self.method.rate();
-        let (spin, tilting) = (rate[PHI].abs(), gamma(rate).norm());
-        self.method.limit_step((LONGEST_TURN / spin).min(LONGEST_TILT / tilting));
+        self.limit_step();
         // Near −e a step can pass where it may not end; then it is taken back.
         let before = (self.rotor.chart == Chart::FromMinusE && self.rotor.effects.needs_gamma())
             .then(|| (self.method.clone(), self.last));
         let mut limit = f64::INFINITY;
         loop {
             self.method.step(&self.rotor, least)?;
-            let gamma = gamma(self.method.start_state());
-            self.last = LastStep { chart: self.rotor.chart, turns: self.turns, gamma, closest: None };
-            if self.rotor.chart == Chart::FromMinusE
-                && azimuth_change(gamma, self::gamma(self.method.state())).abs() > MUCH
-            {
+            let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
+            self.last = LastStep { chart: self.rotor.chart, turns: self.turns, gamma: from, closest: None };
+            let near = before.is_some() && from.norm().min(to.norm()) < NEAR;
+            if self.rotor.chart == Chart::FromMinusE && (near || azimuth_change(from, to).abs() > MUCH) {
                 self.last.closest = Some(self.closest_to_origin());
             }
             match (&before, self.last.closest) {
@@ -133,20 +151,21 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             }
         }
         self.longest = self.longest.max(self.method.time() - self.method.start_time());
-        self.settle();
         Ok(())
     }
 
-    /// After a step: counts whole turns, and goes on in the other chart where this one is left.
-    fn settle(&mut self) {
+    /// After a step on the way to time `t` [s]: counts whole turns, and goes on in the other chart where this one is left.
+    fn settle(&mut self, t: f64) {
         let y = *self.method.state();
         let gamma = gamma(&y);
         self.watch_tilt(Tilt::new(self.rotor.chart, gamma).axis.x);
         let turns = self.turns_at(self.method.time(), gamma);
         let chart = self.rotor.chart;
         if chart.is_left_at(gamma) {
-            // The last step is still to be read, in its own chart.
-            self.method.prepare_dense(&self.rotor);
+            if t < self.method.time() {
+                // The last step is still to be read, in its own chart.
+                self.method.prepare_dense(&self.rotor);
+            }
             let phi = chart.axial_angle(turns, y[PHI], gamma);
             let crossed = crossed_exactly(gamma);
             self.rotor.chart = chart.other();
@@ -177,15 +196,21 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     /// When [s] and where [rad] γ came closest to the origin in the last step, by golden sections of its dense output.
     fn closest_to_origin(&mut self) -> (f64, Vector2<f64>) {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        let (start, end) = (self.method.start_time(), self.method.time());
-        let (mut low, mut high) = (start, end);
-        let mut at = |t: f64| gamma(&self.method.dense(&self.rotor, t));
-        for _ in 0..80 {
-            let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-            if at(a).norm_squared() < at(b).norm_squared() { high = b } else { low = a }
+        const SECTIONS: u32 = 40;
+        let (mut low, mut high) = (self.method.start_time(), self.method.time());
+        let mut at = |t: f64| (t, gamma(&self.method.dense(&self.rotor, t)));
+        let mut a = at(high - GOLDEN * (high - low));
+        let mut b = at(low + GOLDEN * (high - low));
+        for _ in 0..SECTIONS {
+            if a.1.norm_squared() < b.1.norm_squared() {
+                (high, b) = (b.0, a);
+                a = at(high - GOLDEN * (high - low));
+            } else {
+                (low, a) = (a.0, b);
+                b = at(low + GOLDEN * (high - low));
+            }
         }
-        let t = 0.5 * (low + high);
-        (t, at(t))
+        if a.1.norm_squared() < b.1.norm_squared() { a } else { b }
     }
 
     /// What the communication point shows.

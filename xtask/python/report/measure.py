@@ -4,8 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-BOUND_FACTOR = 100.0
+BOUND_FACTOR = 10.0
 """How many relative tolerances the energy may be off, of the energy turned over."""
+LARGEST_BOUND = 1e-3
+"""What it may be off at most, however loose the tolerance."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,7 @@ def energy_balance(result, relative_tolerance):
     return EnergyBalance(
         residual=np.abs(result["energy.residual"]).max(),
         turnover=turnover,
-        bound=BOUND_FACTOR * relative_tolerance * turnover,
+        bound=min(BOUND_FACTOR * relative_tolerance, LARGEST_BOUND) * turnover,
     )
 
 
