@@ -704,7 +704,7 @@ fn fmi_setup_experiment_refuses_what_cannot_be_and_changes_nothing() {
         (None, nan, None, "startTime"),
         (None, Real::INFINITY, None, "startTime"),
         (None, 0.0, Some(nan), "stopTime"),
-        (None, 0.0, Some(0.0), "stopTime"),
+        (None, 0.0, Some(-1.0), "stopTime"),
         (None, 2.0, Some(1.0), "stopTime"),
         (Some(nan), 0.0, None, "tolerance"),
         (Some(0.0), 0.0, None, "tolerance"),
