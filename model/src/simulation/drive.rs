@@ -61,8 +61,8 @@ const LEAST_PART: f64 = 1e-12;
 /// last place for the remainder of φ to stay exact.
 const LONGEST_TURN: f64 = 16.0 * TAU;
 
-/// γ [rad] advances by about so much at most in a step: through −e it may go straight, where no error is seen that would
-/// keep the step from growing, and be dense output at both ends.
+/// γ [rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
+/// keep the step from growing beyond what its dense output can follow.
 const LONGEST_TILT: f64 = 1.0;
 
 /// The azimuth of γ from −e [rad] advances by about so much at most in a step, so that its turns can be counted.
