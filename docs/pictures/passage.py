@@ -7,32 +7,14 @@ Needs numpy and matplotlib:  python passage.py
 Equation numbers are those of ../theory.md.
 """
 
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
-
-BLUE, ORANGE, GREY = "#1f5fa8", "#c8500a", "#666666"
+from style import BLUE, GREY, ORANGE, save
 
 RATE = 10.0  # Ω [rad/s]
 DELTA = 0.02  # δ [rad]
 HEADING = np.radians(25.0)  # direction of γ′ along the passage, from y towards z
 SPAN = 0.05  # half of the time shown [s]
-
-plt.rcParams.update(
-    {
-        "svg.fonttype": "none",  # text stays text
-        "svg.hashsalt": "split-rotor",  # the same ids at every run
-        "font.family": "sans-serif",  # DejaVu comes with matplotlib
-        "font.sans-serif": ["DejaVu Sans"],
-        "font.size": 10,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-    }
-)
 
 E = np.array([1.0, 0.0, 0.0])
 # Along and across the passage in the plane normal to e, as γ′ shows them; t has γ′×e with the sign reversed (eq. 29).
@@ -93,7 +75,4 @@ for axes, values, prime, title in (
     axes.legend(frameon=False, loc="upper left" if prime else "lower left")
 low_right.set(yticks=[-0.4, 0.0, 0.4], xlabel="time  [ms]")
 
-figure.savefig(
-    Path(__file__).with_name("passage.svg"),
-    metadata={"Date": None, "Creator": None, "Format": None, "Type": None},
-)
+save(figure, "passage.svg")

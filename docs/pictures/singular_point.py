@@ -8,27 +8,9 @@ Needs numpy and matplotlib:  python singular_point.py
 Equation numbers are those of ../theory.md.
 """
 
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
-
-BLUE, ORANGE, GREY = "#1f5fa8", "#c8500a", "#666666"
-
-plt.rcParams.update(
-    {
-        "svg.fonttype": "none",  # text stays text
-        "svg.hashsalt": "split-rotor",  # the same ids at every run
-        "font.family": "sans-serif",  # DejaVu comes with matplotlib
-        "font.sans-serif": ["DejaVu Sans"],
-        "font.size": 10,
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-    }
-)
+from style import BLUE, GREY, ORANGE, save
 
 
 def rotate(k, angle, v):
@@ -100,7 +82,4 @@ right.set(xlabel="δ, distance of passage from −e  [rad]", ylabel="peak |dφ/d
 right.set_title("Tumbling past −e", fontsize=11)
 right.legend(frameon=False, loc="upper left")
 
-figure.savefig(
-    Path(__file__).with_name("singular-point.svg"),
-    metadata={"Date": None, "Creator": None, "Format": None, "Type": None},
-)
+save(figure, "singular-point.svg")

@@ -8,29 +8,15 @@ Needs numpy and matplotlib:  python two_charts.py
 Equation numbers are those of ../theory.md.
 """
 
-from pathlib import Path
-
-import matplotlib
-
-matplotlib.use("svg")
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle
+from style import BLUE, GREY, ORANGE, save
 
-BLUE, ORANGE, GREY, BLACK = "#1f5fa8", "#c8500a", "#666666", "#222222"
+BLACK = "#222222"
 
 SWITCH = 2.0  # |γ| at which the other chart takes over [rad]
 DELTA = 0.45  # distance at which the path passes −e [rad]
-
-plt.rcParams.update(
-    {
-        "svg.fonttype": "none",  # text stays text
-        "svg.hashsalt": "split-rotor",  # the same ids at every run
-        "font.family": "sans-serif",  # DejaVu comes with matplotlib
-        "font.sans-serif": ["DejaVu Sans"],
-        "font.size": 10,
-    }
-)
 
 
 def path(angle):
@@ -149,7 +135,4 @@ for axes, sign, prime in ((middle, 1, ""), (right, -1, "′")):
     axes.spines[["top", "right"]].set_visible(False)
     axes.set_title("γ, from e" if sign > 0 else "γ′, from −e", fontsize=11)
 
-figure.savefig(
-    Path(__file__).with_name("two-charts.svg"),
-    metadata={"Date": None, "Creator": None, "Format": None, "Type": None},
-)
+save(figure, "two-charts.svg")
