@@ -67,18 +67,28 @@ fn silence() {
     }
 }
 
+/// Whether `n` values of type T can stand at `first`.
+fn check_array<T>(first: *const T, n: Size, what: &str) -> Result<(), Failure> {
+    if first.is_null() {
+        return Err(Failure::error(format!("{what} is a null pointer")));
+    }
+    if n > isize::MAX as usize / size_of::<T>() {
+        return Err(Failure::error(format!("{n} of {what} cannot be")));
+    }
+    Ok(())
+}
+
 /// `n` values to read.
 ///
 /// # Safety
 /// `first` is null or points to `n` values that nobody writes while they are used.
 pub unsafe fn values<'a, T>(first: *const T, n: Size, what: &str) -> Result<&'a [T], Failure> {
-    match (n, first.is_null()) {
-        (0, _) => Ok(&[]),
-        (_, true) => Err(Failure::error(format!("{what} is a null pointer"))),
-        _ if n > isize::MAX as usize / size_of::<T>() => Err(Failure::error(format!("{n} of {what} cannot be"))),
-        // SAFETY: see above.
-        (_, false) => Ok(unsafe { std::slice::from_raw_parts(first, n) }),
+    if n == 0 {
+        return Ok(&[]);
     }
+    check_array(first, n, what)?;
+    // SAFETY: see above.
+    Ok(unsafe { std::slice::from_raw_parts(first, n) })
 }
 
 /// `n` values to write.
@@ -86,13 +96,12 @@ pub unsafe fn values<'a, T>(first: *const T, n: Size, what: &str) -> Result<&'a 
 /// # Safety
 /// `first` is null or points to `n` initialised values that nobody else uses meanwhile.
 pub unsafe fn places<'a, T>(first: *mut T, n: Size, what: &str) -> Result<&'a mut [T], Failure> {
-    match (n, first.is_null()) {
-        (0, _) => Ok(&mut []),
-        (_, true) => Err(Failure::error(format!("{what} is a null pointer"))),
-        _ if n > isize::MAX as usize / size_of::<T>() => Err(Failure::error(format!("{n} of {what} cannot be"))),
-        // SAFETY: see above.
-        (_, false) => Ok(unsafe { std::slice::from_raw_parts_mut(first, n) }),
+    if n == 0 {
+        return Ok(&mut []);
     }
+    check_array(first, n, what)?;
+    // SAFETY: see above.
+    Ok(unsafe { std::slice::from_raw_parts_mut(first, n) })
 }
 
 /// A C string.

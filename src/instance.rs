@@ -4,10 +4,12 @@ use crate::abi::{Boolean, Choice, Integer, Real, Status, status_kind};
 use crate::calls::State;
 use crate::logger::Logger;
 use crate::scene::{Effects, STARTS, Simulation};
+use model::error::Invalid;
 use model::integrate::Cost;
 use model::log::Category;
+use model::scalar::ulp;
 use model::variable::{Kind, Meta, Place, Role};
-use model::variables::{LEAST_TOLERANCE, Parameters};
+use model::variables::{Parameters, TOLERANCES};
 
 /// Why a call was refused, and what it returns.
 #[derive(Debug)]
@@ -29,6 +31,12 @@ impl Failure {
     /// A step that cannot be done.
     fn discard(message: String) -> Self {
         Self { status: Status::Discard, category: Category::Discard, message }
+    }
+}
+
+impl From<Invalid> for Failure {
+    fn from(invalid: Invalid) -> Self {
+        Self::error(invalid.to_string())
     }
 }
 
@@ -94,9 +102,8 @@ impl Instance {
         if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
             return Err(Failure::error(format!("stopTime = {stop:?} must not be before startTime = {start:?}")));
         }
-        if let Some(tolerance) = tolerance.filter(|value| !(LEAST_TOLERANCE..=0.1).contains(value)) {
-            let bound = format!("a number from {LEAST_TOLERANCE:?} to 0.1");
-            return Err(Failure::error(format!("tolerance = {tolerance:?} is not possible: it must be {bound}")));
+        if let Some(tolerance) = tolerance.filter(|value| !TOLERANCES.holds(*value)) {
+            return Err(Invalid::new("tolerance", tolerance, TOLERANCES.words()).into());
         }
         self.memory.experiment = Experiment { start, stop, tolerance, ..self.memory.experiment };
         Ok(Status::Ok)
@@ -112,7 +119,7 @@ impl Instance {
     pub fn exit_initialization_mode(&mut self) -> Reply {
         let Experiment { start, tolerance, host_set_tolerance, .. } = self.memory.experiment;
         let tolerance = tolerance.filter(|_| !host_set_tolerance);
-        self.memory.simulation.start(start, tolerance).map_err(|invalid| Failure::error(invalid.to_string()))?;
+        self.memory.simulation.start(start, tolerance)?;
         self.memory.state = State::StepComplete;
         self.memory.step_status = Status::Ok;
         if self.logger.hears(Category::Solver) {
@@ -191,31 +198,29 @@ impl Instance {
         for reference in references {
             // What cannot be calculated is refused before anything is written.
             if let Role::Output(_) = typed(*reference, kind)?.role {
-                self.memory.simulation.read().map_err(|invalid| Failure::error(invalid.to_string()))?;
+                self.memory.simulation.read()?;
             }
         }
         for (reference, value) in references.iter().zip(values) {
-            let got = self
-                .memory
-                .simulation
-                .get(Place::of(*reference))
-                .map_err(|invalid| Failure::error(invalid.to_string()))?;
+            let got = self.memory.simulation.get(Place::of(*reference))?;
             *value = convert(got.ok_or_else(|| unknown(*reference))?);
         }
         Ok(Status::Ok)
     }
 
     fn set<T>(&mut self, references: &[u32], values: &[T], kind: Type, convert: fn(&T) -> f64) -> Reply {
+        let mut sets_tolerance = false;
         for reference in references {
             let meta = typed(*reference, kind)?;
+            sets_tolerance |= meta.name == "solver.relative_tolerance";
             if let Role::Output(_) = meta.role {
                 return Err(Failure::error(format!("{} is an output: only parameters can be set", shown(*reference))));
             }
         }
         for (reference, value) in references.iter().zip(values) {
             self.memory.simulation.set_parameter(Place::of(*reference), convert(value));
-            self.memory.experiment.host_set_tolerance |= typed(*reference, kind)?.name == "solver.relative_tolerance";
         }
+        self.memory.experiment.host_set_tolerance |= sets_tolerance;
         Ok(Status::Ok)
     }
 
@@ -345,10 +350,6 @@ fn unknown(reference: u32) -> Failure {
 
 fn wrong_kind(kind: Choice, right: &str) -> Failure {
     Failure::error(format!("status kind {kind} has no answer of this type: ask for {right}"))
-}
-
-fn ulp(t: f64) -> f64 {
-    t.abs().next_up() - t.abs()
 }
 
 fn same_time(a: f64, b: f64, step: f64) -> bool {

@@ -4,6 +4,11 @@ use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssig
 use num_traits::{One, Zero};
 use std::ops::Neg;
 
+/// The unit in the last place of `x`: from |x| to the next double.
+pub fn ulp(x: f64) -> f64 {
+    x.abs().next_up() - x.abs()
+}
+
 /// A real number, perhaps with derivatives attached.
 pub trait Scalar:
     nalgebra::Scalar

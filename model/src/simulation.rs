@@ -70,12 +70,11 @@ impl<E: Effects> Simulation<E> {
         solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
         parameters.check()?;
         self.reading = None;
-        at_start(&parameters)?;
-        let motion = Motion::at_start(&parameters);
+        let (motion, reading) = at_start(&parameters)?;
         self.run = Some(if parameters.effects.works() {
-            Run::Working(Drive::start(motion, &parameters.setup, t))
+            Run::Working(Drive::start(motion, &reading, &parameters.setup, t))
         } else {
-            Run::Conservative(Drive::start(motion, &parameters.setup, t))
+            Run::Conservative(Drive::start(motion, &reading, &parameters.setup, t))
         });
         Ok(())
     }
@@ -115,11 +114,12 @@ impl<E: Effects> Simulation<E> {
         if let Some(value) = self.parameters.get(place) {
             return Ok(Some(value));
         }
-        let reading = *self.read()?;
+        self.read()?;
+        let reading = self.reading.as_ref().expect("just read");
         let Parameters { setup, effects } = &self.parameters;
         Ok(match variables::always(place) {
             None => effects.output(place, &reading.motion),
-            Some(Row { access: Access::Output(read), .. }) => Some(read(setup, &reading)),
+            Some(Row { access: Access::Output(read), .. }) => Some(read(setup, reading)),
             Some(_) => None,
         })
     }
@@ -132,7 +132,7 @@ impl<E: Effects> Simulation<E> {
                 Some(Run::Working(drive)) => drive.read(),
                 None => {
                     self.parameters.check()?;
-                    at_start(&self.parameters)?
+                    at_start(&self.parameters)?.1
                 }
             });
         }
@@ -140,10 +140,11 @@ impl<E: Effects> Simulation<E> {
     }
 }
 
-/// The reading before the start: what the parameters make of it. An error where it overflows.
-fn at_start<E: Effects>(parameters: &Parameters<E>) -> Result<Reading, Invalid> {
-    let Motion { rotor, coordinates, .. } = Motion::at_start(parameters);
-    let motion = Kinematics::new(rotor.body, rotor.chart, coordinates);
+/// The start as the parameters make it, and what it shows. An error where it overflows.
+fn at_start<E: Effects>(parameters: &Parameters<E>) -> Result<(Motion<E>, Reading), Invalid> {
+    let start = Motion::at_start(parameters);
+    let Motion { rotor, coordinates, .. } = &start;
+    let motion = Kinematics::new(rotor.body, rotor.chart, *coordinates);
     let phi = Angle { turns: 0.0, remainder: parameters.setup.start.phi }.wrapped();
     let mut ledger = Ledger::new(&motion, &rotor.effects, 0.0, 0.0, 0.0);
     ledger.total_at_start = ledger.total();
@@ -151,5 +152,5 @@ fn at_start<E: Effects>(parameters: &Parameters<E>) -> Result<Reading, Invalid> 
         let bound = "finite: the start values or parameters are too large";
         return Err(Invalid::new("energy.total", ledger.total(), bound));
     }
-    Ok(Reading { motion, phi, ledger, cost: Cost::default() })
+    Ok((start, Reading { motion, phi, ledger, cost: Cost::default() }))
 }

@@ -100,8 +100,8 @@ pub static METHODS: Enumeration = Enumeration {
     ],
 };
 
-/// The least relative tolerance that double precision can keep [1].
-pub const LEAST_TOLERANCE: f64 = 1e-14;
+/// What a relative tolerance [1] must be: no tighter than double precision can keep.
+pub const TOLERANCES: Bound = Bound::Within(1e-14, 1e-1);
 
 type Always = Row<Setup, Reading>;
 
@@ -167,7 +167,7 @@ const SOLVER: &[Always] = &[
         solver.relative_tolerance,
         &ONE,
         Some(1e-8),
-        Bound::Within(LEAST_TOLERANCE, 1e-1),
+        TOLERANCES,
         "tolerance of a step's error, relative to the larger of the value and its nominal"
     ),
     parameter!(

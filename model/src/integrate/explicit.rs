@@ -3,6 +3,7 @@
 use super::control::Controller;
 use super::tableau::{Combination, ErrorRule, MOST_DENSE, MOST_STAGES, Tableau};
 use super::{Cost, Fault, Refusal, System, Tolerance};
+use crate::scalar::ulp;
 
 /// A method at work: where it stands, its last step as a polynomial, and what it spent.
 #[derive(Clone, Debug)]
@@ -86,7 +87,7 @@ impl<const N: usize> Explicit<N> {
         };
         method.k[tableau.last] = method.evaluate(system, t, &y);
         // A first guess may be too short to advance a late time; one too long is rejected.
-        method.h = method.first_step(system).max(LEAST_FIRST * (t.abs().next_up() - t.abs()));
+        method.h = method.first_step(system).max(LEAST_FIRST * ulp(t));
         method
     }
 
@@ -171,11 +172,8 @@ impl<const N: usize> Explicit<N> {
             };
             self.stall.obstacle = obstacle;
             self.cost.rejected += 1.0;
-            self.h *= match obstacle {
-                None => self.controller.rejected(error),
-                Some(Obstacle::Refused(_)) => self.controller.rejected(f64::INFINITY).max(REFUSED),
-                Some(Obstacle::NotFinite) => self.controller.rejected(f64::INFINITY),
-            };
+            let factor = self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
+            self.h *= if let Some(Obstacle::Refused(_)) = obstacle { factor.max(REFUSED) } else { factor };
         }
     }
 
@@ -258,12 +256,8 @@ impl<const N: usize> Explicit<N> {
 
     /// The norm of the error of the step that ends at `y`, in units of the tolerance [1].
     fn error_norm(&self, y: &[f64; N]) -> f64 {
-        let mean_square = |e: Combination| {
-            let error = self.combined(e);
-            // eq. 22: err² = (1/n) Σ (err_i/sc_i)², sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
-            let sum: f64 = (0..N).map(|n| square(error[n] / self.scale(n, self.y[n].abs().max(y[n].abs())))).sum();
-            sum / N as f64
-        };
+        let size: [f64; N] = std::array::from_fn(|n| self.y[n].abs().max(y[n].abs()));
+        let mean_square = |e: Combination| self.mean_square(&self.combined(e), &size);
         match self.tableau.error {
             ErrorRule::Single(e) => self.h * mean_square(e).sqrt(),
             ErrorRule::Blend { fine, coarse } => {
@@ -273,8 +267,11 @@ impl<const N: usize> Explicit<N> {
         }
     }
 
-    fn scale(&self, n: usize, size: f64) -> f64 {
-        self.tolerance.absolute[n] + self.tolerance.relative[n] * size
+    /// The mean square of `v` in units of the tolerance at a state of this `size` [1].
+    fn mean_square(&self, v: &[f64; N], size: &[f64; N]) -> f64 {
+        let Tolerance { absolute, relative } = &self.tolerance;
+        // eq. 22: err² = (1/n) Σ (err_i/sc_i)², sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
+        (0..N).map(|n| square(v[n] / (absolute[n] + relative[n] * size[n]))).sum::<f64>() / N as f64
     }
 
     fn accept(&mut self, y: [f64; N], error: f64) {
@@ -312,14 +309,13 @@ impl<const N: usize> Explicit<N> {
     /// A first step from the sizes of y, dy/dt and the change of dy/dt (Hairer, Nørsett and Wanner I, section II.4).
     fn first_step(&mut self, system: &impl System<N>) -> f64 {
         let (t, y, rate) = (self.t, self.y, self.k[self.tableau.last]);
-        let scale: [f64; N] = std::array::from_fn(|n| self.scale(n, y[n].abs()));
-        let norm = |v: &[f64; N]| ((0..N).map(|n| square(v[n] / scale[n])).sum::<f64>() / N as f64).sqrt();
-        let (size, speed) = (norm(&y), norm(&rate));
+        let sizes = y.map(f64::abs);
+        let (size, speed) = (self.mean_square(&y, &sizes).sqrt(), self.mean_square(&rate, &sizes).sqrt());
         let trial = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
         let ahead: [f64; N] = std::array::from_fn(|n| y[n] + trial * rate[n]);
         let rate_ahead = self.evaluate(system, t + trial, &ahead);
         let change: [f64; N] = std::array::from_fn(|n| rate_ahead[n] - rate[n]);
-        let curvature = norm(&change) / trial;
+        let curvature = self.mean_square(&change, &sizes).sqrt() / trial;
         let largest = speed.max(curvature);
         let step = if largest <= 1e-15 {
             (trial * 1e-3).max(1e-6)

@@ -2,8 +2,9 @@
 
 use super::{Experiment, defaults};
 use crate::effects::{self, CATALOGUE, Info};
+use crate::error::Invalid;
 use crate::variable::{Bound, Kind, Role};
-use crate::variables::{self, LEAST_TOLERANCE, Variable};
+use crate::variables::{self, TOLERANCES, Variable};
 use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -153,7 +154,7 @@ impl Reader<'_> {
                 f64::from(item.ok_or_else(|| self.wrong_type(value, in_file, &right))?.0)
             }
         };
-        let here = |invalid: crate::error::Invalid| (Some(self.line(value.span().start)), invalid.to_string());
+        let here = |invalid: Invalid| (Some(self.line(value.span().start)), invalid.to_string());
         variable.meta.check(|| in_file.to_owned(), number).map_err(here)?;
         Ok(number)
     }
@@ -176,9 +177,7 @@ impl Reader<'_> {
         let or = |place: usize, default: f64, bound: Bound, right: &str| match &given[place] {
             None => Ok(default),
             Some((number, ..)) if bound.holds(*number) => Ok(*number),
-            Some((number, line, key)) => {
-                Err((Some(*line), format!("{key} = {number:?} is not possible: it must be {right}")))
-            }
+            Some((number, line, key)) => Err((Some(*line), Invalid::new(key, *number, right).to_string())),
         };
         let start = or(0, 0.0, Bound::Finite, "a finite number in s")?;
         let after_start = Bound::Within(start + f64::MIN_POSITIVE.max(start.abs() * f64::EPSILON), f64::MAX);
@@ -186,8 +185,7 @@ impl Reader<'_> {
         let within = Bound::Within(f64::MIN_POSITIVE, stop - start);
         let right = format!("a number of seconds > 0, at most stop - start = {:?} s", stop - start);
         let step = or(2, (stop - start) / 1000.0, within, &right)?;
-        let bound = Bound::Within(LEAST_TOLERANCE, 0.1);
-        let tolerance = or(3, tolerance, bound, &bound.words())?;
+        let tolerance = or(3, tolerance, TOLERANCES, &TOLERANCES.words())?;
         Ok(Experiment { start, stop, step, tolerance })
     }
 

@@ -2,7 +2,7 @@
 
 use super::start::{Motion, tolerance};
 use crate::effects::Effects;
-use crate::energy::{self, Ledger};
+use crate::energy::Ledger;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::integrate::{Cost, Fault};
@@ -69,19 +69,18 @@ const LONGEST_TILT: f64 = 1.0;
 const LONGEST_WHIRL: f64 = 1.0;
 
 impl<E: Effects, const N: usize> Drive<E, N> {
-    /// A drive from time `t` [s].
-    pub(super) fn start(start: Motion<E>, setup: &Setup, t: f64) -> Self {
+    /// A drive from time `t` [s] of a motion that shows `reading` at its start.
+    pub(super) fn start(start: Motion<E>, reading: &Reading, setup: &Setup, t: f64) -> Self {
         let Motion { rotor, coordinates, turns } = start;
-        let motion = Kinematics::new(rotor.body, rotor.chart, coordinates);
         let mut y = [0.0; N];
         coordinates.write(&mut y);
-        let total_at_start = energy::kinetic(&motion) + rotor.effects.potential(&motion);
+        let total_at_start = reading.ledger.total_at_start;
         let method = Explicit::start(tableau(setup.solver.method), tolerance(setup), &rotor, t, y);
         let last = LastStep { chart: rotor.chart, turns, gamma: coordinates.gamma, closest: None };
         let relative_tolerance = setup.solver.relative_tolerance;
         let mut drive =
             Self { rotor, method, turns, last, longest: 0.0, t, total_at_start, relative_tolerance, tilted: false };
-        drive.watch_tilt(motion.axis().x);
+        drive.watch_tilt(reading.motion.axis().x);
         drive
     }
 
@@ -235,7 +234,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
 }
 
 fn gamma(y: &[f64]) -> Vector2<f64> {
-    Vector2::new(y[GAMMA.start], y[GAMMA.start + 1])
+    Coordinates::from_slice(y).gamma
 }
 
 /// The method of this number; checked before.

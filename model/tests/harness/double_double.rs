@@ -1,6 +1,7 @@
 //! A scalar of twice the precision: the sum of two doubles, some 32 digits (Dekker 1971; Knuth). With it the model's own
 //! lines give values whose rounding is out of sight.
 
+use model::rotation::exact;
 use model::scalar::Scalar;
 use num_traits::{One, Zero};
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -14,26 +15,9 @@ pub struct DoubleDouble {
     pub low: f64,
 }
 
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let part = sum - a;
-    (sum, (a - (sum - part)) + (b - part))
-}
-
-fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let halves = |x: f64| {
-        let scaled = 134_217_729.0 * x;
-        let high = scaled - (scaled - x);
-        (high, x - high)
-    };
-    let ((ah, al), (bh, bl)) = (halves(a), halves(b));
-    let product = a * b;
-    (product, ((ah * bh - product) + ah * bl + al * bh) + al * bl)
-}
-
 impl DoubleDouble {
     fn of((high, low): (f64, f64)) -> Self {
-        let (high, low) = two_sum(high, low);
+        let (high, low) = exact::sum(high, low);
         Self { high, low }
     }
 }
@@ -56,7 +40,7 @@ impl Scalar for DoubleDouble {
 impl Add for DoubleDouble {
     type Output = Self;
     fn add(self, b: Self) -> Self {
-        let (sum, low) = two_sum(self.high, b.high);
+        let (sum, low) = exact::sum(self.high, b.high);
         Self::of((sum, low + self.low + b.low))
     }
 }
@@ -78,7 +62,7 @@ impl Sub for DoubleDouble {
 impl Mul for DoubleDouble {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
-        let (product, low) = two_product(self.high, b.high);
+        let (product, low) = exact::product(self.high, b.high);
         Self::of((product, low + self.high * b.low + self.low * b.high))
     }
 }
