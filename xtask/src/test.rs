@@ -12,5 +12,5 @@ pub fn test() -> Result<()> {
         run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile]))?;
     }
     package::package(&Scene::names(&paths::scenes()), None)?;
-    run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/fmu"]))
+    run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/fmu", "tests/clients"]))
 }
