@@ -1,12 +1,16 @@
 //! `cargo xtask`: the commands of split-rotor. One file a command; `cargo xtask --help` lists them.
 
+mod c;
+mod c_host;
 mod demo;
 mod package;
 mod paths;
 mod python;
 mod run;
 mod scenes;
+mod sheet;
 mod test;
+mod unpacked;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};

@@ -1,7 +1,7 @@
 //! `test`: everything that must hold.
 
 use crate::run::{cargo, run};
-use crate::{package, paths, python};
+use crate::{c_host, package, paths, python};
 use anyhow::Result;
 use model::scene::Scene;
 
@@ -11,6 +11,7 @@ pub fn test() -> Result<()> {
     for profile in ["unoptimised", "release"] {
         run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile]))?;
     }
-    package::package(&Scene::names(&paths::scenes()), None)?;
+    let fmus = package::package(&Scene::names(&paths::scenes()), None)?;
+    c_host::plain(&fmus)?;
     run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/fmu"]))
 }
