@@ -3,10 +3,12 @@
 mod c;
 mod c_host;
 mod demo;
+mod memcheck;
 mod package;
 mod paths;
 mod python;
 mod run;
+mod sanitize;
 mod scenes;
 mod sheet;
 mod test;
