@@ -1,5 +1,6 @@
 //! `cargo xtask`: the commands of split-rotor. One file a command; `cargo xtask --help` lists them.
 
+mod bench;
 mod c;
 mod c_host;
 mod demo;
@@ -46,6 +47,8 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Measure what the calls of the packaged FMU take: times, and instructions where valgrind is installed
+    Bench,
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print a scene's modelDescription.xml
@@ -71,6 +74,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test => test::test(),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
+        Command::Bench => bench::bench(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),
     }
