@@ -1,12 +1,19 @@
 //! `cargo xtask`: the commands of split-rotor. One file a command; `cargo xtask --help` lists them.
 
+mod bench;
+mod c;
+mod c_host;
 mod demo;
+mod memcheck;
 mod package;
 mod paths;
 mod python;
 mod run;
+mod sanitize;
 mod scenes;
+mod sheet;
 mod test;
+mod unpacked;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
@@ -44,6 +51,8 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Measure what the calls of the packaged FMU take: times, and instructions where valgrind is installed
+    Bench,
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print a scene's modelDescription.xml
@@ -69,6 +78,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { long } => test::test(long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
+        Command::Bench => bench::bench(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),
     }

@@ -82,7 +82,7 @@ fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
         Ok(zip.write_all(bytes)?)
     };
     add("modelDescription.xml".into(), xml::model_description(scene).as_bytes())?;
-    add(format!("binaries/{}/{}{DLL_SUFFIX}", platform()?, scene.identifier()), &std::fs::read(library)?)?;
+    add(library_path(&scene.identifier())?, &std::fs::read(library)?)?;
     let licence = |name: &str| std::fs::read_to_string(paths::root().join(name));
     let both = format!(
         "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n\n{}\n\n{}",
@@ -92,6 +92,11 @@ fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
     add("documentation/licenses/license.txt".into(), both.as_bytes())?;
     zip.finish()?;
     Ok(())
+}
+
+/// Where the library of this machine's platform lies in an FMU.
+pub fn library_path(identifier: &str) -> Result<String> {
+    Ok(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?))
 }
 
 /// FMI 2.0's name of this machine's platform.

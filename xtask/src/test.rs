@@ -1,7 +1,7 @@
 //! `test`: everything that must hold, as a list of jobs.
 
 use crate::run::{cargo, run};
-use crate::{package, paths, python};
+use crate::{c_host, memcheck, package, paths, python, sanitize};
 use anyhow::Result;
 use model::scene::Scene;
 
@@ -12,7 +12,7 @@ type Job = fn() -> Result<()>;
 const SHORT: [Job; 3] = [rust_tests, other_builds, packaged_fmus];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 1] = [clients];
+const LONG: [Job; 3] = [clients, sanitize::sanitizers, memcheck::valgrind];
 
 /// Runs the short jobs, and the long ones too where they are asked for.
 pub fn test(long: bool) -> Result<()> {
@@ -31,9 +31,9 @@ fn other_builds() -> Result<()> {
         .try_for_each(|profile| run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile])))
 }
 
-/// The packaged FMUs under fmpy.
+/// The packaged FMUs under a host in C and under fmpy.
 fn packaged_fmus() -> Result<()> {
-    package::package(&Scene::names(&paths::scenes()), None)?;
+    c_host::plain(&package::package(&Scene::names(&paths::scenes()), None)?)?;
     pytest(&["tests/fmu", "tests/clients"])
 }
 

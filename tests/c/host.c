@@ -1,0 +1,70 @@
+/* A host in plain C that does with the FMU whatever a host can do, well or badly.
+
+       host SHEET LIBRARY FOLDER [--cycles N] [--steps N] [--no-memory] [--resume FILE]
+
+   FOLDER is one to write to. Each check that fails prints one line; then the program ends with 1. */
+#include "check.h"
+#include "library.h"
+#include "parts.h"
+#include "rotor.h"
+#include "sheet.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct options options = {.cycles = 10000, .steps = 1000, .memory = true};
+
+static void usage(void)
+{
+    fprintf(stderr, "usage: host SHEET LIBRARY FOLDER [--cycles N] [--steps N] [--no-memory] [--resume FILE]\n");
+    exit(2);
+}
+
+static void one_part(const char *name, void (*part)(void))
+{
+    int before = failed_checks();
+    part();
+    if (failed_checks() != before) {
+        printf("%s: %d checks failed\n", name, failed_checks() - before);
+    }
+}
+
+int main(int count, char **arguments)
+{
+    const char *resumed = NULL;
+    if (count < 4) {
+        usage();
+    }
+    options.program = arguments[0];
+    options.sheet = arguments[1];
+    options.library = arguments[2];
+    options.folder = arguments[3];
+    for (int i = 4; i < count; i++) {
+        bool has_value = i + 1 < count;
+        if (strcmp(arguments[i], "--cycles") == 0 && has_value) {
+            options.cycles = atoi(arguments[++i]);
+        } else if (strcmp(arguments[i], "--steps") == 0 && has_value) {
+            options.steps = atoi(arguments[++i]);
+        } else if (strcmp(arguments[i], "--no-memory") == 0) {
+            options.memory = false;
+        } else if (strcmp(arguments[i], "--resume") == 0 && has_value) {
+            resumed = arguments[++i];
+        } else {
+            usage();
+        }
+    }
+    read_sheet(options.sheet);
+    load_library(options.library);
+    find_reals();
+    if (resumed != NULL) {
+        resume(resumed);
+    } else {
+#define RUN(name) one_part(#name, name);
+        PARTS(RUN)
+#undef RUN
+        printf("%s: %ld checks, %d failed\n", attribute("fmiModelDescription.modelName"), all_checks(),
+               failed_checks());
+    }
+    return failed_checks() == 0 ? 0 : 1;
+}

@@ -1,0 +1,48 @@
+//! C programs: compiled with the machine's own compiler, started with the Debian package named where a tool is missing.
+
+use crate::paths;
+use crate::run::run;
+use anyhow::{Result, bail};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// A command, if the program is installed.
+pub fn tool(program: &str, package: &str) -> Result<Command> {
+    if is_installed(program) {
+        return Ok(Command::new(program));
+    }
+    bail!("`{program}` is needed (Debian: apt-get install {package})");
+}
+
+/// Whether a program can be started.
+pub fn is_installed(program: &str) -> bool {
+    Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
+}
+
+/// Compiles `sources` to target/c/`name`.
+pub fn compile(name: &str, sources: &[PathBuf], flags: &[&str]) -> Result<PathBuf> {
+    let folder = paths::target().join("c");
+    std::fs::create_dir_all(&folder)?;
+    let program = folder.join(name);
+    let compiler = std::env::var("CC").unwrap_or("cc".into());
+    run(tool(&compiler, "gcc")?
+        // Paths in messages are those of the project, and no path of this machine stays in the program.
+        .current_dir(paths::root())
+        .args(["-std=c99", "-D_GNU_SOURCE", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-pthread"])
+        .args(["-I", "tests/c"])
+        .args(flags)
+        .args(sources)
+        .arg("-o")
+        .arg(&program)
+        .args(["-ldl", "-lm"]))?;
+    Ok(program)
+}
+
+/// The C files in this folder of the project, sorted, relative to the project's own.
+pub fn sources(folder: &str) -> Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(paths::root().join(folder))?.collect::<Result<Vec<_>, _>>()?;
+    let names = entries.iter().map(|entry| Path::new(folder).join(entry.file_name()));
+    let mut files: Vec<_> = names.filter(|path| path.extension().is_some_and(|extension| extension == "c")).collect();
+    files.sort();
+    Ok(files)
+}

@@ -1,0 +1,53 @@
+//! The FMU and the C host with AddressSanitizer, the host with UndefinedBehaviorSanitizer too, and leaks looked for at the
+//! end: of every scene, since each compiles other code.
+
+use crate::run::{cargo, run};
+use crate::{c_host, paths, scenes, sheet, unpacked};
+use anyhow::{Context, Result, bail};
+use model::scene::Scene;
+use model::xml;
+use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX};
+use std::path::PathBuf;
+use std::process::Command;
+
+/// GCC's runtime serves the library too: a shared library compiled by rustc leaves the sanitizer's symbols open.
+const FLAGS: [&str; 3] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"];
+
+/// Runs the C host on the FMU of every scene, both with sanitizers.
+pub fn sanitizers() -> Result<()> {
+    if !(cfg!(target_os = "linux") && cfg!(target_env = "gnu")) {
+        bail!("the sanitizers need Linux with the GNU C library");
+    }
+    let host = c_host::compile("host-sanitized", &FLAGS).context(
+        "the C host cannot be compiled with sanitizers: GCC's are needed (Debian: apt-get install gcc libasan8 libubsan1)",
+    )?;
+    for name in Scene::names(&paths::scenes()) {
+        let scene = scenes::find(&name)?;
+        let library = std::fs::read(library(&scene)?)?;
+        let folder = paths::target().join("sanitized").join("unpacked");
+        let fmu = unpacked::write(&folder, &name, &sheet::sheet(&xml::model_description(&scene))?, &library)?;
+        run(c_host::arguments(&mut Command::new(&host), &fmu)?
+            .env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1")
+            .env("UBSAN_OPTIONS", "print_stacktrace=1"))?;
+    }
+    Ok(())
+}
+
+/// The library of a scene, instrumented. The next scene's overwrites it.
+fn library(scene: &Scene) -> Result<PathBuf> {
+    let (folder, target) = (paths::target().join("sanitized"), format!("{ARCH}-unknown-linux-gnu"));
+    run(cargo()
+        .args(["rustc", "--quiet", "--package", "split-rotor", "--release", "--lib", "--crate-type", "cdylib"])
+        // With a target named, build scripts and macros are not instrumented.
+        .args(["--target", &target])
+        .arg("--target-dir")
+        .arg(&folder)
+        .env("SPLIT_ROTOR_SCENE", std::path::absolute(&scene.file)?)
+        .env("CARGO_ENCODED_RUSTFLAGS", ["-Zsanitizer=address", "-Cforce-frame-pointers=yes"].join("\x1f"))
+        // The stable compiler has the sanitizer, behind a switch meant for the standard library.
+        .env("RUSTC_BOOTSTRAP", "1")
+        .env("CARGO_PROFILE_RELEASE_DEBUG", "line-tables-only")
+        .env("CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS", "true")
+        .env_remove("RUSTFLAGS"))?;
+    Ok(folder.join(target).join("release").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
+}

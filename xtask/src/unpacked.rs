@@ -1,0 +1,48 @@
+//! A packaged FMU, taken apart as a simulator does it: what is tested and measured is what travels.
+
+use crate::{package, paths, sheet};
+use anyhow::{Context, Result};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use zip::ZipArchive;
+
+/// What a C host is started with.
+pub struct Unpacked {
+    /// The name of the FMU's file.
+    pub name: String,
+    /// The library.
+    pub library: PathBuf,
+    /// What it must know of the modelDescription.xml.
+    pub sheet: PathBuf,
+}
+
+/// Takes an FMU apart, into target/unpacked.
+pub fn unpack(fmu: &Path) -> Result<Unpacked> {
+    let name = fmu.file_stem().context("an FMU has a name")?.to_string_lossy().into_owned();
+    let mut zip = ZipArchive::new(File::open(fmu)?)?;
+    let mut read = |path: &str| -> Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        zip.by_name(path).with_context(|| path.to_owned())?.read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    let xml = String::from_utf8(read("modelDescription.xml")?)?;
+    let sheet = sheet::sheet(&xml)?;
+    let identifier = sheet.lines().find_map(|line| line.strip_prefix("attribute CoSimulation.modelIdentifier "));
+    let library = read(&package::library_path(identifier.context("the XML has no model identifier")?)?)?;
+    let folder = paths::target().join("unpacked");
+    write(&folder, &name, &sheet, &library).with_context(|| format!("cannot take {} apart", fmu.display()))
+}
+
+/// Writes what a C host needs of this FMU into `folder`.
+pub fn write(folder: &Path, name: &str, sheet: &str, library: &[u8]) -> Result<Unpacked> {
+    std::fs::create_dir_all(folder)?;
+    let unpacked = Unpacked {
+        name: name.into(),
+        library: folder.join(format!("{name}{}", std::env::consts::DLL_SUFFIX)),
+        sheet: folder.join(format!("{name}.txt")),
+    };
+    std::fs::write(&unpacked.sheet, sheet)?;
+    std::fs::write(&unpacked.library, library)?;
+    Ok(unpacked)
+}
