@@ -174,15 +174,24 @@ impl<E: Effects> Simulation<E> {
     /// The value of a variable at the communication point, before the start as the parameters have it; None where there
     /// is none at this place. An error where the parameters are not possible.
     pub fn get(&mut self, place: Place) -> Result<Option<f64>, Invalid> {
-        if let Some(value) = self.parameters.get(place) {
-            return Ok(Some(value));
+        if Parameters::<E>::meta(place).is_some_and(|meta| !meta.has_start()) {
+            self.read()?;
         }
-        if let Some(signal) = self.parameters.effects.signal(place) {
-            return Ok(Some(signal.at(self.time().unwrap_or_default())));
-        }
-        self.read()?;
-        let reading = self.reading.as_ref().expect("just read");
-        Ok(self.parameters.calculated(place, reading))
+        Ok(self.value(place))
+    }
+
+    /// [`Simulation::get`] without asking for a reading; None of a calculated variable where there was none.
+    #[inline(always)]
+    pub fn value(&self, place: Place) -> Option<f64> {
+        self.parameters.value(place, self.time().unwrap_or_default(), self.reading.as_ref())
+    }
+
+    /// The values of Real variables that are at hand, by their value references; false, and the values are void, where one
+    /// is not, or is not finite.
+    #[inline(always)]
+    pub fn reals_at_hand(&self, references: &[u32], values: &mut [f64]) -> bool {
+        let Some(reading) = &self.reading else { return false };
+        self.parameters.reals(references, values, reading)
     }
 
     /// What the communication point shows; before the start, what the parameters make of it.
@@ -200,6 +209,14 @@ impl<E: Effects> Simulation<E> {
             });
         }
         Ok(self.reading.as_ref().expect("just made"))
+    }
+
+    /// The state at the communication point.
+    pub fn state(&mut self) -> Result<Whole<f64>, Invalid> {
+        match &self.run {
+            Some(Run::Open(open)) => Ok(open.state()),
+            _ => Ok(self.read()?.state()),
+        }
     }
 
     /// The rates of the state at the communication point, units per second.

@@ -129,7 +129,24 @@ impl<P, O: Shown> Access<P, O> {
         match self {
             Access::Output(output) => Some(S::output(output, of, shown)),
             Access::Rate(rate) => Some(S::rate(rate, of, shown, &rates())),
-            _ => None,
+            Access::Parameter { .. } | Access::Input { .. } => None,
+        }
+    }
+
+    /// The value of a variable at an instant, an input's at time `t` [s]; None of a calculated one where nothing is shown.
+    #[inline(always)]
+    pub fn value(
+        &self,
+        of: &P,
+        t: f64,
+        shown: Option<&O::Of<f64>>,
+        rates: impl FnOnce() -> Option<Whole<f64>>,
+    ) -> Option<f64> {
+        match self {
+            Access::Parameter { get, .. } => Some(get(of)),
+            Access::Input { get, .. } => Some(get(of).at(t)),
+            Access::Output(output) => Some((output.value)(of, shown?)),
+            Access::Rate(rate) => Some((rate.value)(of, shown?, &rates()?)),
         }
     }
 }

@@ -96,7 +96,12 @@ impl<S: Scalar> Reading<S> {
     /// γ from e [rad], where rounding gives |γ| > π: π.
     fn gamma(&self) -> Vector3<S> {
         let gamma = self.motion.tilt.gamma();
-        if gamma.map(S::re).norm() > PI { gamma * S::constant(1.0 - 2.0 * f64::EPSILON) } else { gamma }
+        let is_crossed = self.motion.tilt.chart() == Chart::FromMinusE;
+        if is_crossed && gamma.map(S::re).norm_squared() > PI * PI {
+            gamma * S::constant(1.0 - 2.0 * f64::EPSILON)
+        } else {
+            gamma
+        }
     }
 
     fn omega(&self) -> &Vector3<S> {
@@ -410,17 +415,45 @@ impl<E: Effects> Parameters<E> {
     }
 
     /// What is said of the variable at this place; None where there is none.
+    #[inline(always)]
     pub fn meta(place: Place) -> Option<&'static Meta> {
         always(place, E::COULD_WORK).map_or_else(|| E::meta(place), |row| Some(&row.meta))
     }
 
-    /// The value of a parameter; None where there is none at this place.
-    pub fn get(&self, place: Place) -> Option<f64> {
+    /// The value of a variable, an input's at time `t` [s]; None where there is none at this place, or where it is
+    /// calculated and there is no reading.
+    #[inline(always)]
+    pub fn value(&self, place: Place, t: f64, reading: Option<&Reading>) -> Option<f64> {
+        let rates = || Some(rotor::whole_rates(&self.effects, &reading?.motion));
         match always(place, E::COULD_WORK) {
-            None => self.effects.parameter(place),
-            Some(Row { access: Access::Parameter { get, .. }, .. }) => Some(get(&self.setup)),
-            Some(_) => None,
+            None => self.effects.value(place, t, reading.map(|reading| &reading.motion), rates),
+            Some(row) => row.access.value(&self.setup, t, reading, rates),
         }
+    }
+
+    /// The values of Real variables by their value references, as many as both slices hold; false, and the values are void,
+    /// where one is missing, of another type, or not finite. This is what hosts ask for all the time: outputs that are
+    /// always there go the shortest way.
+    #[inline(never)]
+    pub fn reals(&self, references: &[u32], values: &mut [f64], reading: &Reading) -> bool {
+        for (reference, value) in references.iter().zip(values.iter_mut()) {
+            let place = Place::of(*reference);
+            *value = match always(place, E::COULD_WORK) {
+                Some(Row { meta: Meta { kind: Kind::Real, .. }, access: Access::Output(output) }) => {
+                    (output.value)(&self.setup, reading)
+                }
+                _ => self.real(place, reading),
+            };
+        }
+        // A sum of zeros, or of a NaN where a value is not finite.
+        values.iter().map(|value| 0.0 * value).sum::<f64>() == 0.0
+    }
+
+    /// The value of a Real variable; NaN where there is none.
+    #[inline(never)]
+    fn real(&self, place: Place, reading: &Reading) -> f64 {
+        let is_real = Self::meta(place).is_some_and(|meta| meta.kind == Kind::Real);
+        is_real.then(|| self.value(place, reading.motion.t, Some(reading))).flatten().unwrap_or(f64::NAN)
     }
 
     /// Sets a parameter; false where there is none at this place.

@@ -73,7 +73,7 @@ impl Instance {
     /// fmi2GetContinuousStates
     pub fn continuous_states(&mut self, states: &mut [Real]) -> Reply {
         check_number(states.len())?;
-        let state = self.memory.simulation.read()?.state();
+        let state = self.memory.simulation.state()?;
         states.copy_from_slice(&state[..Simulation::STATES]);
         Ok(Status::Ok)
     }

@@ -99,8 +99,15 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn meta(place: Place) -> Option<&'static Meta>;
     /// The full name of the variable at this place; None where there is none.
     fn name(place: Place) -> Option<String>;
-    /// The value of a parameter; None where there is none at this place.
-    fn parameter(&self, place: Place) -> Option<f64>;
+    /// The value of a variable, an input's at time `t` [s], a calculated one's of a switched-off effect zero; None where
+    /// there is none at this place, or nothing is shown. `rates` is asked only where it counts.
+    fn value(
+        &self,
+        place: Place,
+        t: f64,
+        motion: Option<&Kinematics<f64>>,
+        rates: impl FnOnce() -> Option<Whole<f64>>,
+    ) -> Option<f64>;
     /// Sets a parameter; false where there is none at this place.
     fn set_parameter(&mut self, place: Place, value: f64) -> bool;
     /// The value of a calculated variable, zero where its effect is switched off; None where there is none at this
@@ -202,7 +209,13 @@ impl Effects for () {
         None
     }
 
-    fn parameter(&self, _place: Place) -> Option<f64> {
+    fn value(
+        &self,
+        _place: Place,
+        _t: f64,
+        _motion: Option<&Kinematics<f64>>,
+        _rates: impl FnOnce() -> Option<Whole<f64>>,
+    ) -> Option<f64> {
         None
     }
 
@@ -282,6 +295,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         self.1.check()
     }
 
+    #[inline(always)]
     fn meta(place: Place) -> Option<&'static Meta> {
         row::<H>(place).map_or_else(|| T::meta(place), |row| row.map(|row| &row.meta))
     }
@@ -290,11 +304,19 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         row::<H>(place).map_or_else(|| T::name(place), |row| row.map(|row| full_name::<H>(row.meta.name)))
     }
 
-    fn parameter(&self, place: Place) -> Option<f64> {
-        match row::<H>(place) {
-            None => self.1.parameter(place),
-            Some(Some(Row { access: Access::Parameter { get, .. }, .. })) => Some(get(self.0.effect())),
-            Some(_) => None,
+    #[inline(always)]
+    fn value(
+        &self,
+        place: Place,
+        t: f64,
+        motion: Option<&Kinematics<f64>>,
+        rates: impl FnOnce() -> Option<Whole<f64>>,
+    ) -> Option<f64> {
+        let Some(row) = row::<H>(place) else { return self.1.value(place, t, motion, rates) };
+        let access = &row?.access;
+        match (self.0.active(), access) {
+            (None, Access::Output(_) | Access::Rate(_)) => Some(0.0),
+            _ => access.value(self.0.effect(), t, motion, rates),
         }
     }
 
@@ -381,6 +403,7 @@ const fn block_of<M: Member>() -> u32 {
 
 /// The row at a place: None where the place is another member's, Some(None) where it is this one's, but holds nothing.
 #[allow(clippy::option_option, reason = "two different absences")]
+#[inline(always)]
 fn row<M: Member>(place: Place) -> Option<Option<&'static Row<M::Effect>>> {
     (place.block == block_of::<M>()).then(|| M::Effect::ROWS.get(place.row))
 }

@@ -59,6 +59,11 @@ impl<E: Effects> Open<E> {
         self.t = t;
     }
 
+    /// The state.
+    pub fn state(&self) -> Whole<f64> {
+        self.state
+    }
+
     /// The host's state: its first numbers, or all.
     pub fn set_state(&mut self, state: &[f64]) {
         self.state[..state.len()].copy_from_slice(state);
