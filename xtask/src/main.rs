@@ -2,10 +2,12 @@
 
 mod demo;
 mod package;
+mod page;
 mod paths;
 mod python;
 mod run;
 mod scenes;
+mod templates;
 mod test;
 
 use anyhow::Result;

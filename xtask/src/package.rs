@@ -1,7 +1,7 @@
-//! `package`: each scene as an FMU, a zip of its modelDescription.xml, its library and its licences.
+//! `package`: each scene as an FMU, a zip of its modelDescription.xml, its library, and what describes it to people.
 
 use crate::run::{cargo, run};
-use crate::{paths, scenes};
+use crate::{page, paths, scenes};
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use model::scene::Scene;
@@ -83,6 +83,7 @@ fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
     };
     add("modelDescription.xml".into(), xml::model_description(scene).as_bytes())?;
     add(format!("binaries/{}/{}{DLL_SUFFIX}", platform()?, scene.identifier()), &std::fs::read(library)?)?;
+    add("documentation/index.html".into(), page::page(scene)?.as_bytes())?;
     let licence = |name: &str| std::fs::read_to_string(paths::root().join(name));
     let both = format!(
         "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n\n{}\n\n{}",
