@@ -82,6 +82,7 @@ fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
         Ok(zip.write_all(bytes)?)
     };
     add("modelDescription.xml".into(), xml::model_description(scene).as_bytes())?;
+    add("model.png".into(), &std::fs::read(paths::root().join("modelDescription/model.png"))?)?;
     add(format!("binaries/{}/{}{DLL_SUFFIX}", platform()?, scene.identifier()), &std::fs::read(library)?)?;
     add("documentation/index.html".into(), page::page(scene)?.as_bytes())?;
     let licence = |name: &str| std::fs::read_to_string(paths::root().join(name));
