@@ -8,6 +8,7 @@ mod python;
 mod run;
 mod scenes;
 mod templates;
+mod terminals;
 mod test;
 
 use anyhow::Result;
