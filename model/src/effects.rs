@@ -5,9 +5,11 @@
 //! holds every effect behind a switch.
 
 mod list;
+mod terminal;
 mod wrench;
 
 pub use list::{Called, Effects, Switched};
+pub use terminal::Terminal;
 pub use wrench::Wrench;
 
 use crate::scalar::Scalar;
@@ -32,6 +34,9 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Whether it can lose energy or be supplied with it, with any parameters. To forget to deny it costs time, not
     /// energy.
     const COULD_WORK: bool = true;
+
+    /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
+    const TERMINAL: Option<Terminal> = None;
 
     /// Force on the rotor and moment about c [N, N·m].
     #[inline(always)]
@@ -85,6 +90,8 @@ pub struct Info {
     pub name: &'static str,
     /// Its number, from which its value references follow.
     pub number: u32,
+    /// The terminal that it is, if it is one.
+    pub terminal: Option<Terminal>,
     /// The path of its type, for the list that build.rs writes.
     pub type_path: &'static str,
     /// Its variables.
@@ -116,6 +123,7 @@ macro_rules! catalogue {
         pub static CATALOGUE: &[Info] = &[$(Info {
             name: stringify!($module),
             number: $number,
+            terminal: <$module::$type as Effect>::TERMINAL,
             type_path: concat!("model::effects::", stringify!($module), "::", stringify!($type)),
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,

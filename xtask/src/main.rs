@@ -6,12 +6,15 @@ mod c_host;
 mod demo;
 mod memcheck;
 mod package;
+mod page;
 mod paths;
 mod python;
 mod run;
 mod sanitize;
 mod scenes;
 mod sheet;
+mod templates;
+mod terminals;
 mod test;
 mod unpacked;
 

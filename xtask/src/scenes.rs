@@ -2,12 +2,21 @@
 
 use crate::paths;
 use anyhow::Result;
+use model::effects::Info;
 use model::scene::Scene;
+use model::variable::Place;
+use model::variables::Variable;
 use model::xml;
 
 /// The scene that the user means.
 pub fn find(name_or_path: &str) -> Result<Scene> {
     Ok(Scene::find(name_or_path, &paths::scenes())?)
+}
+
+/// The variables of one effect of a scene, the `index`th of its kind.
+pub fn variables_of<'s>(scene: &'s Scene, info: &Info, index: u32) -> impl Iterator<Item = &'s Variable> {
+    let block = Place::effect_block(info.number, index);
+    scene.variables.iter().filter(move |variable| variable.place.block == block)
 }
 
 /// Lists the scenes and their effects.

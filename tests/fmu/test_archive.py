@@ -1,0 +1,51 @@
+"""The FMU as a zip archive: what is in it, and that it is packed as FMI 2.0.4 (2.3) asks, alike every time."""
+
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
+
+import pytest
+from fmpy import platform, sharedLibraryExtension
+
+DATA_DESCRIPTOR, UTF_8 = 1 << 3, 1 << 11
+"""Bits of a zip entry's flags that an FMU may have; bit 0 would be encryption."""
+
+
+@pytest.fixture
+def entries(fmu):
+    """The archive's directory."""
+    with ZipFile(fmu.path) as archive:
+        assert archive.testzip() is None
+        return archive.infolist()
+
+
+def test_exact_what_is_in_it(fmu, entries):
+    assert [entry.filename for entry in entries] == [
+        "modelDescription.xml",
+        "model.png",
+        f"binaries/{platform}/{fmu.scene}{sharedLibraryExtension}",
+        "documentation/index.html",
+        "documentation/licenses/license.txt",
+        "terminalsAndIcons/terminalsAndIcons.xml",
+        "terminalsAndIcons/icon.png",
+    ]
+
+
+def test_exact_entries_are_stored_or_deflated(entries):
+    for entry in entries:
+        allowed = DATA_DESCRIPTOR | UTF_8 if entry.compress_type == ZIP_DEFLATED else UTF_8
+        assert entry.compress_type in (ZIP_STORED, ZIP_DEFLATED), entry.filename
+        assert entry.flag_bits & ~allowed == 0, entry.filename
+        assert entry.extract_version <= 20, entry.filename
+
+
+def test_exact_entries_tell_nothing_of_their_making(entries):
+    for entry in entries:
+        assert entry.date_time == (1980, 1, 1, 0, 0, 0), entry.filename
+        assert (entry.comment, entry.extra) == (b"", b""), entry.filename
+
+
+def test_exact_packaging_again_gives_the_same_bytes(paper, xtask, tmp_path):
+    """The library is built anew, since other scenes were packaged after it."""
+    done = xtask("package", "paper", "--out", tmp_path)
+    assert done.returncode == 0, done.stderr
+    again = (tmp_path / "paper.fmu").read_bytes()
+    assert again == paper.path.read_bytes(), "or target/fmu is out of date: run `cargo xtask package paper`"
