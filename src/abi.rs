@@ -33,6 +33,8 @@ pub type Size = size_t;
 pub const FALSE: Boolean = 0;
 /// fmi2True
 pub const TRUE: Boolean = 1;
+/// fmi2ModelExchange
+pub const MODEL_EXCHANGE: Choice = 0;
 /// fmi2CoSimulation
 pub const CO_SIMULATION: Choice = 1;
 

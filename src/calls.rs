@@ -1,7 +1,8 @@
-//! The states of a co-simulation instance, and in which of them each function is legal.
+//! The states of an instance, and in which of them each function is legal.
 //!
-//! The table follows FMI 2.0.4, section 4.2.4, but lets a host read and set values already in the instantiated state and
-//! go on after a discarded step from the last successful time, as real hosts do.
+//! The table follows FMI 2.0.4, sections 3.2.3 and 4.2.4, but is lenient where real hosts need it (docs/fmi.md).
+
+use model::simulation::Integrator;
 
 /// Where an instance is in its life.
 #[repr(u8)]
@@ -19,6 +20,10 @@ pub enum State {
     Terminated = 16,
     /// After a caught panic: nothing but fmi2FreeInstance is legal.
     Lost = 32,
+    /// Model exchange: at an event, and after fmi2ExitInitializationMode.
+    EventMode = 64,
+    /// Model exchange: while the host integrates.
+    ContinuousTime = 128,
 }
 
 impl State {
@@ -31,6 +36,8 @@ impl State {
             State::StepFailed => "step failed",
             State::Terminated => "terminated",
             State::Lost => "lost after an internal failure",
+            State::EventMode => "event mode",
+            State::ContinuousTime => "continuous-time mode",
         }
     }
 }
@@ -41,29 +48,65 @@ pub struct Call {
     pub name: &'static str,
     /// A set of [`State`] bits.
     legal: u8,
+    /// Of which instances it is legal; None: of all.
+    kind: Option<Integrator>,
     /// What to do instead where it is not legal.
-    pub remedy: &'static str,
+    remedy: &'static str,
 }
 
 impl Call {
-    const fn new(name: &'static str, legal: u8, remedy: &'static str) -> Self {
-        Self { name, legal, remedy }
+    const fn new(name: &'static str, legal: u8, kind: Option<Integrator>, remedy: &'static str) -> Self {
+        Self { name, legal, kind, remedy }
     }
 
-    /// Whether it may be called in this state.
-    pub const fn is_legal(&self, state: State) -> bool {
-        self.legal & state as u8 != 0
+    /// Whether it may be called in this state of an instance for this kind of simulation.
+    #[inline(always)]
+    pub fn is_legal(&self, state: State, integrator: Integrator) -> bool {
+        self.legal & state as u8 != 0 && self.kind.is_none_or(|kind| kind == integrator)
+    }
+
+    /// Why it is not legal there, and what to do.
+    pub fn refusal(&self, state: State, integrator: Integrator) -> String {
+        match self.kind {
+            Some(kind) if kind != integrator => {
+                let (this, right) = (kind_name(integrator), kind_name(kind));
+                format!("not legal of an instance for {this}: instantiate for {right}")
+            }
+            _ => format!("not legal in the state \"{}\": {}", state.name(), self.remedy),
+        }
+    }
+}
+
+/// What an instance is for.
+pub const fn kind_name(integrator: Integrator) -> &'static str {
+    match integrator {
+        Integrator::Method => "co-simulation",
+        Integrator::Host => "model exchange",
     }
 }
 
 const INSTANTIATED: u8 = State::Instantiated as u8;
 const INITIALIZATION: u8 = State::Initialization as u8;
 const STEPPING: u8 = State::StepComplete as u8 | State::StepFailed as u8;
-const ALIVE: u8 = INSTANTIATED | INITIALIZATION | STEPPING | State::Terminated as u8;
+const EVENT: u8 = State::EventMode as u8;
+const CONTINUOUS: u8 = State::ContinuousTime as u8;
+const TERMINATED: u8 = State::Terminated as u8;
+/// After the initialization.
+const RUNNING: u8 = STEPPING | EVENT | CONTINUOUS;
+const ALIVE: u8 = INSTANTIATED | INITIALIZATION | RUNNING | TERMINATED;
+
+const ANY: Option<Integrator> = None;
+const CS: Option<Integrator> = Some(Integrator::Method);
+const ME: Option<Integrator> = Some(Integrator::Host);
 
 const RESET: &str = "call fmi2Reset first";
 const INITIALIZE: &str = "call it between fmi2ExitInitializationMode and fmi2Terminate";
-const MODEL_EXCHANGE: &str = "instantiate for co-simulation and use fmi2DoStep";
+const IN_EVENT_MODE: &str = "call it in event mode, after fmi2ExitInitializationMode or fmi2EnterEventMode";
+const IN_CONTINUOUS: &str = "call fmi2EnterContinuousTimeMode first";
+const TO_SET: &str =
+    "inputs are set until fmi2Terminate, parameters before fmi2ExitInitializationMode; or call fmi2Reset first";
+const PARAMETERS: &str = "all variables of this type are fixed parameters: set them before fmi2ExitInitializationMode, or call fmi2Reset first";
+const EXPERIMENT: &str = "call it before fmi2EnterInitializationMode, or fmi2Reset first";
 
 /// The calls, in the order of the standard.
 #[rustfmt::skip]
@@ -71,56 +114,54 @@ pub mod call {
     use super::*;
 
     macro_rules! calls {
-        ($($constant:ident $name:literal $legal:expr, $remedy:expr;)*) => {
+        ($($constant:ident $name:literal $kind:ident $legal:expr, $remedy:expr;)*) => {
             $(
                 #[doc = $name]
-                pub const $constant: Call = Call::new($name, $legal, $remedy);
+                pub const $constant: Call = Call::new($name, $legal, $kind, $remedy);
             )*
         };
     }
 
     calls! {
-        SET_DEBUG_LOGGING            "fmi2SetDebugLogging"            ALIVE, RESET;
-        SETUP_EXPERIMENT             "fmi2SetupExperiment"            INSTANTIATED, "call it before fmi2EnterInitializationMode, or fmi2Reset first";
-        ENTER_INITIALIZATION_MODE    "fmi2EnterInitializationMode"    INSTANTIATED, RESET;
-        EXIT_INITIALIZATION_MODE     "fmi2ExitInitializationMode"     INITIALIZATION, "call fmi2EnterInitializationMode first";
-        TERMINATE                    "fmi2Terminate"                  STEPPING, INITIALIZE;
-        RESET_INSTANCE               "fmi2Reset"                      ALIVE, "call fmi2FreeInstance";
-        GET_REAL                     "fmi2GetReal"                    ALIVE, RESET;
-        GET_INTEGER                  "fmi2GetInteger"                 ALIVE, RESET;
-        GET_BOOLEAN                  "fmi2GetBoolean"                 ALIVE, RESET;
-        GET_STRING                   "fmi2GetString"                  ALIVE, RESET;
-        SET_REAL                     "fmi2SetReal"                    INSTANTIATED | INITIALIZATION, PARAMETERS;
-        SET_INTEGER                  "fmi2SetInteger"                 INSTANTIATED | INITIALIZATION, PARAMETERS;
-        SET_BOOLEAN                  "fmi2SetBoolean"                 INSTANTIATED | INITIALIZATION, PARAMETERS;
-        SET_STRING                   "fmi2SetString"                  INSTANTIATED | INITIALIZATION, PARAMETERS;
-        GET_FMU_STATE                "fmi2GetFMUstate"                ALIVE, RESET;
-        SET_FMU_STATE                "fmi2SetFMUstate"                ALIVE, RESET;
-        FREE_FMU_STATE               "fmi2FreeFMUstate"               ALIVE, RESET;
-        SERIALIZED_FMU_STATE_SIZE    "fmi2SerializedFMUstateSize"     ALIVE, RESET;
-        SERIALIZE_FMU_STATE          "fmi2SerializeFMUstate"          ALIVE, RESET;
-        DESERIALIZE_FMU_STATE        "fmi2DeSerializeFMUstate"        ALIVE, RESET;
-        GET_DIRECTIONAL_DERIVATIVE   "fmi2GetDirectionalDerivative"   ALIVE, RESET;
-        ENTER_EVENT_MODE             "fmi2EnterEventMode"             ALIVE, MODEL_EXCHANGE;
-        NEW_DISCRETE_STATES          "fmi2NewDiscreteStates"          ALIVE, MODEL_EXCHANGE;
-        ENTER_CONTINUOUS_TIME_MODE   "fmi2EnterContinuousTimeMode"    ALIVE, MODEL_EXCHANGE;
-        COMPLETED_INTEGRATOR_STEP    "fmi2CompletedIntegratorStep"    ALIVE, MODEL_EXCHANGE;
-        SET_TIME                     "fmi2SetTime"                    ALIVE, MODEL_EXCHANGE;
-        SET_CONTINUOUS_STATES        "fmi2SetContinuousStates"        ALIVE, MODEL_EXCHANGE;
-        GET_DERIVATIVES              "fmi2GetDerivatives"             ALIVE, MODEL_EXCHANGE;
-        GET_EVENT_INDICATORS         "fmi2GetEventIndicators"         ALIVE, MODEL_EXCHANGE;
-        GET_CONTINUOUS_STATES        "fmi2GetContinuousStates"        ALIVE, MODEL_EXCHANGE;
-        GET_NOMINALS                 "fmi2GetNominalsOfContinuousStates" ALIVE, MODEL_EXCHANGE;
-        SET_INPUT_DERIVATIVES        "fmi2SetRealInputDerivatives"    ALIVE, RESET;
-        GET_OUTPUT_DERIVATIVES       "fmi2GetRealOutputDerivatives"   ALIVE, RESET;
-        DO_STEP                      "fmi2DoStep"                     STEPPING, INITIALIZE;
-        CANCEL_STEP                  "fmi2CancelStep"                 ALIVE, RESET;
-        GET_STATUS                   "fmi2GetStatus"                  STEPPING | State::Terminated as u8, INITIALIZE;
-        GET_REAL_STATUS              "fmi2GetRealStatus"              STEPPING | State::Terminated as u8, INITIALIZE;
-        GET_INTEGER_STATUS           "fmi2GetIntegerStatus"           STEPPING | State::Terminated as u8, INITIALIZE;
-        GET_BOOLEAN_STATUS           "fmi2GetBooleanStatus"           STEPPING | State::Terminated as u8, INITIALIZE;
-        GET_STRING_STATUS            "fmi2GetStringStatus"            STEPPING | State::Terminated as u8, INITIALIZE;
+        SET_DEBUG_LOGGING            "fmi2SetDebugLogging"            ANY ALIVE, RESET;
+        SETUP_EXPERIMENT             "fmi2SetupExperiment"            ANY INSTANTIATED, EXPERIMENT;
+        ENTER_INITIALIZATION_MODE    "fmi2EnterInitializationMode"    ANY INSTANTIATED, RESET;
+        EXIT_INITIALIZATION_MODE     "fmi2ExitInitializationMode"     ANY INITIALIZATION, "call fmi2EnterInitializationMode first";
+        TERMINATE                    "fmi2Terminate"                  ANY RUNNING, INITIALIZE;
+        RESET_INSTANCE               "fmi2Reset"                      ANY ALIVE, "call fmi2FreeInstance";
+        GET_REAL                     "fmi2GetReal"                    ANY ALIVE, RESET;
+        GET_INTEGER                  "fmi2GetInteger"                 ANY ALIVE, RESET;
+        GET_BOOLEAN                  "fmi2GetBoolean"                 ANY ALIVE, RESET;
+        GET_STRING                   "fmi2GetString"                  ANY ALIVE, RESET;
+        SET_REAL                     "fmi2SetReal"                    ANY INSTANTIATED | INITIALIZATION | RUNNING, TO_SET;
+        SET_INTEGER                  "fmi2SetInteger"                 ANY INSTANTIATED | INITIALIZATION, PARAMETERS;
+        SET_BOOLEAN                  "fmi2SetBoolean"                 ANY INSTANTIATED | INITIALIZATION, PARAMETERS;
+        SET_STRING                   "fmi2SetString"                  ANY INSTANTIATED | INITIALIZATION, PARAMETERS;
+        GET_FMU_STATE                "fmi2GetFMUstate"                ANY ALIVE, RESET;
+        SET_FMU_STATE                "fmi2SetFMUstate"                ANY ALIVE, RESET;
+        FREE_FMU_STATE               "fmi2FreeFMUstate"               ANY ALIVE, RESET;
+        SERIALIZED_FMU_STATE_SIZE    "fmi2SerializedFMUstateSize"     ANY ALIVE, RESET;
+        SERIALIZE_FMU_STATE          "fmi2SerializeFMUstate"          ANY ALIVE, RESET;
+        DESERIALIZE_FMU_STATE        "fmi2DeSerializeFMUstate"        ANY ALIVE, RESET;
+        GET_DIRECTIONAL_DERIVATIVE   "fmi2GetDirectionalDerivative"   ANY INITIALIZATION | RUNNING | TERMINATED, "call fmi2EnterInitializationMode first";
+        ENTER_EVENT_MODE             "fmi2EnterEventMode"             ME CONTINUOUS, IN_CONTINUOUS;
+        NEW_DISCRETE_STATES          "fmi2NewDiscreteStates"          ME EVENT, IN_EVENT_MODE;
+        ENTER_CONTINUOUS_TIME_MODE   "fmi2EnterContinuousTimeMode"    ME EVENT, IN_EVENT_MODE;
+        COMPLETED_INTEGRATOR_STEP    "fmi2CompletedIntegratorStep"    ME CONTINUOUS, IN_CONTINUOUS;
+        SET_TIME                     "fmi2SetTime"                    ME EVENT | CONTINUOUS, INITIALIZE;
+        SET_CONTINUOUS_STATES        "fmi2SetContinuousStates"        ME CONTINUOUS, IN_CONTINUOUS;
+        GET_DERIVATIVES              "fmi2GetDerivatives"             ME INITIALIZATION | EVENT | CONTINUOUS | TERMINATED, INITIALIZE;
+        GET_EVENT_INDICATORS         "fmi2GetEventIndicators"         ME INITIALIZATION | EVENT | CONTINUOUS | TERMINATED, INITIALIZE;
+        GET_CONTINUOUS_STATES        "fmi2GetContinuousStates"        ME INITIALIZATION | EVENT | CONTINUOUS | TERMINATED, INITIALIZE;
+        GET_NOMINALS                 "fmi2GetNominalsOfContinuousStates" ME INSTANTIATED | INITIALIZATION | EVENT | CONTINUOUS | TERMINATED, RESET;
+        SET_INPUT_DERIVATIVES        "fmi2SetRealInputDerivatives"    CS INSTANTIATED | INITIALIZATION | STEPPING, RESET;
+        GET_OUTPUT_DERIVATIVES       "fmi2GetRealOutputDerivatives"   CS INITIALIZATION | STEPPING | TERMINATED, "call fmi2EnterInitializationMode first";
+        DO_STEP                      "fmi2DoStep"                     CS STEPPING, INITIALIZE;
+        CANCEL_STEP                  "fmi2CancelStep"                 CS ALIVE, RESET;
+        GET_STATUS                   "fmi2GetStatus"                  CS STEPPING | TERMINATED, INITIALIZE;
+        GET_REAL_STATUS              "fmi2GetRealStatus"              CS STEPPING | TERMINATED, INITIALIZE;
+        GET_INTEGER_STATUS           "fmi2GetIntegerStatus"           CS STEPPING | TERMINATED, INITIALIZE;
+        GET_BOOLEAN_STATUS           "fmi2GetBooleanStatus"           CS STEPPING | TERMINATED, INITIALIZE;
+        GET_STRING_STATUS            "fmi2GetStringStatus"            CS STEPPING | TERMINATED, INITIALIZE;
     }
-
-    const PARAMETERS: &str = "all settable variables are fixed parameters: set them before fmi2ExitInitializationMode, or call fmi2Reset first";
 }

@@ -26,9 +26,9 @@ pub unsafe fn enter(
     if instance.memory.state == State::Lost {
         return Status::Fatal;
     }
-    if !call.is_legal(instance.memory.state) {
-        let message =
-            format!("{}: not legal in the state \"{}\": {}", call.name, instance.memory.state.name(), call.remedy);
+    let integrator = instance.memory.integrator();
+    if !call.is_legal(instance.memory.state, integrator) {
+        let message = format!("{}: {}", call.name, call.refusal(instance.memory.state, integrator));
         instance.logger.log(Status::Error, Category::Error, &message);
         return Status::Error;
     }
@@ -122,6 +122,7 @@ mod tests {
     use crate::abi::{CallbackFunctions, Environment, LoggerCallback};
     use crate::calls::call;
     use crate::logger::Logger;
+    use model::simulation::Integrator;
     use std::ffi::CStr;
     use std::sync::Mutex;
 
@@ -146,7 +147,7 @@ mod tests {
             step_finished: None,
             environment: (&raw const lines).cast_mut().cast(),
         };
-        let mut instance = Instance::new(Logger::new(&callbacks, c"rotor", false));
+        let mut instance = Instance::new(Logger::new(&callbacks, c"rotor", false), Integrator::Method);
         let component: Component = (&raw mut instance).cast();
         for panic in [|| panic!("100% unexpected"), || panic!("{}", "100% unexpected".to_owned()) as fn() -> ()] {
             instance.memory.state = State::Instantiated;

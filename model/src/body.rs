@@ -2,6 +2,7 @@
 
 use crate::error::Invalid;
 use crate::scalar::Scalar;
+use crate::stored::stored;
 use nalgebra::Vector3;
 
 /// Mass and inertia of a rotor that is symmetric about its axis t, and the length of its rod.
@@ -17,6 +18,8 @@ pub struct Body {
     /// Distance from the support point a to the mass centre c, along t [m].
     pub l: f64,
 }
+
+stored!(Body { m, Ja, Jt, l });
 
 impl Body {
     /// ω [rad/s] of angular momentum K [kg·m²/s] about c, the axis being t.

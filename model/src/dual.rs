@@ -1,6 +1,6 @@
 //! Dual numbers: a value and its derivatives in D directions, carried exactly through arithmetic.
 //!
-//! With ε² = 0, f(a + a′ε) = f(a) + f′(a) a′ ε.
+//! With ε² = 0, f(a + a′ε) = f(a) + f′(a) a′ ε. Over duals instead of f64 they give second derivatives.
 #![allow(clippy::suspicious_arithmetic_impl, reason = "the rules of product and quotient mix operations")]
 
 use crate::scalar::Scalar;
@@ -9,64 +9,83 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 
 /// re + Σ eps_i ε_i, with D directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual<const D: usize> {
+pub struct Dual<const D: usize, S = f64> {
     /// The value.
-    pub re: f64,
+    pub re: S,
     /// The derivative in each direction.
-    pub eps: [f64; D],
+    pub eps: [S; D],
 }
 
-impl<const D: usize> Dual<D> {
+/// A value and its derivative in one direction.
+pub type Tangent = Dual<1>;
+
+impl<const D: usize, S: Scalar> Dual<D, S> {
     /// The independent variable of a direction: value `re`, derivative 1 in `direction` (< D), 0 in the others.
-    pub fn variable(re: f64, direction: usize) -> Self {
-        let mut eps = [0.0; D];
-        eps[direction] = 1.0;
+    pub fn variable(re: S, direction: usize) -> Self {
+        let mut eps = [S::zero(); D];
+        eps[direction] = S::one();
         Self { re, eps }
     }
 
     /// re with each derivative given by its direction.
-    fn with(re: f64, eps: impl FnMut(usize) -> f64) -> Self {
+    fn with(re: S, eps: impl FnMut(usize) -> S) -> Self {
         Self { re, eps: std::array::from_fn(eps) }
     }
 }
 
-impl<const D: usize> Scalar for Dual<D> {
+impl<S: Scalar> Dual<1, S> {
+    /// A value that changes at this rate.
+    pub fn along(re: S, rate: S) -> Self {
+        Self { re, eps: [rate] }
+    }
+}
+
+impl<const D: usize, S: Scalar> Scalar for Dual<D, S> {
     fn constant(re: f64) -> Self {
-        Self { re, eps: [0.0; D] }
+        Self { re: S::constant(re), eps: [S::zero(); D] }
     }
 
     fn re(self) -> f64 {
-        self.re
+        self.re.re()
     }
 
     fn sqrt(self) -> Self {
         let root = self.re.sqrt();
-        Self::with(root, |i| 0.5 * self.eps[i] / root)
+        let factor = S::constant(0.5) / root;
+        Self::with(root, |i| factor * self.eps[i])
+    }
+
+    fn with_value(self, value: f64) -> Self {
+        Self { re: self.re.with_value(value), ..self }
+    }
+
+    fn moving(value: f64, rate: f64) -> Self {
+        Self { re: S::moving(value, rate), eps: [S::constant(rate); D] }
     }
 }
 
-impl<const D: usize> Add for Dual<D> {
+impl<const D: usize, S: Scalar> Add for Dual<D, S> {
     type Output = Self;
     fn add(self, b: Self) -> Self {
         Self::with(self.re + b.re, |i| self.eps[i] + b.eps[i])
     }
 }
 
-impl<const D: usize> Sub for Dual<D> {
+impl<const D: usize, S: Scalar> Sub for Dual<D, S> {
     type Output = Self;
     fn sub(self, b: Self) -> Self {
         Self::with(self.re - b.re, |i| self.eps[i] - b.eps[i])
     }
 }
 
-impl<const D: usize> Mul for Dual<D> {
+impl<const D: usize, S: Scalar> Mul for Dual<D, S> {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
         Self::with(self.re * b.re, |i| self.eps[i] * b.re + self.re * b.eps[i])
     }
 }
 
-impl<const D: usize> Div for Dual<D> {
+impl<const D: usize, S: Scalar> Div for Dual<D, S> {
     type Output = Self;
     fn div(self, b: Self) -> Self {
         let quotient = self.re / b.re;
@@ -74,38 +93,38 @@ impl<const D: usize> Div for Dual<D> {
     }
 }
 
-impl<const D: usize> Neg for Dual<D> {
+impl<const D: usize, S: Scalar> Neg for Dual<D, S> {
     type Output = Self;
     fn neg(self) -> Self {
         Self::with(-self.re, |i| -self.eps[i])
     }
 }
 
-impl<const D: usize> AddAssign for Dual<D> {
+impl<const D: usize, S: Scalar> AddAssign for Dual<D, S> {
     fn add_assign(&mut self, b: Self) {
         *self = *self + b;
     }
 }
 
-impl<const D: usize> SubAssign for Dual<D> {
+impl<const D: usize, S: Scalar> SubAssign for Dual<D, S> {
     fn sub_assign(&mut self, b: Self) {
         *self = *self - b;
     }
 }
 
-impl<const D: usize> MulAssign for Dual<D> {
+impl<const D: usize, S: Scalar> MulAssign for Dual<D, S> {
     fn mul_assign(&mut self, b: Self) {
         *self = *self * b;
     }
 }
 
-impl<const D: usize> DivAssign for Dual<D> {
+impl<const D: usize, S: Scalar> DivAssign for Dual<D, S> {
     fn div_assign(&mut self, b: Self) {
         *self = *self / b;
     }
 }
 
-impl<const D: usize> Zero for Dual<D> {
+impl<const D: usize, S: Scalar> Zero for Dual<D, S> {
     fn zero() -> Self {
         Self::constant(0.0)
     }
@@ -115,7 +134,7 @@ impl<const D: usize> Zero for Dual<D> {
     }
 }
 
-impl<const D: usize> One for Dual<D> {
+impl<const D: usize, S: Scalar> One for Dual<D, S> {
     fn one() -> Self {
         Self::constant(1.0)
     }

@@ -12,15 +12,26 @@ pub use wrench::Wrench;
 
 use crate::scalar::Scalar;
 use crate::state::Kinematics;
-use crate::variable::{Meta, Row};
+use crate::variable::{self, Meta};
+
+/// Outputs of effects are read from the motion.
+pub enum Motion {}
+
+impl variable::Shown for Motion {
+    type Of<S: Scalar> = Kinematics<S>;
+}
+
+/// A variable of an effect.
+pub type Row<E> = variable::Row<E, Motion>;
 
 /// A law and its variables. All vectors in the inertial frame O.
 pub trait Effect: Clone + Default + Send + 'static {
     /// Its variables, named within its block; new ones go to the end, for a value reference is a place in this list.
-    const ROWS: &'static [Row<Self, Kinematics<f64>>];
+    const ROWS: &'static [Row<Self>];
 
-    /// The parameters on which its potential depends, full names; empty where it has none.
-    const POTENTIAL_DEPENDS: &'static [&'static str] = &[];
+    /// Whether it can lose energy or be supplied with it, with any parameters. To forget to deny it costs time, not
+    /// energy.
+    const COULD_WORK: bool = true;
 
     /// Force on the rotor and moment about c [N, N·m].
     #[inline(always)]
@@ -46,15 +57,16 @@ pub trait Effect: Clone + Default + Send + 'static {
         S::zero()
     }
 
-    /// Whether, with its present parameters, its law has no limit where |γ| = π, because it follows the direction of γ.
+    /// Whether, with its present parameters and inputs, its law has no limit where |γ| = π, because it follows the
+    /// direction of γ.
     fn needs_gamma(&self) -> bool {
         false
     }
 
     /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
-    /// integrals are not solved. An effect that never can says false here; to forget it costs time, not energy.
+    /// integrals are not solved.
     fn works(&self) -> bool {
-        true
+        Self::COULD_WORK
     }
 }
 
@@ -77,8 +89,8 @@ pub struct Info {
     pub type_path: &'static str,
     /// Its variables.
     pub metas: fn() -> Vec<Meta>,
-    /// The parameters on which its potential depends.
-    pub potential_depends: &'static [&'static str],
+    /// Whether it can lose energy or be supplied with it.
+    pub could_work: bool,
 }
 
 /// The effect of this name.
@@ -106,7 +118,7 @@ macro_rules! catalogue {
             number: $number,
             type_path: concat!("model::effects::", stringify!($module), "::", stringify!($type)),
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
-            potential_depends: <$module::$type as Effect>::POTENTIAL_DEPENDS,
+            could_work: <$module::$type as Effect>::COULD_WORK,
         }),*];
 
         /// Every effect, each behind a switch.
@@ -132,4 +144,5 @@ macro_rules! catalogue {
 catalogue! {
     1 gravity Gravity;
     2 support Support;
+    3 shaft Shaft;
 }

@@ -12,40 +12,35 @@ pub fn kinetic<S: Scalar>(motion: &Kinematics<S>) -> S {
 }
 
 /// What there is, what came in and what went out [J].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Ledger {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ledger<S: Scalar> {
     /// Kinetic energy [J].
-    pub kinetic: f64,
+    pub kinetic: S,
     /// Potential energy of all effects [J].
-    pub potential: f64,
+    pub potential: S,
     /// Total energy at the start [J].
     pub total_at_start: f64,
     /// Work supplied from outside since the start [J].
-    pub supplied: f64,
+    pub supplied: S,
     /// Work lost since the start [J].
-    pub dissipated: f64,
+    pub dissipated: S,
 }
 
-impl Ledger {
-    /// The ledger of an instant; `supplied` and `dissipated` [J] since the start, `total_at_start` [J].
-    pub fn new<E: Effects>(
-        motion: &Kinematics<f64>,
-        effects: &E,
-        supplied: f64,
-        dissipated: f64,
-        total_at_start: f64,
-    ) -> Self {
+impl<S: Scalar> Ledger<S> {
+    /// The ledger of an instant; work supplied and lost [J] since the start, `total_at_start` [J].
+    pub fn new<E: Effects>(motion: &Kinematics<S>, effects: &E, work: [S; 2], total_at_start: f64) -> Self {
+        let [supplied, dissipated] = work;
         Self { kinetic: kinetic(motion), potential: effects.potential(motion), total_at_start, supplied, dissipated }
     }
 
     /// Kinetic plus potential energy [J].
-    pub fn total(&self) -> f64 {
+    pub fn total(&self) -> S {
         self.kinetic + self.potential
     }
 
     /// Zero for an exact solution [J].
-    pub fn residual(&self) -> f64 {
+    pub fn residual(&self) -> S {
         // eq. 18: total − total(start) − supplied + dissipated
-        self.total() - self.total_at_start - self.supplied + self.dissipated
+        self.total() - S::constant(self.total_at_start) - self.supplied + self.dissipated
     }
 }

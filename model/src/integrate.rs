@@ -4,6 +4,8 @@ pub mod control;
 pub mod explicit;
 pub mod tableau;
 
+use crate::stored::stored;
+
 /// N ordinary differential equations dy/dt = f(t, y).
 pub trait System<const N: usize> {
     /// f(t, y).
@@ -25,6 +27,8 @@ pub struct Tolerance<const N: usize> {
     /// Relative to the component's size [1].
     pub relative: [f64; N],
 }
+
+stored!(Tolerance<const N: usize> { absolute, relative });
 
 /// Why a step could not be done; the state is that of the last step that could.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,3 +82,5 @@ pub struct Cost {
     /// Sum of the accepted steps' error norms, in units of the tolerance [1].
     pub error_estimate: f64,
 }
+
+stored!(Cost { steps, rejected, evaluations, next_step, error_estimate });

@@ -12,11 +12,13 @@ pub mod integrate;
 pub mod log;
 pub mod rotation;
 pub mod scalar;
-pub mod variable;
+pub mod signal;
+pub mod stored;
 
-// Floor 1: kinematics.
+// Floor 1: kinematics, and the record of a variable, which may be read from them.
 pub mod body;
 pub mod state;
+pub mod variable;
 
 // Floor 2: what acts on the rotor.
 pub mod effects;
@@ -28,11 +30,13 @@ pub mod rotor;
 // Floor 4: the one list of variables.
 pub mod variables;
 
-// Floor 5: scenes and their modelDescription.xml, for build.rs and xtask.
+// Floor 5: a whole run.
+pub mod simulation;
+
+// Floor 6: scenes and their modelDescription.xml, for build.rs and xtask.
+#[cfg(feature = "scenes")]
+pub mod dependencies;
 #[cfg(feature = "scenes")]
 pub mod scene;
 #[cfg(feature = "scenes")]
 pub mod xml;
-
-// Floor 6: a whole run.
-pub mod simulation;

@@ -5,7 +5,9 @@ use crate::effects::Effects;
 use crate::integrate::{Refusal, System};
 use crate::rotation::Chart;
 use crate::scalar::Scalar;
-use crate::state::{COORDINATES, Coordinates, Kinematics};
+use crate::state::{Coordinates, DISSIPATED, Kinematics, SUPPLIED, WITH_WORK, Whole};
+use crate::stored::stored;
+use nalgebra::Vector2;
 use std::f64::consts::PI;
 
 /// A rotor with what acts on it.
@@ -17,6 +19,8 @@ pub struct Rotor<E> {
     pub effects: E,
     /// The chart in which its state is written.
     pub chart: Chart,
+    /// Whole turns of φ, counted apart.
+    pub turns: f64,
 }
 
 /// |γ| [rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
@@ -28,37 +32,67 @@ pub const FORBIDDEN: f64 = PI - LIMIT;
 const BEYOND_REACH: Refusal = Refusal("the axis turns too far for one chart, however short the step");
 
 const BEYOND_LIMIT: Refusal =
-    Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2) has no limit at pi");
+    Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi");
 
-/// The number of equations without the work integrals, and with them.
-pub const WITHOUT_WORK: usize = COORDINATES;
-/// Work supplied and work lost follow the coordinates.
-pub const WITH_WORK: usize = COORDINATES + 2;
-/// Where the work supplied [J] stands in a state with work.
-pub const SUPPLIED: usize = COORDINATES;
-/// Where the work lost [J] stands in a state with work.
-pub const DISSIPATED: usize = COORDINATES + 1;
+/// The rates of the coordinates.
+#[inline(always)]
+fn rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Coordinates<S> {
+    let load = effects.load(motion);
+    // eq. 12: dr_c/dt = v_c, m dv_c/dt = ΣF, dK_c/dt = ΣM_c
+    Coordinates {
+        r_c: motion.at.v_c,
+        v_c: load.force * S::constant(1.0 / motion.body.m),
+        k_c: load.moment,
+        gamma: motion.tilt.gamma_rate(&motion.omega),
+        phi: motion.tilt.phi_rate(&motion.omega),
+    }
+}
+
+/// The rates of the coordinates and of the work integrals.
+pub fn whole_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
+    let mut whole = [S::zero(); WITH_WORK];
+    rates(effects, motion).write(&mut whole);
+    if effects.works() {
+        whole[SUPPLIED] = effects.supply(motion);
+        whole[DISSIPATED] = effects.loss(motion);
+    }
+    whole
+}
 
 impl<E: Effects> Rotor<E> {
     /// The rates of the coordinates.
     #[inline(always)]
     pub fn rates<S: Scalar>(&self, motion: &Kinematics<S>) -> Coordinates<S> {
-        let load = self.effects.load(motion);
-        // eq. 12: dr_c/dt = v_c, m dv_c/dt = ΣF, dK_c/dt = ΣM_c
-        Coordinates {
-            r_c: motion.at.v_c,
-            v_c: load.force * S::constant(1.0 / self.body.m),
-            k_c: load.moment,
-            gamma: motion.tilt.gamma_rate(&motion.omega),
-            phi: motion.tilt.phi_rate(&motion.omega),
-        }
+        rates(&self.effects, motion)
+    }
+
+    /// The motion at time `t` [s], from a state.
+    #[inline(always)]
+    pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
+        Kinematics::new(self.body, self.chart, Coordinates::from_slice(y)).when(t, self.turns)
     }
 }
 
+impl<E: Effects> Rotor<E> {
+    /// Whether a state may have this γ [rad] in the chart, whose own reach is told, under these effects.
+    pub fn reaches(&self, gamma: Vector2<f64>, reach: f64) -> Result<(), Refusal> {
+        let theta_squared = gamma.norm_squared();
+        if theta_squared > reach * reach {
+            return Err(BEYOND_REACH);
+        }
+        if self.chart == Chart::FromMinusE && self.effects.needs_gamma() && theta_squared < FORBIDDEN * FORBIDDEN {
+            return Err(BEYOND_LIMIT);
+        }
+        Ok(())
+    }
+}
+
+stored!(Rotor<E: Effects> { body, effects, chart, turns });
+
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     #[inline(always)]
-    fn rates(&self, _t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = Kinematics::new(self.body, self.chart, Coordinates::from_slice(y));
+    fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        let motion = self.motion(t, y);
         let mut rates = [0.0; N];
         self.rates(&motion).write(&mut rates);
         if N == WITH_WORK {
@@ -69,13 +103,6 @@ impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     }
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {
-        let theta_squared = Coordinates::from_slice(y).gamma.norm_squared();
-        if theta_squared > Chart::REACH * Chart::REACH {
-            return Err(BEYOND_REACH);
-        }
-        if self.chart == Chart::FromMinusE && self.effects.needs_gamma() && theta_squared < FORBIDDEN * FORBIDDEN {
-            return Err(BEYOND_LIMIT);
-        }
-        Ok(())
+        self.reaches(Coordinates::from_slice(y).gamma, Chart::REACH)
     }
 }

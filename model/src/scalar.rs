@@ -29,6 +29,12 @@ pub trait Scalar:
 
     /// The square root, of a value ≥ 0.
     fn sqrt(self) -> Self;
+
+    /// Another value with the same derivatives: for what is known better than arithmetic gives it.
+    fn with_value(self, value: f64) -> Self;
+
+    /// A value with this derivative in every direction.
+    fn moving(value: f64, rate: f64) -> Self;
 }
 
 impl Scalar for f64 {
@@ -45,5 +51,15 @@ impl Scalar for f64 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn with_value(self, value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn moving(value: f64, _rate: f64) -> Self {
+        value
     }
 }

@@ -4,7 +4,7 @@
 mod toml_reader;
 
 use crate::effects::{All, Effects, Info};
-use crate::variable::{Place, Role};
+use crate::variable::Place;
 use crate::variables::{Parameters, Variable};
 use std::collections::BTreeMap;
 use std::fmt;
@@ -23,7 +23,7 @@ pub struct Scene {
     pub effects: Vec<(&'static Info, u32)>,
     /// Its variables.
     pub variables: Vec<Variable>,
-    /// The start value of each parameter, by value reference.
+    /// The start value of each parameter and input, by value reference.
     pub starts: BTreeMap<u32, f64>,
     /// When and how finely to look at it.
     pub experiment: Experiment,
@@ -130,7 +130,7 @@ impl Scene {
             parameters.effects.switch_on(Place::effect_block(info.number, *index));
         }
         for (reference, value) in &self.starts {
-            parameters.set(Place::of(*reference), *value);
+            parameters.begin_with(Place::of(*reference), *value);
         }
         parameters
     }
@@ -152,9 +152,6 @@ fn name_of(file: &Path) -> String {
 
 /// The start values of a list of variables as its defaults have them; what has none is left out.
 fn defaults(list: &[Variable]) -> BTreeMap<u32, f64> {
-    let default = |variable: &Variable| match variable.meta.role {
-        Role::Parameter { default, .. } => Some((variable.place.value_reference(), default?)),
-        Role::Output(_) => None,
-    };
+    let default = |variable: &Variable| Some((variable.place.value_reference(), variable.meta.default()?));
     list.iter().filter_map(default).collect()
 }

@@ -1,25 +1,43 @@
-//! A whole run without FMI: the scene's parameters, a method that steps ahead, and what the communication point shows.
+//! A whole run without FMI: the scene's parameters and inputs, a method that steps ahead or a host that integrates, and
+//! what the communication point shows.
 
 mod drive;
+mod open;
 mod start;
+mod tangents;
+
+pub use tangents::Tangents;
 
 use crate::effects::Effects;
-use crate::energy::Ledger;
 use crate::error::Invalid;
-use crate::integrate::{Cost, Fault};
-use crate::rotation::Angle;
-use crate::rotor::{WITH_WORK, WITHOUT_WORK};
-use crate::state::Kinematics;
-use crate::variable::{Access, Place, Row};
-use crate::variables::{self, Parameters, Reading};
+use crate::integrate::{Cost, Fault, Refusal};
+use crate::rotor;
+use crate::state::{COORDINATES, WITH_WORK, Whole};
+use crate::stored::{Damaged, Stored, Walk, choice};
+use crate::variable::Place;
+use crate::variables::{Parameters, Reading};
 use drive::Drive;
+use open::Open;
 use start::Motion;
+
+/// Who integrates a motion.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Integrator {
+    /// A method of ours: co-simulation.
+    #[default]
+    Method,
+    /// Somebody else, who asks for rates: model exchange.
+    Host,
+}
 
 /// A rotor of the scene `E`, from its parameters to its motion.
 #[derive(Clone, Default)]
 pub struct Simulation<E> {
+    integrator: Integrator,
     parameters: Parameters<E>,
     run: Option<Run<E>>,
+    /// Whether an input was set of which the run has not heard.
+    news: bool,
     /// What the communication point shows, once somebody asked.
     reading: Option<Reading>,
 }
@@ -28,27 +46,32 @@ pub struct Simulation<E> {
 #[derive(Clone)]
 #[allow(clippy::large_enum_variant, reason = "a run is kept in place, so that it needs no allocation")]
 enum Run<E> {
-    Conservative(Drive<E, WITHOUT_WORK>),
+    Conservative(Drive<E, COORDINATES>),
     Working(Drive<E, WITH_WORK>),
+    Open(Open<E>),
 }
 
 impl<E: Effects> From<Parameters<E>> for Simulation<E> {
     fn from(parameters: Parameters<E>) -> Self {
-        Self { parameters, run: None, reading: None }
+        Self::with(Integrator::Method, parameters)
     }
 }
 
 impl<E: Effects> Simulation<E> {
-    /// A simulation with each parameter as the list gives it; `starts` are places and values.
-    pub fn new(starts: impl IntoIterator<Item = (Place, f64)>) -> Self {
-        let mut simulation = Self::default();
-        for (place, value) in starts {
-            simulation.set_parameter(place, value);
-        }
-        simulation
+    /// How many continuous states a host integrates: the coordinates, and the work integrals where an effect could work.
+    pub const STATES: usize = if E::COULD_WORK { WITH_WORK } else { COORDINATES };
+
+    /// A simulation with these parameters.
+    pub fn with(integrator: Integrator, parameters: Parameters<E>) -> Self {
+        Self { integrator, parameters, ..Self::default() }
     }
 
-    /// The parameters.
+    /// Who integrates.
+    pub fn integrator(&self) -> Integrator {
+        self.integrator
+    }
+
+    /// The parameters and inputs.
     pub fn parameters(&self) -> &Parameters<E> {
         &self.parameters
     }
@@ -59,22 +82,54 @@ impl<E: Effects> Simulation<E> {
         self.parameters.set(place, value)
     }
 
+    /// Sets an input from the communication point on; false where there is none at this place.
+    pub fn set_input(&mut self, place: Place, value: f64) -> bool {
+        let t = self.time().unwrap_or_default();
+        let signal = self.parameters.effects.signal_mut(place);
+        let found = signal.map(|signal| signal.set(t, value)).is_some();
+        self.tell_of_inputs(found);
+        found
+    }
+
+    /// Sets a derivative of an input, of order 1 or 2, at the communication point; false where there is no input.
+    pub fn set_input_derivative(&mut self, place: Place, order: u32, value: f64) -> bool {
+        let t = self.time().unwrap_or_default();
+        let signal = self.parameters.effects.signal_mut(place);
+        let found = signal.map(|signal| signal.set_derivative(t, order, value)).is_some();
+        self.tell_of_inputs(found);
+        found
+    }
+
+    /// A host's motion hears of inputs at once, a method when it goes on.
+    fn tell_of_inputs(&mut self, news: bool) {
+        if let (true, Some(Run::Open(open))) = (news, &mut self.run) {
+            open.hear(&self.parameters.effects);
+            self.reading = None;
+        } else {
+            self.news |= news;
+        }
+    }
+
     /// Starts the motion at time `t` [s]; a relative tolerance [1] given here stands in for that of the parameters.
     ///
     /// # Panics
     /// Where `t` is not finite.
     pub fn start(&mut self, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
+        self.parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         let mut parameters = self.parameters.clone();
         let solver = &mut parameters.setup.solver;
         solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
         parameters.check()?;
         self.reading = None;
-        let (motion, reading) = at_start(&parameters)?;
-        self.run = Some(if parameters.effects.works() {
-            Run::Working(Drive::start(motion, &reading, &parameters.setup, t))
-        } else {
-            Run::Conservative(Drive::start(motion, &reading, &parameters.setup, t))
+        self.news = false;
+        let (motion, reading) = self.at_start(&parameters, t)?;
+        self.run = Some(match self.integrator {
+            Integrator::Host => Run::Open(Open::start(motion, &reading)),
+            Integrator::Method if parameters.effects.works() => {
+                Run::Working(Drive::start(motion, &reading, &parameters.setup, t))
+            }
+            Integrator::Method => Run::Conservative(Drive::start(motion, &reading, &parameters.setup, t)),
         });
         Ok(())
     }
@@ -82,20 +137,27 @@ impl<E: Effects> Simulation<E> {
     /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
     ///
     /// # Panics
-    /// Before [`Simulation::start`], or where `t` lies before the communication point or is not a number.
+    /// Before [`Simulation::start`], where a host integrates, or where `t` lies before the communication point or is not
+    /// a number.
     pub fn advance(&mut self, t: f64) -> Result<(), Fault> {
         self.reading = None;
+        let news = self.news.then_some(&self.parameters.effects);
         match self.run.as_mut().expect("a run was started") {
-            Run::Conservative(drive) => drive.advance(t),
-            Run::Working(drive) => drive.advance(t),
+            Run::Conservative(drive) => drive.advance(t, news)?,
+            Run::Working(drive) => drive.advance(t, news)?,
+            Run::Open(_) => panic!("the host integrates"),
         }
+        self.news = false;
+        Ok(())
     }
 
     /// The communication point [s]; None before the start.
+    #[inline(always)]
     pub fn time(&self) -> Option<f64> {
         match self.run.as_ref()? {
             Run::Conservative(drive) => Some(drive.time()),
             Run::Working(drive) => Some(drive.time()),
+            Run::Open(open) => Some(open.time()),
         }
     }
 
@@ -104,6 +166,7 @@ impl<E: Effects> Simulation<E> {
         match &self.run {
             Some(Run::Conservative(drive)) => drive.has_tilted(),
             Some(Run::Working(drive)) => drive.has_tilted(),
+            Some(Run::Open(open)) => open.has_tilted(),
             None => false,
         }
     }
@@ -114,43 +177,118 @@ impl<E: Effects> Simulation<E> {
         if let Some(value) = self.parameters.get(place) {
             return Ok(Some(value));
         }
+        if let Some(signal) = self.parameters.effects.signal(place) {
+            return Ok(Some(signal.at(self.time().unwrap_or_default())));
+        }
         self.read()?;
         let reading = self.reading.as_ref().expect("just read");
-        let Parameters { setup, effects } = &self.parameters;
-        Ok(match variables::always(place) {
-            None => effects.output(place, &reading.motion),
-            Some(Row { access: Access::Output(read), .. }) => Some(read(setup, reading)),
-            Some(_) => None,
-        })
+        Ok(self.parameters.calculated(place, reading))
     }
 
     /// What the communication point shows; before the start, what the parameters make of it.
+    #[inline(always)]
     pub fn read(&mut self) -> Result<&Reading, Invalid> {
         if self.reading.is_none() {
             self.reading = Some(match &mut self.run {
                 Some(Run::Conservative(drive)) => drive.read(),
                 Some(Run::Working(drive)) => drive.read(),
+                Some(Run::Open(open)) => open.read(),
                 None => {
                     self.parameters.check()?;
-                    at_start(&self.parameters)?.1
+                    self.at_start(&self.parameters, 0.0)?.1
                 }
             });
         }
         Ok(self.reading.as_ref().expect("just made"))
     }
+
+    /// The rates of the state at the communication point, units per second.
+    pub fn rates(&mut self) -> Result<Whole<f64>, Invalid> {
+        let motion = self.read()?.motion;
+        Ok(rotor::whole_rates(&self.parameters.effects, &motion))
+    }
+
+    /// How states and inputs differ from what they are, as derivatives go with them: of each place that is named, by its
+    /// seed. Places of other variables count for nothing.
+    pub fn tangents(&mut self, seeds: impl Iterator<Item = (Place, f64)>) -> Result<Tangents<E>, Invalid> {
+        let reading = *self.read()?;
+        Ok(Tangents::new(&self.parameters, &reading, seeds))
+    }
+
+    /// How everything changes with time at the communication point, per second.
+    pub fn time_derivatives(&mut self) -> Result<Tangents<E>, Invalid> {
+        let rates = self.rates()?;
+        let reading = *self.read()?;
+        Ok(Tangents::along_motion(&self.parameters, &reading, &rates))
+    }
+
+    /// The motion that a host integrates, once it was started; None where a method of ours does.
+    pub fn open(&mut self) -> Option<&mut Open<E>> {
+        let Some(Run::Open(open)) = &mut self.run else { return None };
+        self.reading = None;
+        Some(open)
+    }
+
+    /// Whether anything can be calculated of the present state; always, where a method of ours reached it.
+    #[inline(always)]
+    pub fn admits(&self) -> Result<(), Refusal> {
+        match &self.run {
+            Some(Run::Open(open)) => open.admits(),
+            _ => Ok(()),
+        }
+    }
+
+    /// What a continuous state of the host's counts with, in its unit.
+    pub fn nominals(&self) -> Whole<f64> {
+        start::nominals(&self.parameters.setup.rotor)
+    }
+
+    /// The start as the parameters make it, and what it shows. An error where it overflows.
+    fn at_start(&self, parameters: &Parameters<E>, t: f64) -> Result<(Motion<E>, Reading), Invalid> {
+        let mut start = Motion::at_start(parameters);
+        if self.integrator == Integrator::Host {
+            start.unwrap_turns();
+        }
+        let Motion { rotor, state } = &start;
+        let motion = rotor.motion(t, state);
+        let mut reading = Reading::new(motion, &rotor.effects, [0.0; 2], 0.0, Cost::default());
+        reading.ledger.total_at_start = reading.ledger.total();
+        if !reading.ledger.total().is_finite() {
+            let bound = "finite: the start values or parameters are too large";
+            return Err(Invalid::new("energy.total", reading.ledger.total(), bound));
+        }
+        Ok((start, reading))
+    }
 }
 
-/// The start as the parameters make it, and what it shows. An error where it overflows.
-fn at_start<E: Effects>(parameters: &Parameters<E>) -> Result<(Motion<E>, Reading), Invalid> {
-    let start = Motion::at_start(parameters);
-    let Motion { rotor, coordinates, .. } = &start;
-    let motion = Kinematics::new(rotor.body, rotor.chart, *coordinates);
-    let phi = Angle { turns: 0.0, remainder: parameters.setup.start.phi }.wrapped();
-    let mut ledger = Ledger::new(&motion, &rotor.effects, 0.0, 0.0, 0.0);
-    ledger.total_at_start = ledger.total();
-    if !ledger.total().is_finite() {
-        let bound = "finite: the start values or parameters are too large";
-        return Err(Invalid::new("energy.total", ledger.total(), bound));
+impl<E: Effects> Stored for Simulation<E> {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { integrator, parameters, run, news, reading } = self;
+        choice(integrator, &[Integrator::Method, Integrator::Host], walk)?;
+        parameters.walk(walk)?;
+        news.walk(walk)?;
+        // What it shows follows from the rest.
+        *reading = None;
+        let mut kind = match run {
+            None => 0,
+            Some(Run::Conservative(_)) => 1,
+            Some(Run::Working(_)) => 2,
+            Some(Run::Open(_)) => 3,
+        };
+        kind.walk(walk)?;
+        match (kind, &run) {
+            (0, _) => *run = None,
+            (1, Some(Run::Conservative(_))) | (2, Some(Run::Working(_))) | (3, Some(Run::Open(_))) => {}
+            (1, _) => *run = Some(Run::Conservative(Drive::blank())),
+            (2, _) => *run = Some(Run::Working(Drive::blank())),
+            (3, _) => *run = Some(Run::Open(Open::blank())),
+            _ => return Err(Damaged),
+        }
+        match run {
+            None => Ok(()),
+            Some(Run::Conservative(drive)) => drive.walk(walk),
+            Some(Run::Working(drive)) => drive.walk(walk),
+            Some(Run::Open(open)) => open.walk(walk),
+        }
     }
-    Ok((start, Reading { motion, phi, ledger, cost: Cost::default() }))
 }

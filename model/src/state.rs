@@ -1,7 +1,8 @@
 //! The state of the motion and its kinematics.
 
 use crate::body::Body;
-use crate::rotation::{Chart, Tilt};
+use crate::dual::Dual;
+use crate::rotation::{Angle, Chart, Tilt};
 use crate::scalar::Scalar;
 use nalgebra::{Vector2, Vector3};
 
@@ -20,8 +21,20 @@ pub struct Coordinates<S: Scalar> {
     pub phi: S,
 }
 
-/// How many coordinates a motion has.
+/// How many coordinates a motion has; a state without the work integrals.
 pub const COORDINATES: usize = 12;
+
+/// A state with the work integrals, which follow the coordinates.
+pub const WITH_WORK: usize = COORDINATES + 2;
+
+/// Where the work supplied [J] stands in a state with work.
+pub const SUPPLIED: usize = COORDINATES;
+
+/// Where the work lost [J] stands in a state with work.
+pub const DISSIPATED: usize = COORDINATES + 1;
+
+/// A state with work, or its rates.
+pub type Whole<S> = [S; WITH_WORK];
 
 /// Where γ stands among them.
 pub const GAMMA: std::ops::Range<usize> = 9..11;
@@ -57,6 +70,10 @@ impl<S: Scalar> Coordinates<S> {
 pub struct Kinematics<S: Scalar> {
     /// The body that moves.
     pub body: Body,
+    /// Time [s].
+    pub t: f64,
+    /// Whole turns of φ, counted apart.
+    pub turns: f64,
     /// Its coordinates.
     pub at: Coordinates<S>,
     /// Its tilt: γ and the axis t.
@@ -66,12 +83,29 @@ pub struct Kinematics<S: Scalar> {
 }
 
 impl<S: Scalar> Kinematics<S> {
-    /// The kinematics of `body` at these coordinates of a chart.
+    /// The kinematics of `body` at these coordinates of a chart, at time 0 and with no turns counted apart.
     #[inline(always)]
     pub fn new(body: Body, chart: Chart, at: Coordinates<S>) -> Self {
         let tilt = Tilt::new(chart, at.gamma);
         let omega = body.angular_velocity(&at.k_c, &tilt.axis);
-        Self { body, at, tilt, omega }
+        Self { body, t: 0.0, turns: 0.0, at, tilt, omega }
+    }
+
+    /// The same at time `t` [s], with whole turns counted apart.
+    #[inline(always)]
+    pub fn when(self, t: f64, turns: f64) -> Self {
+        Self { t, turns, ..self }
+    }
+
+    /// φ from e, wrapped.
+    pub fn angle(&self) -> Angle {
+        let gamma = self.at.gamma.map(S::re);
+        self.tilt.chart().axial_angle(self.turns, self.at.phi.re(), gamma)
+    }
+
+    /// φ from e [rad].
+    pub fn phi(&self) -> S {
+        self.tilt.chart().phi_from_e(self.at.phi, self.at.gamma).with_value(self.angle().radians())
     }
 
     /// The axis t [1].
@@ -89,6 +123,21 @@ impl<S: Scalar> Kinematics<S> {
     /// ω_φ = dφ/dt [rad/s], φ from e.
     pub fn axial_rate(&self) -> S {
         self.tilt.axial_rate(&self.omega)
+    }
+
+    /// dω_φ/dt [rad/s²], φ from e, where the coordinates change at these rates.
+    pub fn axial_acceleration(&self, rates: &Coordinates<S>) -> S {
+        // dω_φ/dt = ∂ω_φ/∂y · dy/dt
+        let along = |at: S, rate: S| Dual::along(at, rate);
+        let moving = Coordinates {
+            r_c: self.at.r_c.zip_map(&rates.r_c, along),
+            v_c: self.at.v_c.zip_map(&rates.v_c, along),
+            k_c: self.at.k_c.zip_map(&rates.k_c, along),
+            gamma: self.at.gamma.zip_map(&rates.gamma, along),
+            phi: along(self.at.phi, rates.phi),
+        };
+        let [rate] = Kinematics::new(self.body, self.tilt.chart(), moving).axial_rate().eps;
+        rate
     }
 
     /// Position of the station at `p` [m] along t from c, in O [m].

@@ -2,15 +2,25 @@
 
 pub mod units;
 
+use crate::dual::Tangent;
 use crate::error::Invalid;
+use crate::scalar::Scalar;
+use crate::signal::Signal;
+use crate::state::Whole;
 use units::Unit;
 
-/// One variable of a block that lives on `P` (its parameters) and is read from `O` (what an instant shows).
-pub struct Row<P: 'static, O: 'static> {
+/// One variable of a block that lives on `P` (its parameters and inputs) and is read from `O` (what an instant shows).
+pub struct Row<P: 'static, O: Shown> {
     /// What is said of it.
     pub meta: Meta,
     /// How it is reached.
     pub access: Access<P, O>,
+}
+
+/// What an instant shows, in values or in values with derivatives.
+pub trait Shown: 'static {
+    /// Over this scalar.
+    type Of<S: Scalar>;
 }
 
 /// Where a variable stands, the same in every scene: its block, and its row within the block.
@@ -46,7 +56,7 @@ impl Place {
 }
 
 /// How a variable is reached. Whole numbers, enumerations and Booleans travel as f64, exactly.
-pub enum Access<P: 'static, O: 'static> {
+pub enum Access<P: 'static, O: Shown> {
     /// Set before the run.
     Parameter {
         /// Reads it.
@@ -54,8 +64,74 @@ pub enum Access<P: 'static, O: 'static> {
         /// Writes it.
         set: fn(&mut P, f64),
     },
-    /// Calculated.
-    Output(fn(&P, &O) -> f64),
+    /// Set at communication points.
+    Input {
+        /// Reads it.
+        get: fn(&P) -> &Signal,
+        /// To write it.
+        get_mut: fn(&mut P) -> &mut Signal,
+    },
+    /// Calculated from the state.
+    Output(Output<P, O>),
+    /// Calculated from the state and its rates.
+    Rate(Rate<P, O>),
+}
+
+/// One line of calculation, compiled for values and for values with derivatives.
+pub struct Output<P: 'static, O: Shown> {
+    /// For values.
+    pub value: fn(&P, &O::Of<f64>) -> f64,
+    /// For derivatives.
+    pub tangent: fn(&P, &O::Of<Tangent>) -> Tangent,
+}
+
+/// As [`Output`], of the rates too.
+pub struct Rate<P: 'static, O: Shown> {
+    /// For values.
+    pub value: fn(&P, &O::Of<f64>, &Whole<f64>) -> f64,
+    /// For derivatives.
+    pub tangent: fn(&P, &O::Of<Tangent>, &Whole<Tangent>) -> Tangent,
+}
+
+/// A scalar over which outputs are compiled: f64 or [`Tangent`].
+pub trait Readable: Scalar {
+    /// An output's value.
+    fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self;
+    /// A rate's value.
+    fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self;
+}
+
+impl Readable for f64 {
+    #[inline(always)]
+    fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self {
+        (output.value)(of, shown)
+    }
+
+    fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self {
+        (rate.value)(of, shown, rates)
+    }
+}
+
+impl Readable for Tangent {
+    fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self {
+        (output.tangent)(of, shown)
+    }
+
+    fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self {
+        (rate.tangent)(of, shown, rates)
+    }
+}
+
+impl<P, O: Shown> Access<P, O> {
+    /// The value of a calculated variable, None of others; `rates` is asked only where it counts.
+    #[inline(always)]
+    pub fn calculated<S: Readable>(&self, of: &P, shown: &O::Of<S>, rates: impl FnOnce() -> Whole<S>) -> Option<S> {
+        match self {
+            Access::Output(output) => Some(S::output(output, of, shown)),
+            Access::Rate(rate) => Some(S::rate(rate, of, shown, &rates())),
+            _ => None,
+        }
+    }
 }
 
 /// What is said of a variable.
@@ -69,7 +145,7 @@ pub struct Meta {
     pub unit: &'static Unit,
     /// Its FMI type.
     pub kind: Kind,
-    /// Parameter or output.
+    /// Parameter, input, output or state.
     pub role: Role,
 }
 
@@ -78,6 +154,8 @@ pub struct Meta {
 pub enum Kind {
     /// fmi2Real.
     Real,
+    /// fmi2Integer.
+    Integer,
     /// fmi2Integer, with the meaning of each value.
     Enumeration(&'static Enumeration),
 }
@@ -101,19 +179,17 @@ pub enum Role {
         /// What its value must be.
         bound: Bound,
     },
-    /// causality output, initial calculated; at the start it depends on these.
-    Output(Depends),
-}
-
-/// The parameters on which an output depends at the start.
-#[derive(Clone, Copy, Debug)]
-pub enum Depends {
-    /// These names, or all that begin with one of them and a dot.
-    On(&'static [&'static str]),
-    /// What the effects' potentials depend on.
-    Potential,
-    /// These names, and what the effects' potentials depend on.
-    PotentialAnd(&'static [&'static str]),
+    /// causality input, with the value that it has until somebody sets it.
+    Input {
+        /// In the variable's unit.
+        start: f64,
+    },
+    /// causality output, calculated.
+    Output,
+    /// causality local: a continuous state, or its derivative where it is called der(…).
+    State,
+    /// causality local, variability discrete: changes at events only.
+    Mode,
 }
 
 /// What the value of a parameter must be, besides finite.
@@ -173,14 +249,32 @@ impl Meta {
         Self { name, description, unit, kind: Kind::Real, role: Role::Parameter { default, bound } }
     }
 
-    /// A Real output.
-    pub const fn output(name: &'static str, unit: &'static Unit, depends: Depends, description: &'static str) -> Self {
-        Self { name, description, unit, kind: Kind::Real, role: Role::Output(depends) }
+    /// A Real variable of another role.
+    pub const fn real(name: &'static str, unit: &'static Unit, role: Role, description: &'static str) -> Self {
+        Self { name, description, unit, kind: Kind::Real, role }
     }
 
-    /// The error of a parameter's value, if it has one; `full_name` is the name with its block.
+    /// The value that it has until somebody sets it, where the list knows one.
+    pub fn default(&self) -> Option<f64> {
+        match self.role {
+            Role::Parameter { default, .. } => default,
+            Role::Input { start } => Some(start),
+            _ => None,
+        }
+    }
+
+    /// Whether somebody gives it its value.
+    pub fn has_start(&self) -> bool {
+        matches!(self.role, Role::Parameter { .. } | Role::Input { .. })
+    }
+
+    /// The error of a parameter's or input's value, if it has one; `full_name` is the name with its block.
     pub fn check(&self, full_name: impl FnOnce() -> String, value: f64) -> Result<(), Invalid> {
-        let Role::Parameter { bound, .. } = self.role else { return Ok(()) };
+        let bound = match self.role {
+            Role::Parameter { bound, .. } => bound,
+            Role::Input { .. } => Bound::Finite,
+            _ => return Ok(()),
+        };
         match self.kind {
             Kind::Enumeration(of) if !of.items.iter().any(|item| f64::from(item.0) == value) => {
                 Err(Invalid::new(full_name(), value, of.words()))
@@ -216,14 +310,45 @@ macro_rules! parameter {
     };
 }
 
-/// A row for an output: `output!("F.x", &NEWTON, Depends::On(&["rotor.l"]), "…", |effect, instant| …)`.
-macro_rules! output {
-    ($name:expr, $unit:expr, $depends:expr, $description:expr, $read:expr) => {
+/// A row for an input that is a [`Signal`]: `input!(tau, &NEWTON_METRE, 0.0, "…")`, with its value at first.
+macro_rules! input {
+    ($field:ident, $unit:expr, $start:expr, $description:expr) => {
         $crate::variable::Row {
-            meta: $crate::variable::Meta::output($name, $unit, $depends, $description),
-            access: $crate::variable::Access::Output($read),
+            meta: $crate::variable::Meta::real(
+                stringify!($field),
+                $unit,
+                $crate::variable::Role::Input { start: $start },
+                $description,
+            ),
+            access: $crate::variable::Access::Input { get: |p| &p.$field, get_mut: |p| &mut p.$field },
         }
     };
 }
 
-pub(crate) use {output, parameter};
+/// A row for an output: `output!("F.x", &NEWTON, "…", |effect, motion| …)`; with a third name, that of the rates of the
+/// state, which are calculated only for it. The expression is compiled for values and for derivatives.
+macro_rules! output {
+    ($name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt $(, $rates:tt)?| $read:expr) => {
+        output!(Output, $name, $unit, $description, |$p, $o $(, $rates)?| $read)
+    };
+    ($role:ident, $name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt| $read:expr) => {
+        $crate::variable::Row {
+            meta: $crate::variable::Meta::real($name, $unit, $crate::variable::Role::$role, $description),
+            access: $crate::variable::Access::Output($crate::variable::Output {
+                value: |$p, $o| $read,
+                tangent: |$p, $o| $read,
+            }),
+        }
+    };
+    ($role:ident, $name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt, $rates:tt| $read:expr) => {
+        $crate::variable::Row {
+            meta: $crate::variable::Meta::real($name, $unit, $crate::variable::Role::$role, $description),
+            access: $crate::variable::Access::Rate($crate::variable::Rate {
+                value: |$p, $o, $rates| $read,
+                tangent: |$p, $o, $rates| $read,
+            }),
+        }
+    };
+}
+
+pub(crate) use {input, output, parameter};

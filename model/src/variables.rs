@@ -6,10 +6,15 @@ use crate::effects::{Effects, Info};
 use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::Cost;
-use crate::rotation::Angle;
-use crate::state::Kinematics;
+use crate::rotation::Chart;
+use crate::rotor;
+use crate::scalar::Scalar;
+use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, SUPPLIED, WITH_WORK, Whole};
+use crate::stored::{Damaged, Stored, Walk};
 use crate::variable::units::*;
-use crate::variable::{Access, Bound, Depends, Enumeration, Kind, Meta, Place, Role, Row, output, parameter};
+use crate::variable::{
+    Access, Bound, Enumeration, Kind, Meta, Output, Place, Readable, Role, Row, Shown, output, parameter,
+};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
@@ -52,43 +57,75 @@ pub struct Solver {
 
 /// What an instant of the run shows.
 #[derive(Clone, Copy, Debug)]
-pub struct Reading {
+pub struct Reading<S: Scalar = f64> {
     /// The motion.
-    pub motion: Kinematics<f64>,
-    /// φ, wrapped.
-    pub phi: Angle,
+    pub motion: Kinematics<S>,
     /// The energies.
-    pub ledger: Ledger,
+    pub ledger: Ledger<S>,
     /// What the solver spent.
     pub cost: Cost,
 }
 
-impl Reading {
-    fn r_c(&self) -> &Vector3<f64> {
+impl<S: Scalar> Reading<S> {
+    /// What a motion shows, with the work supplied and lost [J] since the start, and the total energy there [J].
+    pub fn new<E: Effects>(motion: Kinematics<S>, effects: &E, work: [S; 2], total_at_start: f64, cost: Cost) -> Self {
+        Self { motion, ledger: Ledger::new(&motion, effects, work, total_at_start), cost }
+    }
+
+    /// The state.
+    pub fn state(&self) -> Whole<S> {
+        let mut state = [S::zero(); WITH_WORK];
+        self.motion.at.write(&mut state);
+        state[SUPPLIED] = self.ledger.supplied;
+        state[DISSIPATED] = self.ledger.dissipated;
+        state
+    }
+
+    fn r_c(&self) -> &Vector3<S> {
         &self.motion.at.r_c
     }
 
-    fn v_c(&self) -> &Vector3<f64> {
+    fn v_c(&self) -> &Vector3<S> {
         &self.motion.at.v_c
     }
 
-    fn k_c(&self) -> &Vector3<f64> {
+    fn k_c(&self) -> &Vector3<S> {
         &self.motion.at.k_c
     }
 
     /// γ from e [rad], where rounding gives |γ| > π: π.
-    fn gamma(&self) -> Vector3<f64> {
+    fn gamma(&self) -> Vector3<S> {
         let gamma = self.motion.tilt.gamma();
-        if gamma.norm() > PI { gamma * (1.0 - 2.0 * f64::EPSILON) } else { gamma }
+        if gamma.map(S::re).norm() > PI { gamma * S::constant(1.0 - 2.0 * f64::EPSILON) } else { gamma }
     }
 
-    fn omega(&self) -> &Vector3<f64> {
+    fn omega(&self) -> &Vector3<S> {
         &self.motion.omega
     }
 
-    fn axis(&self) -> &Vector3<f64> {
+    fn axis(&self) -> &Vector3<S> {
         self.motion.axis()
     }
+}
+
+impl Reading {
+    /// The same with the derivatives of a state that moves in the direction `seeds`, under these effects.
+    pub fn moving<S: Scalar, E: Effects>(&self, seeds: &Whole<f64>, effects: &E) -> Reading<S> {
+        let state = self.state();
+        let moving: Whole<S> = std::array::from_fn(|n| S::moving(state[n], seeds[n]));
+        let Kinematics { body, t, turns, .. } = self.motion;
+        let at = Coordinates::from_slice(&moving);
+        let motion = Kinematics::new(body, self.motion.tilt.chart(), at).when(t, turns);
+        let work = [moving[SUPPLIED], moving[DISSIPATED]];
+        Reading::new(motion, effects, work, self.ledger.total_at_start, self.cost)
+    }
+}
+
+/// The variables that are always there are read from a [`Reading`].
+pub enum Always {}
+
+impl Shown for Always {
+    type Of<S: Scalar> = Reading<S>;
 }
 
 /// The type of `solver.method`.
@@ -103,24 +140,25 @@ pub static METHODS: Enumeration = Enumeration {
 /// What a relative tolerance [1] must be: no tighter than double precision can keep.
 pub const TOLERANCES: Bound = Bound::Within(1e-14, 1e-1);
 
-type Always = Row<Setup, Reading>;
+type AlwaysRow = Row<Setup, Always>;
+
+fn constant<S: Scalar>(value: f64) -> S {
+    S::constant(value)
+}
 
 const ANY: Bound = Bound::Finite;
-const ATTITUDE: Depends = Depends::On(&["start.gamma"]);
-const MOMENTUM: Depends = Depends::On(&["rotor.Ja", "rotor.Jt", "start.gamma", "start.omega"]);
-const NOTHING: Depends = Depends::On(&[]);
 
 /// The blocks that are always there, in the order of their value references.
-pub static BLOCKS: [&[Always]; 5] = [ROTOR, START, SOLVER, MOTION, ENERGY];
+pub static BLOCKS: [&[AlwaysRow]; 6] = [ROTOR, START, SOLVER, MOTION, ENERGY, STATE];
 
-const ROTOR: &[Always] = &[
+const ROTOR: &[AlwaysRow] = &[
     parameter!(rotor.m, &KILOGRAM, None, Bound::Positive, "mass"),
     parameter!(rotor.Ja, &KILOGRAM_METRE_SQUARED, None, Bound::Positive, "axial moment of inertia"),
     parameter!(rotor.Jt, &KILOGRAM_METRE_SQUARED, None, Bound::Positive, "transverse moment of inertia about c"),
     parameter!(rotor.l, &METRE, None, ANY, "distance from the support point a to the mass centre c"),
 ];
 
-const START: &[Always] = &[
+const START: &[AlwaysRow] = &[
     parameter!(start.r_c.x, &METRE, Some(0.0), ANY, "position of the mass centre at the start, x"),
     parameter!(start.r_c.y, &METRE, Some(0.0), ANY, "position of the mass centre at the start, y"),
     parameter!(start.r_c.z, &METRE, Some(0.0), ANY, "position of the mass centre at the start, z"),
@@ -149,7 +187,7 @@ const START: &[Always] = &[
     parameter!(start.omega.z, &RADIAN_PER_SECOND, Some(0.0), ANY, "angular velocity at the start, z"),
 ];
 
-const SOLVER: &[Always] = &[
+const SOLVER: &[AlwaysRow] = &[
     Row {
         meta: Meta {
             name: "solver.method",
@@ -177,83 +215,119 @@ const SOLVER: &[Always] = &[
         Bound::NotNegative,
         "tolerance of a step's error in nominals; 0: the relative tolerance"
     ),
-    output!("solver.steps", &ONE, NOTHING, "steps accepted so far", |_, r| r.cost.steps),
-    output!("solver.rejected", &ONE, NOTHING, "steps rejected so far", |_, r| r.cost.rejected),
+    output!("solver.steps", &ONE, "steps accepted so far", |_, r| constant(r.cost.steps)),
+    output!("solver.rejected", &ONE, "steps rejected so far", |_, r| constant(r.cost.rejected)),
     output!(
         "solver.evaluations",
         &ONE,
-        NOTHING,
         "evaluations of the right-hand side so far, those for outputs between two steps included",
-        |_, r| r.cost.evaluations
+        |_, r| constant(r.cost.evaluations)
     ),
-    output!(
-        "solver.next_step",
-        &SECOND,
-        NOTHING,
-        "the step that the solver would like next; 0 before the run",
-        |_, r| r.cost.next_step
-    ),
+    output!("solver.next_step", &SECOND, "the step that the solver would like next; 0 before the run", |_, r| {
+        constant(r.cost.next_step)
+    }),
     output!(
         "solver.error_estimate",
         &ONE,
-        NOTHING,
         "sum of the local error estimates of the accepted steps, relative as the tolerance is",
-        |_, r| r.cost.error_estimate
+        |_, r| constant(r.cost.error_estimate)
     ),
 ];
 
-const MOTION: &[Always] = &[
-    output!("r_c.x", &METRE, Depends::On(&["start.r_c.x"]), "position of the mass centre, x", |_, r| r.r_c().x),
-    output!("r_c.y", &METRE, Depends::On(&["start.r_c.y"]), "position of the mass centre, y", |_, r| r.r_c().y),
-    output!("r_c.z", &METRE, Depends::On(&["start.r_c.z"]), "position of the mass centre, z", |_, r| r.r_c().z),
-    output!("v_c.x", &METRE_PER_SECOND, Depends::On(&["start.v_c.x"]), "velocity of the mass centre, x", |_, r| r
-        .v_c()
-        .x),
-    output!("v_c.y", &METRE_PER_SECOND, Depends::On(&["start.v_c.y"]), "velocity of the mass centre, y", |_, r| r
-        .v_c()
-        .y),
-    output!("v_c.z", &METRE_PER_SECOND, Depends::On(&["start.v_c.z"]), "velocity of the mass centre, z", |_, r| r
-        .v_c()
-        .z),
-    output!("phi", &RADIAN, Depends::On(&["start.phi"]), "axial angle, 2 pi turns + angle", |_, r| r.phi.radians()),
-    output!("turns", &ONE, Depends::On(&["start.phi"]), "whole turns of the axial angle", |_, r| r.phi.turns),
-    output!("angle", &RADIAN, Depends::On(&["start.phi"]), "axial angle less its whole turns, in [0, 2 pi)", |_, r| r
-        .phi
-        .remainder),
-    output!("gamma.y", &RADIAN, ATTITUDE, "transverse Euler vector, y", |_, r| r.gamma().y),
-    output!("gamma.z", &RADIAN, ATTITUDE, "transverse Euler vector, z", |_, r| r.gamma().z),
-    output!("omega.x", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, x", |_, r| r.omega().x),
-    output!("omega.y", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, y", |_, r| r.omega().y),
-    output!("omega.z", &RADIAN_PER_SECOND, MOMENTUM, "angular velocity, z", |_, r| r.omega().z),
-    output!("omega_phi", &RADIAN_PER_SECOND, MOMENTUM, "axial rate, the rate of phi", |_, r| r.motion.axial_rate()),
-    output!("K_c.x", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, x", |_, r| r.k_c().x),
-    output!("K_c.y", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, y", |_, r| r.k_c().y),
-    output!("K_c.z", &ANGULAR_MOMENTUM, MOMENTUM, "angular momentum about the mass centre, z", |_, r| r.k_c().z),
-    output!("axis.x", &ONE, ATTITUDE, "rotor axis t, x", |_, r| r.axis().x),
-    output!("axis.y", &ONE, ATTITUDE, "rotor axis t, y", |_, r| r.axis().y),
-    output!("axis.z", &ONE, ATTITUDE, "rotor axis t, z", |_, r| r.axis().z),
+const MOTION: &[AlwaysRow] = &[
+    output!("r_c.x", &METRE, "position of the mass centre, x", |_, r| r.r_c().x),
+    output!("r_c.y", &METRE, "position of the mass centre, y", |_, r| r.r_c().y),
+    output!("r_c.z", &METRE, "position of the mass centre, z", |_, r| r.r_c().z),
+    output!("v_c.x", &METRE_PER_SECOND, "velocity of the mass centre, x", |_, r| r.v_c().x),
+    output!("v_c.y", &METRE_PER_SECOND, "velocity of the mass centre, y", |_, r| r.v_c().y),
+    output!("v_c.z", &METRE_PER_SECOND, "velocity of the mass centre, z", |_, r| r.v_c().z),
+    output!("phi", &RADIAN, "axial angle, 2 pi turns + angle", |_, r| r.motion.phi()),
+    output!("turns", &ONE, "whole turns of the axial angle", |_, r| constant(r.motion.angle().turns)),
+    output!("angle", &RADIAN, "axial angle less its whole turns, in [0, 2 pi)", |_, r| r
+        .motion
+        .phi()
+        .with_value(r.motion.angle().remainder)),
+    output!("gamma.y", &RADIAN, "transverse Euler vector, y", |_, r| r.gamma().y),
+    output!("gamma.z", &RADIAN, "transverse Euler vector, z", |_, r| r.gamma().z),
+    output!("omega.x", &RADIAN_PER_SECOND, "angular velocity, x", |_, r| r.omega().x),
+    output!("omega.y", &RADIAN_PER_SECOND, "angular velocity, y", |_, r| r.omega().y),
+    output!("omega.z", &RADIAN_PER_SECOND, "angular velocity, z", |_, r| r.omega().z),
+    output!("omega_phi", &RADIAN_PER_SECOND, "axial rate, the rate of phi", |_, r| r.motion.axial_rate()),
+    output!("K_c.x", &ANGULAR_MOMENTUM, "angular momentum about the mass centre, x", |_, r| r.k_c().x),
+    output!("K_c.y", &ANGULAR_MOMENTUM, "angular momentum about the mass centre, y", |_, r| r.k_c().y),
+    output!("K_c.z", &ANGULAR_MOMENTUM, "angular momentum about the mass centre, z", |_, r| r.k_c().z),
+    output!("axis.x", &ONE, "rotor axis t, x", |_, r| r.axis().x),
+    output!("axis.y", &ONE, "rotor axis t, y", |_, r| r.axis().y),
+    output!("axis.z", &ONE, "rotor axis t, z", |_, r| r.axis().z),
 ];
 
-const KINETIC: &[&str] = &["rotor.m", "rotor.Ja", "rotor.Jt", "start.v_c", "start.gamma", "start.omega"];
-
-const ENERGY: &[Always] = &[
-    output!("energy.kinetic", &JOULE, Depends::On(KINETIC), "kinetic energy", |_, r| r.ledger.kinetic),
-    output!("energy.potential", &JOULE, Depends::Potential, "potential energy of all effects", |_, r| r
-        .ledger
-        .potential),
-    output!("energy.total", &JOULE, Depends::PotentialAnd(KINETIC), "kinetic and potential energy", |_, r| r
-        .ledger
-        .total()),
-    output!("energy.supplied", &JOULE, NOTHING, "work supplied since the start", |_, r| r.ledger.supplied),
-    output!("energy.dissipated", &JOULE, NOTHING, "work lost since the start", |_, r| r.ledger.dissipated),
+const ENERGY: &[AlwaysRow] = &[
+    output!("energy.kinetic", &JOULE, "kinetic energy", |_, r| r.ledger.kinetic),
+    output!("energy.potential", &JOULE, "potential energy of all effects", |_, r| r.ledger.potential),
+    output!("energy.total", &JOULE, "kinetic and potential energy", |_, r| r.ledger.total()),
+    output!("energy.supplied", &JOULE, "work supplied since the start", |_, r| r.ledger.supplied),
+    output!("energy.dissipated", &JOULE, "work lost since the start", |_, r| r.ledger.dissipated),
     output!(
         "energy.residual",
         &JOULE,
-        NOTHING,
         "total - total(start) - supplied + dissipated: zero for an exact solution",
         |_, r| r.ledger.residual()
     ),
 ];
+
+/// A continuous state and its rate, by their number in the state.
+macro_rules! states {
+    ($($n:expr, $name:literal, $unit:ident, $rate:ident, $what:literal;)*) => {
+        &[
+            $(output!(State, concat!("state.", $name), &$unit, $what, |_, r| r.state()[$n]),)*
+            $(output!(
+                State,
+                concat!("der(state.", $name, ")"),
+                &$rate,
+                concat!("rate of the ", $what),
+                |_, _, rates| rates[$n]
+            ),)*
+            Row {
+                meta: Meta {
+                    name: "state.chart",
+                    description: "chart of the state: gamma and phi measured from e (1) or from -e (2)",
+                    unit: &ONE,
+                    kind: Kind::Integer,
+                    role: Role::Mode,
+                },
+                access: Access::Output(Output {
+                    value: |_, r| chart_number(r.motion.tilt.chart()),
+                    tangent: |_, r| constant(chart_number(r.motion.tilt.chart())),
+                }),
+            },
+        ]
+    };
+}
+
+/// The state of model exchange, then its rates in the same order, then its chart. In co-simulation `state.phi` is what is
+/// left of φ less its whole turns.
+#[rustfmt::skip]
+const STATE: &[AlwaysRow] = states! {
+    0, "r.x", METRE, METRE_PER_SECOND, "position of the mass centre of the whole, x";
+    1, "r.y", METRE, METRE_PER_SECOND, "position of the mass centre of the whole, y";
+    2, "r.z", METRE, METRE_PER_SECOND, "position of the mass centre of the whole, z";
+    3, "v.x", METRE_PER_SECOND, METRE_PER_SECOND_SQUARED, "velocity of the mass centre of the whole, x";
+    4, "v.y", METRE_PER_SECOND, METRE_PER_SECOND_SQUARED, "velocity of the mass centre of the whole, y";
+    5, "v.z", METRE_PER_SECOND, METRE_PER_SECOND_SQUARED, "velocity of the mass centre of the whole, z";
+    6, "K.x", ANGULAR_MOMENTUM, NEWTON_METRE, "angular momentum about the mass centre of the whole, x";
+    7, "K.y", ANGULAR_MOMENTUM, NEWTON_METRE, "angular momentum about the mass centre of the whole, y";
+    8, "K.z", ANGULAR_MOMENTUM, NEWTON_METRE, "angular momentum about the mass centre of the whole, z";
+    9, "gamma.y", RADIAN, RADIAN_PER_SECOND, "transverse Euler vector in the chart in force, y";
+    10, "gamma.z", RADIAN, RADIAN_PER_SECOND, "transverse Euler vector in the chart in force, z";
+    11, "phi", RADIAN, RADIAN_PER_SECOND, "axial angle in the chart in force";
+    12, "supplied", JOULE, WATT, "work supplied since the start";
+    13, "dissipated", JOULE, WATT, "work lost since the start";
+};
+
+/// The number of a chart in `state.chart`.
+fn chart_number(chart: Chart) -> f64 {
+    f64::from(chart as u8)
+}
 
 const _: () = {
     assert!(BLOCKS.len() <= Place::FIRST_EFFECT as usize, "blocks run into those of the effects");
@@ -264,9 +338,32 @@ const _: () = {
     }
 };
 
-/// The row at this place, if it is one of those that are always there.
-pub fn always(place: Place) -> Option<&'static Always> {
+/// The row at this place, if it is one of those that are always there; those of the work integrals only where an effect
+/// `could_work`.
+#[inline(always)]
+fn always(place: Place, could_work: bool) -> Option<&'static AlwaysRow> {
+    if !could_work && is_of_work(place) {
+        return None;
+    }
     BLOCKS.get(place.block as usize)?.get(place.row)
+}
+
+/// The block of the states.
+const STATES: u32 = BLOCKS.len() as u32 - 1;
+
+/// Whether the place is that of a work integral or its rate among the states.
+fn is_of_work(place: Place) -> bool {
+    place.block == STATES && place.row < 2 * WITH_WORK && place.row % WITH_WORK >= COORDINATES
+}
+
+/// The place of a number of the state.
+pub fn state_place(n: usize) -> Place {
+    Place { block: STATES, row: n }
+}
+
+/// The number of the state at this place, if it is one of them.
+pub fn state_number(place: Place) -> Option<usize> {
+    (place.block == STATES && place.row < WITH_WORK).then_some(place.row)
 }
 
 impl Setup {
@@ -295,20 +392,31 @@ pub struct Parameters<E> {
     pub effects: E,
 }
 
+impl<E: Effects> FromIterator<(Place, f64)> for Parameters<E> {
+    /// Parameters and inputs with these values at the start.
+    fn from_iter<I: IntoIterator<Item = (Place, f64)>>(starts: I) -> Self {
+        let mut parameters = Self::default();
+        for (place, value) in starts {
+            parameters.begin_with(place, value);
+        }
+        parameters
+    }
+}
+
 impl<E: Effects> Parameters<E> {
     /// The full name of the variable at this place; None where there is none.
     pub fn name(place: Place) -> Option<String> {
-        always(place).map_or_else(|| E::name(place), |row| Some(row.meta.name.to_owned()))
+        always(place, E::COULD_WORK).map_or_else(|| E::name(place), |row| Some(row.meta.name.to_owned()))
     }
 
-    /// What is said of the variable at this place, parameter or output; None where there is none.
+    /// What is said of the variable at this place; None where there is none.
     pub fn meta(place: Place) -> Option<&'static Meta> {
-        always(place).map_or_else(|| E::meta(place), |row| Some(&row.meta))
+        always(place, E::COULD_WORK).map_or_else(|| E::meta(place), |row| Some(&row.meta))
     }
 
     /// The value of a parameter; None where there is none at this place.
     pub fn get(&self, place: Place) -> Option<f64> {
-        match always(place) {
+        match always(place, E::COULD_WORK) {
             None => self.effects.parameter(place),
             Some(Row { access: Access::Parameter { get, .. }, .. }) => Some(get(&self.setup)),
             Some(_) => None,
@@ -317,7 +425,7 @@ impl<E: Effects> Parameters<E> {
 
     /// Sets a parameter; false where there is none at this place.
     pub fn set(&mut self, place: Place, value: f64) -> bool {
-        match always(place) {
+        match always(place, E::COULD_WORK) {
             None => self.effects.set_parameter(place, value),
             Some(Row { access: Access::Parameter { set, .. }, .. }) => {
                 set(&mut self.setup, value);
@@ -327,10 +435,38 @@ impl<E: Effects> Parameters<E> {
         }
     }
 
+    /// Gives a parameter or an input its start value; false where there is none at this place.
+    pub fn begin_with(&mut self, place: Place, value: f64) -> bool {
+        self.set(place, value) || self.effects.signal_mut(place).map(|signal| signal.set(0.0, value)).is_some()
+    }
+
+    /// The value of a calculated variable at an instant; None where there is none at this place.
+    #[inline(always)]
+    pub fn calculated<S: Readable>(&self, place: Place, reading: &Reading<S>) -> Option<S> {
+        let rates = || rotor::whole_rates(&self.effects, &reading.motion);
+        match always(place, E::COULD_WORK) {
+            None => self.effects.calculated(place, &reading.motion, rates),
+            Some(row) => row.access.calculated(&self.setup, reading, rates),
+        }
+    }
+
     /// The first parameter whose value is not possible.
     pub fn check(&self) -> Result<(), Invalid> {
         self.setup.check()?;
         self.effects.check()
+    }
+}
+
+impl<E: Effects> Stored for Parameters<E> {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        for row in BLOCKS.into_iter().flatten() {
+            if let Access::Parameter { get, set } = row.access {
+                let mut value = get(&self.setup);
+                value.walk(walk)?;
+                set(&mut self.setup, value);
+            }
+        }
+        self.effects.walk(walk)
     }
 }
 
@@ -347,11 +483,13 @@ pub struct Variable {
 
 /// The list: all variables of a scene that calls for `effects`, each with its index from 1 among its kind.
 pub fn of_scene(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
+    let could_work = effects.iter().any(|(info, _)| info.could_work);
     let mut list = Vec::new();
     let mut block = |block: u32, prefix: &str, metas: Vec<Meta>| {
-        list.extend(metas.into_iter().enumerate().map(|(row, meta)| Variable {
+        let placed = metas.into_iter().enumerate().map(|(row, meta)| (Place { block, row }, meta));
+        list.extend(placed.filter(|(place, _)| could_work || !is_of_work(*place)).map(|(place, meta)| Variable {
             name: format!("{prefix}{}", meta.name),
-            place: Place { block, row },
+            place,
             meta,
         }));
     };

@@ -1,9 +1,10 @@
 //! modelDescription.xml (FMI 2.0.4) and the GUID of a scene, from the one list of variables.
 
+use crate::dependencies::Dependencies;
 use crate::log::{self, Category};
 use crate::scene::Scene;
 use crate::variable::units::Unit;
-use crate::variable::{Bound, Depends, Enumeration, Kind, Role};
+use crate::variable::{Bound, Enumeration, Kind, Role};
 use crate::variables::Variable;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -45,15 +46,23 @@ fn write(out: &mut Out, scene: &Scene, guid: &str) -> io::Result<()> {
         ("license", env!("CARGO_PKG_LICENSE")),
         ("generationTool", &format!("split-rotor {version}")),
         ("variableNamingConvention", "structured"),
+        ("numberOfEventIndicators", "0"),
     ];
     out.create_element("fmiModelDescription").with_attributes(attributes).write_inner_content(|out| {
-        let capabilities = [
+        let common = [
             ("modelIdentifier", scene.identifier()),
-            ("canHandleVariableCommunicationStepSize", "true".into()),
             ("canNotUseMemoryManagementFunctions", "true".into()),
             ("canGetAndSetFMUstate", "true".into()),
+            ("canSerializeFMUstate", "true".into()),
+            ("providesDirectionalDerivative", "true".into()),
         ];
-        empty(out, "CoSimulation", &capabilities)?;
+        empty(out, "ModelExchange", &common)?;
+        let co_simulation = [
+            ("canHandleVariableCommunicationStepSize", "true".into()),
+            ("canInterpolateInputs", "true".into()),
+            ("maxOutputDerivativeOrder", "1".into()),
+        ];
+        empty(out, "CoSimulation", &[&common[..], &co_simulation].concat())?;
         units(out, &scene.variables)?;
         types(out, &scene.variables)?;
         inside(out, "LogCategories", |out| {
@@ -136,79 +145,87 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
     let meta = &variable.meta;
     let reference = variable.place.value_reference();
     let (causality, variability, initial) = match meta.role {
-        Role::Parameter { .. } => ("parameter", "fixed", "exact"),
-        Role::Output(_) => ("output", "continuous", "calculated"),
+        Role::Parameter { .. } => ("parameter", "fixed", Some("exact")),
+        Role::Input { .. } => ("input", "continuous", None),
+        Role::Output => ("output", "continuous", Some("calculated")),
+        Role::State => ("local", "continuous", Some("calculated")),
+        Role::Mode => ("local", "discrete", Some("calculated")),
     };
+    let reference_text = reference.to_string();
     let attributes = [
-        ("name", variable.name.as_str()),
-        ("valueReference", &reference.to_string()),
-        ("description", meta.description),
-        ("causality", causality),
-        ("variability", variability),
+        ("name", Some(variable.name.as_str())),
+        ("valueReference", Some(&reference_text)),
+        ("description", Some(meta.description)),
+        ("causality", Some(causality)),
+        ("variability", Some(variability)),
         ("initial", initial),
     ];
-    let start = match meta.role {
-        Role::Parameter { bound, .. } => Some((scene.starts[&reference], bound)),
-        Role::Output(_) => None,
-    };
+    let attributes = attributes.into_iter().filter_map(|(key, value)| Some((key, value?)));
+    let start = scene.starts.get(&reference).copied();
     out.create_element("ScalarVariable").with_attributes(attributes).write_inner_content(|out| match meta.kind {
-        Kind::Real => empty(out, "Real", &real(meta.unit, start)),
+        Kind::Real => {
+            let mut attributes = real(meta.unit);
+            if let (Role::Parameter { bound, .. }, Some(_)) = (meta.role, start) {
+                attributes.extend(limits(bound));
+            }
+            attributes.extend(start.map(|value| ("start", number(value))));
+            attributes.extend(derivative_of(scene, variable).map(|index| ("derivative", index.to_string())));
+            empty(out, "Real", &attributes)
+        }
+        Kind::Integer => empty(out, "Integer", &[]),
         Kind::Enumeration(of) => {
             let mut attributes = vec![("declaredType", of.name.to_owned())];
-            attributes.extend(start.map(|(value, _)| ("start", value.to_string())));
+            attributes.extend(start.map(|value| ("start", value.to_string())));
             empty(out, "Enumeration", &attributes)
         }
     })?;
     Ok(())
 }
 
-fn real(unit: &Unit, start: Option<(f64, Bound)>) -> Vec<(&'static str, String)> {
+/// The index from 1 of the state whose derivative the variable is.
+fn derivative_of(scene: &Scene, variable: &Variable) -> Option<usize> {
+    let state = variable.name.strip_prefix("der(")?.strip_suffix(')')?;
+    Some(scene.variables.iter().position(|variable| variable.name == state)? + 1)
+}
+
+fn real(unit: &Unit) -> Vec<(&'static str, String)> {
     let mut attributes = Vec::new();
     if !unit.name.is_empty() {
         attributes.push(("unit", unit.name.to_owned()));
         attributes.extend(unit.display.map(|(name, _)| ("displayUnit", name.to_owned())));
     }
-    if let Some((value, bound)) = start {
-        let (least, greatest) = bound.range();
-        attributes.extend(least.map(|value| ("min", number(value))));
-        attributes.extend(greatest.map(|value| ("max", number(value))));
-        attributes.push(("start", number(value)));
-    }
     attributes
 }
 
-/// Outputs, which depend on no input as there is none, and what they depend on at the start.
+fn limits(bound: Bound) -> impl Iterator<Item = (&'static str, String)> {
+    let (least, greatest) = bound.range();
+    let least = least.map(|value| ("min", number(value)));
+    least.into_iter().chain(greatest.map(|value| ("max", number(value))))
+}
+
+/// Outputs and derivatives with what they depend on, and all that is calculated at the start with what it depends on then.
 fn structure(out: &mut Out, scene: &Scene) -> io::Result<()> {
-    let outputs: Vec<_> = (1..)
-        .zip(&scene.variables)
-        .filter_map(|(index, variable)| match variable.meta.role {
-            Role::Output(depends) => Some((index, depends)),
-            Role::Parameter { .. } => None,
-        })
-        .collect();
-    inside(out, "Outputs", |out| outputs.iter().try_for_each(|(index, _)| unknown(out, *index, "")))?;
-    inside(out, "InitialUnknowns", |out| {
-        outputs.iter().try_for_each(|(index, depends)| unknown(out, *index, &indices(scene, *depends)))
-    })
+    let Dependencies { at_start, later } = Dependencies::of(scene);
+    let list = |wanted: &dyn Fn(&Variable) -> bool| -> Vec<usize> {
+        (0..).zip(&scene.variables).filter(|(_, variable)| wanted(variable)).map(|(index, _)| index).collect()
+    };
+    let unknowns = |out: &mut Out, indices: Vec<usize>, depends: &[Vec<usize>]| {
+        indices.into_iter().try_for_each(|index| unknown(out, index, &depends[index]))
+    };
+    let is_output = |variable: &Variable| matches!(variable.meta.role, Role::Output);
+    let is_state = |variable: &Variable| matches!(variable.meta.role, Role::State);
+    let is_derivative = |variable: &Variable| is_state(variable) && variable.name.starts_with("der(");
+    inside(out, "Outputs", |out| unknowns(out, list(&is_output), &later))?;
+    inside(out, "Derivatives", |out| unknowns(out, list(&is_derivative), &later))?;
+    let is_initial = |variable: &Variable| is_output(variable) || is_state(variable);
+    inside(out, "InitialUnknowns", |out| unknowns(out, list(&is_initial), &at_start))
 }
 
-fn unknown(out: &mut Out, index: usize, dependencies: &str) -> io::Result<()> {
-    empty(out, "Unknown", &[("index", index.to_string()), ("dependencies", dependencies.into())])
-}
-
-/// The indices of the parameters that an output depends on, ascending.
-fn indices(scene: &Scene, depends: Depends) -> String {
-    let of_potential = || scene.effects.iter().flat_map(|(info, _)| info.potential_depends);
-    let names: Vec<&str> = match depends {
-        Depends::On(names) => names.to_vec(),
-        Depends::Potential => of_potential().copied().collect(),
-        Depends::PotentialAnd(names) => names.iter().chain(of_potential()).copied().collect(),
-    };
-    let meant = |variable: &str, name: &str| {
-        variable.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-    };
-    let chosen = (1..).zip(&scene.variables).filter(|(_, v)| names.iter().any(|name| meant(&v.name, name)));
-    chosen.map(|(index, _): (usize, _)| index.to_string()).collect::<Vec<_>>().join(" ")
+/// An unknown by its index from 0, and the indices of what it depends on.
+fn unknown(out: &mut Out, index: usize, dependencies: &[usize]) -> io::Result<()> {
+    let one_based = |index: &usize| (index + 1).to_string();
+    let dependencies = dependencies.iter().map(one_based).collect::<Vec<_>>().join(" ");
+    empty(out, "Unknown", &[("index", one_based(&index)), ("dependencies", dependencies)])
 }
 
 /// A floating-point number that reads back to the same bits.

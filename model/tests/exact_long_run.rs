@@ -2,6 +2,7 @@
 
 use model::simulation::Simulation;
 use model::variable::Place;
+use model::variables::Parameters;
 use std::f64::consts::TAU;
 
 /// Spin of a rotor that does nothing else, a power of two so that its turns are exact [rad/s].
@@ -15,14 +16,15 @@ const REMAINDER: f64 = 5e-10;
 fn exact_remainder_after_a_million_turns() {
     let values =
         [(0, 0, 5.0), (0, 1, 0.15625), (0, 2, 0.078125), (0, 3, 0.75), (1, 9, SPIN), (2, 0, 3.0), (2, 1, 1e-8)];
-    let mut rotor = Simulation::<()>::new(values.map(|(block, row, value)| (Place { block, row }, value)));
+    let mut rotor =
+        Simulation::<()>::from(Parameters::from_iter(values.map(|(block, row, value)| (Place { block, row }, value))));
     rotor.start(0.0, Some(1e-12)).unwrap();
     let mut worst = 0.0_f64;
     for i in 1..=1000 {
         // A time of few binary digits: 64 t is exact.
         let t = f64::from(i) * 98.0;
         rotor.advance(t).unwrap();
-        let phi = rotor.read().unwrap().phi;
+        let phi = rotor.read().unwrap().motion.angle();
         // 64 t less 2π·turns, with 2π in two parts.
         let turns = phi.turns;
         let high = f64::from_bits(TAU.to_bits() & (u64::MAX << 27));
@@ -30,7 +32,7 @@ fn exact_remainder_after_a_million_turns() {
         worst = worst.max((phi.remainder - exact).abs());
     }
     let reading = rotor.read().unwrap();
-    println!("{} turns, {} steps, worst {worst:.2e} rad", reading.phi.turns, reading.cost.steps);
-    assert!(reading.phi.turns > 998_000.0);
+    println!("{} turns, {} steps, worst {worst:.2e} rad", reading.motion.angle().turns, reading.cost.steps);
+    assert!(reading.motion.angle().turns > 998_000.0);
     assert!(worst <= REMAINDER);
 }

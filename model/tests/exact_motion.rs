@@ -55,9 +55,9 @@ fn exact_free_rotor() {
             let (exact, scene) = (exact_of(&scene), Scene { method, ..scene });
             for (t, reading) in times(10.0, 50).zip(scene.run::<()>(times(10.0, 50))) {
                 let at = &reading.motion.at;
-                let reached = rotation::attitude(reading.phi.remainder, &reading.motion.tilt.gamma().yz());
+                let reached = rotation::attitude(reading.motion.angle().remainder, &reading.motion.tilt.gamma().yz());
                 attitude = largest([attitude, (reached - exact.attitude(t)).amax()]);
-                phi = largest([phi, (reading.phi.radians() - exact.phi(t, 40 + (60.0 * t) as usize)).abs()]);
+                phi = largest([phi, (reading.motion.phi() - exact.phi(t, 40 + (60.0 * t) as usize)).abs()]);
                 path = largest([path, (at.r_c - scene.r_c - scene.v_c * t).amax()]);
                 theta = largest([theta, reading.motion.tilt.gamma().norm()]);
             }
@@ -98,7 +98,7 @@ fn whirl_errors(whirl: &Whirl, t: f64, reading: &Reading) -> [f64; 3] {
     [
         (motion.at.r_c - whirl.r_c(t)).norm(),
         (motion.axis() - rotation::axis(&whirl.gamma(t))).norm(),
-        (reading.phi.radians() - whirl.phi(t)).abs(),
+        (reading.motion.phi() - whirl.phi(t)).abs(),
     ]
 }
 
@@ -323,7 +323,7 @@ fn exact_damped_decay_of_a_large_tilt() {
     let exact = Oscillator { m: scene.body.Jt, d: scene.d2, c: scene.c2, x: theta, v: 0.0 };
     for (t, reading) in times(2.0, 80).zip(scene.run::<Supported>(times(2.0, 80))) {
         within("tilt", (reading.motion.tilt.gamma().yz() - direction * exact.at(t).0).norm(), SWING);
-        within("phi", libm::remainder(reading.phi.radians(), TAU).abs(), SWING);
+        within("phi", libm::remainder(reading.motion.phi(), TAU).abs(), SWING);
         let lost = exact.energy(0.0) - exact.energy(t);
         within("dissipated", (reading.ledger.dissipated - lost).abs(), SWING_ENERGY);
     }
@@ -409,7 +409,7 @@ fn exact_phi_is_spin_plus_solid_angle() {
     for (n, three) in readings.windows(3).enumerate().step_by(2) {
         angle += (sweep(&three[0]) + 4.0 * sweep(&three[1]) + sweep(&three[2])) * end / f64::from(parts) / 3.0;
         let t = end * (n + 2) as f64 / f64::from(parts);
-        within("phi", (three[2].phi.radians() - spin * t - angle).abs(), SOLID_ANGLE);
+        within("phi", (three[2].motion.phi() - spin * t - angle).abs(), SOLID_ANGLE);
     }
     assert!(angle.abs() > 1.0, "the solid angle counts: {angle}");
 }

@@ -2,6 +2,7 @@
 
 use model::simulation::Simulation;
 use model::variable::Place;
+use model::variables::Parameters;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -33,14 +34,14 @@ fn exact_phi_of_a_close_whirl_about_the_antipode() {
                 (2, 1, 1e-8),
             ];
             let places = values.map(|(block, row, value)| (Place { block, row }, value));
-            let mut rotor = Simulation::<()>::new(places);
+            let mut rotor = Simulation::<()>::from(Parameters::from_iter(places));
             rotor.start(0.0, None).unwrap();
             let start = *rotor.read().unwrap();
             let spin = start.motion.omega.dot(start.motion.axis());
             rotor.advance(20.0).unwrap();
             // eq. 19: φ = (ω·t) t + (1 − cos θ) ψ, and ψ turns at K_x/Jt
             let exact = spin * 20.0 + (1.0 - start.motion.axis().x) * (k.x / jt) * 20.0;
-            let error = (rotor.read().unwrap().phi.radians() - exact).abs();
+            let error = (rotor.read().unwrap().motion.phi() - exact).abs();
             println!("method {method}, cone {cone:e}: {error:.2e} rad, {:.1e} times the cone", error * cone);
             assert!(error * cone.min(1.0) <= PHI && error < 0.5 * TAU);
         }

@@ -114,7 +114,7 @@ proptest! {
         let (one, other) = (last(&scene), last(&other));
         within("r_c", (turned(&one.motion.at.r_c, angle) - other.motion.at.r_c).norm(), TURNED[0]);
         within("axis", (turned(one.motion.axis(), angle) - other.motion.axis()).norm(), TURNED[1]);
-        within("phi", (one.phi.radians() - other.phi.radians()).abs(), TURNED[2]);
+        within("phi", (one.motion.phi() - other.motion.phi()).abs(), TURNED[2]);
     }
 
     #[test]
@@ -124,14 +124,14 @@ proptest! {
         let back = last(&Scene {
             r_c: at.r_c,
             v_c: -at.v_c,
-            phi: there.phi.radians(),
+            phi: there.motion.phi(),
             gamma: there.motion.tilt.gamma().yz(),
             omega: -there.motion.omega,
             ..scene.clone()
         });
         within("r_c", (back.motion.at.r_c - scene.r_c).norm(), REVERSED[0]);
         within("axis", (back.motion.axis() - oracles::rotation::axis(&scene.gamma)).norm(), REVERSED[1]);
-        within("phi", (back.phi.radians() - scene.phi).abs(), REVERSED[2]);
+        within("phi", (back.motion.phi() - scene.phi).abs(), REVERSED[2]);
     }
 
     #[test]
@@ -154,7 +154,7 @@ proptest! {
         let (one, other) = (last(&scene), *other.run::<Supported>([END * time]).last().expect("one"));
         within("r_c", (one.motion.at.r_c - other.motion.at.r_c / length).norm(), SCALED[0]);
         within("axis", (one.motion.axis() - other.motion.axis()).norm(), SCALED[1]);
-        within("phi", (one.phi.radians() - other.phi.radians()).abs(), SCALED[2]);
+        within("phi", (one.motion.phi() - other.motion.phi()).abs(), SCALED[2]);
         let energy = other.ledger.total() / (mass * speed * speed);
         let size = one.ledger.kinetic.abs() + one.ledger.potential.abs();
         within("energy", (one.ledger.total() - energy).abs() / size, ENERGY);

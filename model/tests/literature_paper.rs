@@ -19,7 +19,7 @@ fn errors(method: Method, tolerance: f64) -> [f64; 7] {
     [
         of(&|exact, reading| (reading.motion.at.r_c - exact.r_c).norm()),
         of(&|exact, reading| (reading.motion.axis() - rotation::axis(&exact.gamma)).norm()),
-        of(&|exact, reading| (reading.phi.radians() - exact.phi).abs()),
+        of(&|exact, reading| (reading.motion.phi() - exact.phi).abs()),
         of(&|exact, reading| (reading.motion.at.v_c - exact.v_c).norm()),
         of(&|exact, reading| (reading.motion.at.k_c - exact.k_c).norm()),
         of(&|exact, reading| (reading.motion.axial_rate() - exact.omega_phi).abs()),

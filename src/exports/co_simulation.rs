@@ -3,7 +3,7 @@
 use super::absent;
 use crate::abi::*;
 use crate::calls::{Call, call};
-use crate::guard::enter;
+use crate::guard::{enter, places, values};
 use crate::instance::{Failure, Instance};
 
 /// Asks for one status and writes the answer to `value`.
@@ -28,35 +28,45 @@ unsafe fn answer<T>(
     }
 }
 
-/// This scene has no inputs.
+/// Sends derivatives of inputs, of order 1 or 2, at the communication point.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     component: Component,
-    _references: *const ValueReference,
-    _n: Size,
-    _order: *const Integer,
-    _value: *const Real,
-) -> Status {
-    // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::SET_INPUT_DERIVATIVES, "this scene has no inputs") }
-}
-
-/// Not there yet.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
-    component: Component,
-    _references: *const ValueReference,
-    _n: Size,
-    _order: *const Integer,
-    _value: *mut Real,
+    references: *const ValueReference,
+    n: Size,
+    order: *const Integer,
+    value: *const Real,
 ) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
-        absent(
-            component,
-            &call::GET_OUTPUT_DERIVATIVES,
-            "there are no output derivatives yet: maxOutputDerivativeOrder is 0",
-        )
+        enter(component, &call::SET_INPUT_DERIVATIVES, |instance| {
+            instance.set_input_derivatives(
+                values(references, n, "vr")?,
+                values(order, n, "order")?,
+                values(value, n, "value")?,
+            )
+        })
+    }
+}
+
+/// Reads derivatives of outputs with respect to time, of order 1, at the communication point.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    component: Component,
+    references: *const ValueReference,
+    n: Size,
+    order: *const Integer,
+    value: *mut Real,
+) -> Status {
+    // SAFETY: the host keeps the contract of the standard, which is that of the door.
+    unsafe {
+        enter(component, &call::GET_OUTPUT_DERIVATIVES, |instance| {
+            instance.output_derivatives(
+                values(references, n, "vr")?,
+                values(order, n, "order")?,
+                places(value, n, "value")?,
+            )
+        })
     }
 }
 

@@ -1,6 +1,5 @@
 //! Functions for co-simulation and model exchange alike (FMI 2.0.4, section 2.1).
 
-use super::absent;
 use crate::abi::*;
 use crate::calls::call;
 use crate::guard::{caught, enter, places, text, values};
@@ -8,6 +7,7 @@ use crate::instance::{Failure, Instance, Memory, Type};
 use crate::logger::Logger;
 use crate::scene::GUID;
 use model::log::Category;
+use model::simulation::Integrator;
 
 /// Platform of the C types.
 #[unsafe(no_mangle)]
@@ -58,10 +58,15 @@ pub unsafe extern "C" fn fmi2Instantiate(
         }
         Ok(_) => {}
     }
-    if kind != CO_SIMULATION {
-        return refusal(Failure::error("fmuType must be fmi2CoSimulation (1): there is no model exchange yet"));
-    }
-    caught(|| Box::into_raw(Box::new(Instance::new(logger))).cast()).unwrap_or(std::ptr::null_mut())
+    let integrator = match kind {
+        MODEL_EXCHANGE => Integrator::Host,
+        CO_SIMULATION => Integrator::Method,
+        _ => {
+            let message = format!("fmuType = {kind} must be fmi2ModelExchange (0) or fmi2CoSimulation (1)");
+            return refusal(Failure::error(message));
+        }
+    };
+    caught(|| Box::into_raw(Box::new(Instance::new(logger, integrator))).cast()).unwrap_or(std::ptr::null_mut())
 }
 
 /// Frees an instance; null is allowed.
@@ -198,7 +203,7 @@ pub unsafe extern "C" fn fmi2GetString(
     }
 }
 
-/// Sets parameters of type Real.
+/// Sets parameters and inputs of type Real.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetReal(
     component: Component,
@@ -278,12 +283,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(component: Component, state: *mut FmuSt
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(component: Component, state: FmuState) -> Status {
     // SAFETY: as above.
-    unsafe {
-        enter(component, &call::SET_FMU_STATE, |instance| {
-            instance
-                .restore(state.cast::<Memory>().as_ref().ok_or_else(|| Failure::error("FMUstate is a null pointer"))?)
-        })
-    }
+    unsafe { enter(component, &call::SET_FMU_STATE, |instance| instance.restore(memory(state)?)) }
 }
 
 /// Frees a saved state, and makes the pointer null; a null state is left alone.
@@ -300,55 +300,91 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(component: Component, state: *mut FmuS
     }
 }
 
-/// Not there yet.
+/// How many bytes a saved state takes.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    component: Component,
-    _state: FmuState,
-    _size: *mut Size,
-) -> Status {
-    // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::SERIALIZED_FMU_STATE_SIZE, NO_BYTES) }
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(component: Component, state: FmuState, size: *mut Size) -> Status {
+    // SAFETY: as above.
+    unsafe {
+        enter(component, &call::SERIALIZED_FMU_STATE_SIZE, |_| {
+            let size = size.as_mut().ok_or_else(|| Failure::error("size is a null pointer"))?;
+            *size = memory(state)?.to_bytes().len();
+            Ok(Status::Ok)
+        })
+    }
 }
 
-/// Not there yet.
+/// Writes a saved state down as bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SerializeFMUstate(
     component: Component,
-    _state: FmuState,
-    _bytes: *mut Byte,
-    _size: Size,
+    state: FmuState,
+    bytes: *mut Byte,
+    size: Size,
 ) -> Status {
-    // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::SERIALIZE_FMU_STATE, NO_BYTES) }
+    // SAFETY: as above.
+    unsafe {
+        enter(component, &call::SERIALIZE_FMU_STATE, |_| {
+            let written = memory(state)?.to_bytes();
+            if size != written.len() {
+                let message = format!("size = {size} must be {}, as fmi2SerializedFMUstateSize says", written.len());
+                return Err(Failure::error(message));
+            }
+            places(bytes.cast::<u8>(), size, "serializedState")?.copy_from_slice(&written);
+            Ok(Status::Ok)
+        })
+    }
 }
 
-/// Not there yet.
+/// A saved state from its bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     component: Component,
-    _bytes: *const Byte,
-    _size: Size,
-    _state: *mut FmuState,
+    bytes: *const Byte,
+    size: Size,
+    state: *mut FmuState,
 ) -> Status {
-    // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::DESERIALIZE_FMU_STATE, NO_BYTES) }
+    // SAFETY: as above. What the place held may be anything, and is not looked at.
+    unsafe {
+        enter(component, &call::DESERIALIZE_FMU_STATE, |instance| {
+            let read = values(bytes.cast::<u8>(), size, "serializedState")?;
+            if state.is_null() {
+                return Err(Failure::error("FMUstate is a null pointer"));
+            }
+            state.write(Box::into_raw(Box::new(instance.memory_of(read)?)).cast());
+            Ok(Status::Ok)
+        })
+    }
 }
 
-/// Not there yet.
+/// The saved state behind a pointer.
+///
+/// # Safety
+/// `state` is null or came from fmi2GetFMUstate or fmi2DeSerializeFMUstate and was not freed.
+unsafe fn memory<'a>(state: FmuState) -> Result<&'a Memory, Failure> {
+    // SAFETY: see above.
+    unsafe { state.cast::<Memory>().as_ref() }.ok_or_else(|| Failure::error("FMUstate is a null pointer"))
+}
+
+/// How unknown variables change as known ones change by their seeds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     component: Component,
-    _unknown: *const ValueReference,
-    _n_unknown: Size,
-    _known: *const ValueReference,
-    _n_known: Size,
-    _seed: *const Real,
-    _sensitivity: *mut Real,
+    unknown: *const ValueReference,
+    n_unknown: Size,
+    known: *const ValueReference,
+    n_known: Size,
+    seed: *const Real,
+    sensitivity: *mut Real,
 ) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::GET_DIRECTIONAL_DERIVATIVE, NO_DERIVATIVE) }
+    unsafe {
+        enter(component, &call::GET_DIRECTIONAL_DERIVATIVE, |instance| {
+            instance.directional_derivative(
+                values(unknown, n_unknown, "vUnknown_ref")?,
+                values(known, n_known, "vKnown_ref")?,
+                values(seed, n_known, "dvKnown")?,
+                places(sensitivity, n_unknown, "dvUnknown")?,
+            )
+        })
+    }
 }
-
-const NO_BYTES: &str = "the FMU state cannot be serialized yet: canSerializeFMUstate is false";
-const NO_DERIVATIVE: &str = "there are no directional derivatives yet: providesDirectionalDerivative is false";

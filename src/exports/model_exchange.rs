@@ -1,86 +1,120 @@
-//! Functions for model exchange (FMI 2.0.4, section 3.2), which is not there yet: an instance for it cannot be made.
+//! Functions for model exchange (FMI 2.0.4, section 3.2).
 
-use super::absent;
 use crate::abi::*;
 use crate::calls::call;
+use crate::guard::{enter, places, values};
+use crate::instance::Failure;
 
-const ABSENT: &str = "there is no model exchange yet";
-
-/// Not there yet.
+/// Enters event mode.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterEventMode(component: Component) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::ENTER_EVENT_MODE, ABSENT) }
+    unsafe { enter(component, &call::ENTER_EVENT_MODE, |instance| instance.enter_event_mode()) }
 }
 
-/// Not there yet.
+/// Changes the chart of the states, where it should be.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2NewDiscreteStates(component: Component, _info: *mut EventInfo) -> Status {
+pub unsafe extern "C" fn fmi2NewDiscreteStates(component: Component, info: *mut EventInfo) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::NEW_DISCRETE_STATES, ABSENT) }
+    unsafe {
+        enter(component, &call::NEW_DISCRETE_STATES, |instance| {
+            if info.is_null() {
+                return Err(Failure::error("eventInfo is a null pointer"));
+            }
+            let events = instance.new_discrete_states()?;
+            info.write(EventInfo {
+                new_discrete_states_needed: FALSE,
+                terminate_simulation: FALSE,
+                nominals_of_continuous_states_changed: FALSE,
+                values_of_continuous_states_changed: events.states_changed.into(),
+                next_event_time_defined: FALSE,
+                next_event_time: 0.0,
+            });
+            Ok(Status::Ok)
+        })
+    }
 }
 
-/// Not there yet.
+/// Enters continuous-time mode.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(component: Component) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::ENTER_CONTINUOUS_TIME_MODE, ABSENT) }
+    unsafe { enter(component, &call::ENTER_CONTINUOUS_TIME_MODE, |instance| instance.enter_continuous_time_mode()) }
 }
 
-/// Not there yet.
+/// The host completed a step; asks for event mode where the chart should be changed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     component: Component,
     _no_set_state_before: Boolean,
-    _enter_event_mode: *mut Boolean,
-    _terminate: *mut Boolean,
+    enter_event_mode: *mut Boolean,
+    terminate: *mut Boolean,
 ) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::COMPLETED_INTEGRATOR_STEP, ABSENT) }
+    unsafe {
+        enter(component, &call::COMPLETED_INTEGRATOR_STEP, |instance| {
+            if enter_event_mode.is_null() || terminate.is_null() {
+                return Err(Failure::error("enterEventMode or terminateSimulation is a null pointer"));
+            }
+            enter_event_mode.write(instance.completed_integrator_step()?.into());
+            terminate.write(FALSE);
+            Ok(Status::Ok)
+        })
+    }
 }
 
-/// Not there yet.
+/// Sets the time [s].
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetTime(component: Component, _time: Real) -> Status {
+pub unsafe extern "C" fn fmi2SetTime(component: Component, time: Real) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::SET_TIME, ABSENT) }
+    unsafe { enter(component, &call::SET_TIME, |instance| instance.set_time(time)) }
 }
 
-/// Not there yet.
+/// Sets the continuous states.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetContinuousStates(component: Component, _states: *const Real, _n: Size) -> Status {
+pub unsafe extern "C" fn fmi2SetContinuousStates(component: Component, states: *const Real, n: Size) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::SET_CONTINUOUS_STATES, ABSENT) }
+    unsafe {
+        enter(component, &call::SET_CONTINUOUS_STATES, |instance| {
+            instance.set_continuous_states(values(states, n, "x")?)
+        })
+    }
 }
 
-/// Not there yet.
+/// Reads the rates of the continuous states.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetDerivatives(component: Component, _derivatives: *mut Real, _n: Size) -> Status {
+pub unsafe extern "C" fn fmi2GetDerivatives(component: Component, derivatives: *mut Real, n: Size) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::GET_DERIVATIVES, ABSENT) }
+    unsafe {
+        enter(component, &call::GET_DERIVATIVES, |instance| {
+            instance.derivatives(places(derivatives, n, "derivatives")?)
+        })
+    }
 }
 
-/// Not there yet.
+/// Reads the event indicators, of which there are none.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetEventIndicators(component: Component, _indicators: *mut Real, _n: Size) -> Status {
+pub unsafe extern "C" fn fmi2GetEventIndicators(component: Component, _indicators: *mut Real, n: Size) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::GET_EVENT_INDICATORS, ABSENT) }
+    unsafe { enter(component, &call::GET_EVENT_INDICATORS, |instance| instance.event_indicators(n)) }
 }
 
-/// Not there yet.
+/// Reads the continuous states.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetContinuousStates(component: Component, _states: *mut Real, _n: Size) -> Status {
+pub unsafe extern "C" fn fmi2GetContinuousStates(component: Component, states: *mut Real, n: Size) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::GET_CONTINUOUS_STATES, ABSENT) }
+    unsafe {
+        enter(component, &call::GET_CONTINUOUS_STATES, |instance| instance.continuous_states(places(states, n, "x")?))
+    }
 }
 
-/// Not there yet.
+/// Reads what each continuous state counts with.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
     component: Component,
-    _nominals: *mut Real,
-    _n: Size,
+    nominals: *mut Real,
+    n: Size,
 ) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { absent(component, &call::GET_NOMINALS, ABSENT) }
+    unsafe { enter(component, &call::GET_NOMINALS, |instance| instance.nominals(places(nominals, n, "x_nominal")?)) }
 }

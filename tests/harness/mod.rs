@@ -305,7 +305,7 @@ impl Instance {
             let reference = variable.place.value_reference();
             let mut value = [Real::NAN];
             let readable = match variable.meta.kind {
-                Kind::Enumeration(_) => self.get_integer(reference).map(|value| value as u64),
+                Kind::Integer | Kind::Enumeration(_) => self.get_integer(reference).map(|value| value as u64),
                 Kind::Real => match self.read(&[reference], &mut value) {
                     Status::Ok => Ok(value[0].to_bits()),
                     status => Err(status),

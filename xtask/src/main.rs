@@ -37,7 +37,11 @@ enum Command {
         scene: String,
     },
     /// Run the tests: Rust, equal bits in every build, and the packaged FMUs under fmpy
-    Test,
+    Test {
+        /// The long ones too: third-party clients
+        #[arg(long)]
+        long: bool,
+    },
     /// Package scenes as target/fmu/<scene>.fmu
     Package {
         /// The scenes
@@ -72,7 +76,7 @@ fn main() -> ExitCode {
 fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Demo { scene } => demo::demo(&scene),
-        Command::Test => test::test(),
+        Command::Test { long } => test::test(long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
         Command::Bench => bench::bench(),
         Command::Scenes => scenes::list(),

@@ -7,7 +7,6 @@ use anyhow::Result;
 use model::scene::Scene;
 
 /// Runs a shorter C host on every scene's FMU under memcheck: errors and leaks fail.
-#[expect(dead_code, reason = "`cargo xtask test --long` will call it")]
 pub fn valgrind() -> Result<()> {
     // Asked for first: packaging takes long.
     c::tool("valgrind", "valgrind")?;

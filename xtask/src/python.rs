@@ -1,46 +1,84 @@
-//! The Python environment: target/venv, made from pinned and hashed requirements.
+//! The Python environments: folders in target/, made from pinned and hashed requirements.
 
 use crate::paths;
 use crate::run::run;
 use anyhow::{Context, Result, bail};
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::process::Command;
 
-const NEEDED: &str = "Python >= 3.10 with the module venv is needed (Debian: apt-get install python3-venv)";
+/// An environment, before it is made.
+struct Environment {
+    /// Its folder in target/.
+    folder: &'static str,
+    /// Its requirements in xtask/python/.
+    requirements: &'static str,
+    /// The versions of Python 3 for which they were resolved.
+    minors: RangeInclusive<u32>,
+}
 
-/// A command of the environment's Python, which is made first where it is missing or out of date.
+/// fmpy, pytest and what draws the report.
+const MAIN: Environment = Environment { folder: "venv", requirements: "requirements.txt", minors: 10..=u32::MAX };
+
+/// The other simulators. They do not fit beside fmpy of today: CoFMPy holds on to an old one.
+const CLIENTS: Environment =
+    Environment { folder: "venv-clients", requirements: "requirements-clients.txt", minors: 11..=14 };
+
+/// A command of the Python that has fmpy and pytest; its environment is made first where it is missing or out of date.
 pub fn python() -> Result<Command> {
-    let folder = paths::target().join("venv");
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let requirements = paths::root().join("xtask/python/requirements.txt");
-    let wanted = std::fs::read_to_string(&requirements)?;
-    // What was installed; it is written last, so an environment that was cut short is made anew.
-    let stamp = folder.join("requirements.txt");
-    if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) && python.is_file() {
-        return Ok(command(python));
+    MAIN.python()
+}
+
+/// Makes the environment that has the other simulators, where it is missing or out of date.
+pub fn clients() -> Result<()> {
+    let load = "import ecospy, libcosimpy.CosimExecution";
+    run(CLIENTS.python()?.args(["-c", load])).context(
+        "the clients cannot be loaded; ecospy needs the library libtbb.so.12 (Debian: apt-get install libtbb12)",
+    )
+}
+
+impl Environment {
+    fn python(&self) -> Result<Command> {
+        let folder = paths::target().join(self.folder);
+        let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+        let requirements = paths::root().join("xtask/python").join(self.requirements);
+        let wanted = std::fs::read_to_string(&requirements)?;
+        // What was installed; it is written last, so an environment that was cut short is made anew.
+        let stamp = folder.join("requirements.txt");
+        if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) && python.is_file() {
+            return Ok(command(python));
+        }
+        eprintln!("making the Python environment {}", folder.display());
+        run(Command::new(self.system_python()?).args(["-m", "venv", "--clear"]).arg(&folder))
+            .with_context(|| self.needed())?;
+        let install =
+            ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "--requirement"];
+        run(command(python.clone()).args(install).arg(&requirements))?;
+        std::fs::write(stamp, wanted)?;
+        Ok(command(python))
     }
-    eprintln!("making the Python environment {}", folder.display());
-    run(Command::new(system_python()?).args(["-m", "venv", "--clear"]).arg(&folder)).context(NEEDED)?;
-    let install =
-        ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "--requirement"];
-    run(command(python.clone()).args(install).arg(&requirements))?;
-    std::fs::write(stamp, wanted)?;
-    Ok(command(python))
+
+    /// The machine's own Python, if its version is right.
+    fn system_python(&self) -> Result<&'static str> {
+        let (oldest, newest) = (self.minors.start(), self.minors.end());
+        let right = format!("import sys, venv; sys.exit(not {oldest} <= sys.version_info.minor <= {newest})");
+        for name in ["python3", "python"] {
+            if Command::new(name).args(["-c", &right]).output().is_ok_and(|output| output.status.success()) {
+                return Ok(name);
+            }
+        }
+        bail!("{}: neither `python3` nor `python` is", self.needed());
+    }
+
+    fn needed(&self) -> String {
+        let (oldest, newest) = (self.minors.start(), self.minors.end());
+        let versions = if *newest == u32::MAX { format!(">= 3.{oldest}") } else { format!("3.{oldest} to 3.{newest}") };
+        format!("Python {versions} with the module venv is needed (Debian: apt-get install python3-venv)")
+    }
 }
 
 fn command(python: PathBuf) -> Command {
     let mut command = Command::new(python);
     command.current_dir(paths::root()).env("PYTHONDONTWRITEBYTECODE", "1").env_remove("PYTHONPATH");
     command
-}
-
-/// The machine's own Python, if it is new enough.
-fn system_python() -> Result<&'static str> {
-    let new_enough = "import sys, venv; sys.exit(sys.version_info < (3, 10))";
-    for name in ["python3", "python"] {
-        if Command::new(name).args(["-c", new_enough]).output().is_ok_and(|output| output.status.success()) {
-            return Ok(name);
-        }
-    }
-    bail!("{NEEDED}: neither `python3` nor `python` is");
 }

@@ -14,7 +14,6 @@ use std::process::Command;
 const FLAGS: [&str; 3] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"];
 
 /// Runs the C host on the FMU of every scene, both with sanitizers.
-#[expect(dead_code, reason = "`cargo xtask test --long` will call it")]
 pub fn sanitizers() -> Result<()> {
     if !(cfg!(target_os = "linux") && cfg!(target_env = "gnu")) {
         bail!("the sanitizers need Linux with the GNU C library");

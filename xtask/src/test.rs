@@ -1,17 +1,48 @@
-//! `test`: everything that must hold.
+//! `test`: everything that must hold, as a list of jobs.
 
 use crate::run::{cargo, run};
-use crate::{c_host, package, paths, python};
+use crate::{c_host, memcheck, package, paths, python, sanitize};
 use anyhow::Result;
 use model::scene::Scene;
 
-/// Runs the Rust tests, the bit tests in the other builds, and the tests of the packaged FMUs.
-pub fn test() -> Result<()> {
-    run(cargo().args(["test", "--quiet", "--workspace"]))?;
-    for profile in ["unoptimised", "release"] {
-        run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile]))?;
-    }
-    let fmus = package::package(&Scene::names(&paths::scenes()), None)?;
-    c_host::plain(&fmus)?;
-    run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/fmu"]))
+/// Runs what its name says; where it cannot, that is an error, which names what is to be installed.
+type Job = fn() -> Result<()>;
+
+/// What always runs, the quickest first.
+const SHORT: [Job; 3] = [rust_tests, other_builds, packaged_fmus];
+
+/// What takes long, or needs more than the README asks for.
+const LONG: [Job; 3] = [clients, sanitize::sanitizers, memcheck::valgrind];
+
+/// Runs the short jobs, and the long ones too where they are asked for.
+pub fn test(long: bool) -> Result<()> {
+    SHORT.iter().chain(LONG.iter().filter(|_| long)).try_for_each(|job| job())
+}
+
+fn rust_tests() -> Result<()> {
+    run(cargo().args(["test", "--quiet", "--workspace"]))
+}
+
+/// The bits are the same in every build.
+fn other_builds() -> Result<()> {
+    let profiles = ["unoptimised", "release"];
+    profiles
+        .iter()
+        .try_for_each(|profile| run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile])))
+}
+
+/// The packaged FMUs under a host in C and under fmpy.
+fn packaged_fmus() -> Result<()> {
+    c_host::plain(&package::package(&Scene::names(&paths::scenes()), None)?)?;
+    pytest(&["tests/fmu", "tests/clients"])
+}
+
+/// The packaged FMUs under third-party clients, and pytest's other long tests.
+fn clients() -> Result<()> {
+    python::clients()?;
+    pytest(&["--long", "-m", "long", "tests/fmu", "tests/clients"])
+}
+
+fn pytest(arguments: &[&str]) -> Result<()> {
+    run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
 }

@@ -1,10 +1,10 @@
 //! `gravity`: uniform gravity on the mass centre.
 
-use super::{Effect, Wrench};
+use super::{Effect, Row, Wrench};
 use crate::scalar::Scalar;
 use crate::state::Kinematics;
 use crate::variable::units::METRE_PER_SECOND_SQUARED;
-use crate::variable::{Bound, Row, parameter};
+use crate::variable::{Bound, parameter};
 use nalgebra::Vector3;
 
 /// Uniform gravity.
@@ -15,22 +15,18 @@ pub struct Gravity {
 }
 
 impl Effect for Gravity {
-    const ROWS: &'static [Row<Self, Kinematics<f64>>] = &[
+    const ROWS: &'static [Row<Self>] = &[
         parameter!("g.x", g.x, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along x"),
         parameter!("g.y", g.y, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along y"),
         parameter!("g.z", g.z, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along z"),
     ];
 
-    const POTENTIAL_DEPENDS: &'static [&'static str] = &["gravity.g", "rotor.m", "start.r_c"];
+    const COULD_WORK: bool = false;
 
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
         // eq. 13: F = m g
         Wrench { force: (self.g * motion.body.m).map(S::constant), moment: Vector3::zeros() }
-    }
-
-    fn works(&self) -> bool {
-        false
     }
 
     #[inline(always)]

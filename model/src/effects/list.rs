@@ -1,10 +1,12 @@
 //! The effects of one scene as a type: `(Called<Gravity, 1>, (Called<Support, 1>, ()))`.
 
-use super::{Effect, Entry, Wrench};
+use super::{Effect, Entry, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
-use crate::state::Kinematics;
-use crate::variable::{Access, Meta, Place, Row};
+use crate::signal::Signal;
+use crate::state::{Kinematics, Whole};
+use crate::stored::{Damaged, Stored, Walk};
+use crate::variable::{Access, Meta, Place, Readable};
 
 /// An effect that a scene calls for; `INDEX` counts from 1 where there are several of its kind.
 #[derive(Clone, Default)]
@@ -18,7 +20,7 @@ pub struct Switched<E, const INDEX: u32> {
 }
 
 /// An entry of a list of effects.
-pub trait Member: Clone + Default + Send + 'static {
+pub trait Member: Clone + Default + Send + Stored + 'static {
     /// Its law.
     type Effect: Entry;
     /// Counts from 1 where there are several of its kind.
@@ -76,7 +78,9 @@ impl<E: Entry, const INDEX: u32> Member for Switched<E, INDEX> {
 }
 
 /// The effects of a scene together: sums of what each does, and access to their variables.
-pub trait Effects: Clone + Default + Send + 'static {
+pub trait Effects: Clone + Default + Send + Stored + 'static {
+    /// Whether any of them can lose energy or be supplied with it, with any parameters.
+    const COULD_WORK: bool;
     /// Force on the rotor and moment about c [N, N·m].
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S>;
     /// Potential energy [J].
@@ -99,13 +103,65 @@ pub trait Effects: Clone + Default + Send + 'static {
     fn parameter(&self, place: Place) -> Option<f64>;
     /// Sets a parameter; false where there is none at this place.
     fn set_parameter(&mut self, place: Place, value: f64) -> bool;
-    /// The value of an output; None where there is none at this place.
-    fn output(&self, place: Place, motion: &Kinematics<f64>) -> Option<f64>;
+    /// The value of a calculated variable, zero where its effect is switched off; None where there is none at this
+    /// place. `rates` is asked only where it counts.
+    fn calculated<S: Readable>(
+        &self,
+        place: Place,
+        motion: &Kinematics<S>,
+        rates: impl FnOnce() -> Whole<S>,
+    ) -> Option<S>;
+    /// Whether any of them has an input that now counts.
+    fn listens(&self) -> bool;
+    /// An input; None where there is none at this place.
+    fn signal(&self, place: Place) -> Option<&Signal>;
+    /// An input to set; None where there is none at this place.
+    fn signal_mut(&mut self, place: Place) -> Option<&mut Signal>;
+    /// Each input.
+    fn for_each_signal(&mut self, act: &mut impl FnMut(&mut Signal));
+    /// Takes the inputs of other effects of the same list.
+    fn hear(&mut self, other: &Self);
     /// Switches the effect at this place on, where it has a switch.
     fn switch_on(&mut self, block: u32);
 }
 
+impl<E: Entry, const INDEX: u32> Stored for Called<E, INDEX> {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        walk_rows(&mut self.0, walk)
+    }
+}
+
+impl<E: Entry, const INDEX: u32> Stored for Switched<E, INDEX> {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        self.on.walk(walk)?;
+        walk_rows(&mut self.effect, walk)
+    }
+}
+
+fn walk_rows<E: Effect>(effect: &mut E, walk: &mut impl Walk) -> Result<(), Damaged> {
+    for row in E::ROWS {
+        match row.access {
+            Access::Parameter { get, set } => {
+                let mut value = get(effect);
+                value.walk(walk)?;
+                set(effect, value);
+            }
+            Access::Input { get_mut, .. } => get_mut(effect).walk(walk)?,
+            Access::Output(_) | Access::Rate(_) => {}
+        }
+    }
+    Ok(())
+}
+
+impl Stored for () {
+    fn walk(&mut self, _walk: &mut impl Walk) -> Result<(), Damaged> {
+        Ok(())
+    }
+}
+
 impl Effects for () {
+    const COULD_WORK: bool = false;
+
     #[inline(always)]
     fn load<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
         Wrench::zero()
@@ -154,14 +210,37 @@ impl Effects for () {
         false
     }
 
-    fn output(&self, _place: Place, _motion: &Kinematics<f64>) -> Option<f64> {
+    fn calculated<S: Readable>(
+        &self,
+        _place: Place,
+        _motion: &Kinematics<S>,
+        _rates: impl FnOnce() -> Whole<S>,
+    ) -> Option<S> {
         None
     }
+
+    fn listens(&self) -> bool {
+        false
+    }
+
+    fn signal(&self, _place: Place) -> Option<&Signal> {
+        None
+    }
+
+    fn signal_mut(&mut self, _place: Place) -> Option<&mut Signal> {
+        None
+    }
+
+    fn for_each_signal(&mut self, _act: &mut impl FnMut(&mut Signal)) {}
+
+    fn hear(&mut self, _other: &Self) {}
 
     fn switch_on(&mut self, _block: u32) {}
 }
 
 impl<H: Member, T: Effects> Effects for (H, T) {
+    const COULD_WORK: bool = H::Effect::COULD_WORK || T::COULD_WORK;
+
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
         let rest = self.1.load(motion);
@@ -214,10 +293,8 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     fn parameter(&self, place: Place) -> Option<f64> {
         match row::<H>(place) {
             None => self.1.parameter(place),
-            Some(row) => match row?.access {
-                Access::Parameter { get, .. } => Some(get(self.0.effect())),
-                Access::Output(_) => None,
-            },
+            Some(Some(Row { access: Access::Parameter { get, .. }, .. })) => Some(get(self.0.effect())),
+            Some(_) => None,
         }
     }
 
@@ -232,14 +309,57 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         }
     }
 
-    fn output(&self, place: Place, motion: &Kinematics<f64>) -> Option<f64> {
-        match row::<H>(place) {
-            None => self.1.output(place, motion),
-            Some(row) => match row?.access {
-                Access::Output(read) => Some(self.0.active().map_or(0.0, |effect| read(effect, motion))),
-                Access::Parameter { .. } => None,
-            },
+    #[inline(always)]
+    fn calculated<S: Readable>(
+        &self,
+        place: Place,
+        motion: &Kinematics<S>,
+        rates: impl FnOnce() -> Whole<S>,
+    ) -> Option<S> {
+        let Some(row) = row::<H>(place) else { return self.1.calculated(place, motion, rates) };
+        match self.0.active() {
+            Some(effect) => row?.access.calculated(effect, motion, rates),
+            None => matches!(row?.access, Access::Output(_) | Access::Rate(_)).then(S::zero),
         }
+    }
+
+    fn listens(&self) -> bool {
+        let has_inputs = || H::Effect::ROWS.iter().any(|row| matches!(row.access, Access::Input { .. }));
+        self.0.active().is_some_and(|_| has_inputs()) || self.1.listens()
+    }
+
+    fn signal(&self, place: Place) -> Option<&Signal> {
+        match row::<H>(place) {
+            None => self.1.signal(place),
+            Some(Some(Row { access: Access::Input { get, .. }, .. })) => Some(get(self.0.effect())),
+            Some(_) => None,
+        }
+    }
+
+    fn signal_mut(&mut self, place: Place) -> Option<&mut Signal> {
+        match row::<H>(place) {
+            None => self.1.signal_mut(place),
+            Some(Some(Row { access: Access::Input { get_mut, .. }, .. })) => Some(get_mut(self.0.effect_mut())),
+            Some(_) => None,
+        }
+    }
+
+    fn for_each_signal(&mut self, act: &mut impl FnMut(&mut Signal)) {
+        for row in H::Effect::ROWS {
+            if let Access::Input { get_mut, .. } = row.access {
+                act(get_mut(self.0.effect_mut()));
+            }
+        }
+        self.1.for_each_signal(act);
+    }
+
+    fn hear(&mut self, other: &Self) {
+        for row in H::Effect::ROWS {
+            if let Access::Input { get, get_mut } = row.access {
+                *get_mut(self.0.effect_mut()) = *get(other.0.effect());
+            }
+        }
+        self.1.hear(&other.1);
     }
 
     fn switch_on(&mut self, block: u32) {
@@ -261,6 +381,6 @@ const fn block_of<M: Member>() -> u32 {
 
 /// The row at a place: None where the place is another member's, Some(None) where it is this one's, but holds nothing.
 #[allow(clippy::option_option, reason = "two different absences")]
-fn row<M: Member>(place: Place) -> Option<Option<&'static Row<M::Effect, Kinematics<f64>>>> {
+fn row<M: Member>(place: Place) -> Option<Option<&'static Row<M::Effect>>> {
     (place.block == block_of::<M>()).then(|| M::Effect::ROWS.get(place.row))
 }

@@ -1,13 +1,13 @@
 //! `support`: the paper's spring block at the rod's end a, with damping of our own.
 
-use super::{Effect, Wrench};
+use super::{Effect, Row, Wrench};
 use crate::scalar::Scalar;
 use crate::state::Kinematics;
 use crate::variable::units::{
     NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
     NEWTON_SECOND_PER_METRE,
 };
-use crate::variable::{Bound, Depends, Row, output, parameter};
+use crate::variable::{Bound, output, parameter};
 use nalgebra::Vector3;
 
 /// Springs and dampers between the support point a and the point O, the reference axis e.
@@ -22,30 +22,6 @@ pub struct Support {
     /// Damping of the tilt [N·m·s/rad].
     pub d2: f64,
 }
-
-/// What a component of F depends on at the start, that of r_c and v_c named by it.
-macro_rules! force_depends {
-    ($r_c:literal, $v_c:literal) => {
-        Depends::On(&[
-            "rotor.Ja",
-            "rotor.Jt",
-            "rotor.l",
-            $r_c,
-            $v_c,
-            "start.gamma",
-            "start.omega",
-            "support.c1",
-            "support.d1",
-        ])
-    };
-}
-
-const FORCE_X: Depends = force_depends!("start.r_c.x", "start.v_c.x");
-const FORCE_Y: Depends = force_depends!("start.r_c.y", "start.v_c.y");
-const FORCE_Z: Depends = force_depends!("start.r_c.z", "start.v_c.z");
-const MOMENT_X: Depends = Depends::On(&["rotor.Ja", "rotor.Jt", "start.gamma", "start.omega", "support.d2"]);
-const MOMENT: Depends =
-    Depends::On(&["rotor.Ja", "rotor.Jt", "start.gamma", "start.omega", "support.c2", "support.d2"]);
 
 impl Support {
     /// Force at a [N].
@@ -67,21 +43,18 @@ impl Support {
 }
 
 impl Effect for Support {
-    const ROWS: &'static [Row<Self, Kinematics<f64>>] = &[
+    const ROWS: &'static [Row<Self>] = &[
         parameter!(c1, &NEWTON_PER_METRE, Some(0.0), Bound::NotNegative, "stiffness against displacement of a"),
         parameter!(c2, &NEWTON_METRE_PER_RADIAN, Some(0.0), Bound::NotNegative, "stiffness against tilt"),
         parameter!(d1, &NEWTON_SECOND_PER_METRE, Some(0.0), Bound::NotNegative, "damping of the displacement of a"),
         parameter!(d2, &NEWTON_METRE_SECOND_PER_RADIAN, Some(0.0), Bound::NotNegative, "damping of the tilt"),
-        output!("F.x", &NEWTON, FORCE_X, "force of the support on the rotor at a, along x", |s, m| s.force(m).x),
-        output!("F.y", &NEWTON, FORCE_Y, "force of the support on the rotor at a, along y", |s, m| s.force(m).y),
-        output!("F.z", &NEWTON, FORCE_Z, "force of the support on the rotor at a, along z", |s, m| s.force(m).z),
-        output!("M.x", &NEWTON_METRE, MOMENT_X, "moment against tilt on the rotor about x", |s, m| s.moment(m).x),
-        output!("M.y", &NEWTON_METRE, MOMENT, "moment against tilt on the rotor about y", |s, m| s.moment(m).y),
-        output!("M.z", &NEWTON_METRE, MOMENT, "moment against tilt on the rotor about z", |s, m| s.moment(m).z),
+        output!("F.x", &NEWTON, "force of the support on the rotor at a, along x", |s, m| s.force(m).x),
+        output!("F.y", &NEWTON, "force of the support on the rotor at a, along y", |s, m| s.force(m).y),
+        output!("F.z", &NEWTON, "force of the support on the rotor at a, along z", |s, m| s.force(m).z),
+        output!("M.x", &NEWTON_METRE, "moment against tilt on the rotor about x", |s, m| s.moment(m).x),
+        output!("M.y", &NEWTON_METRE, "moment against tilt on the rotor about y", |s, m| s.moment(m).y),
+        output!("M.z", &NEWTON_METRE, "moment against tilt on the rotor about z", |s, m| s.moment(m).z),
     ];
-
-    const POTENTIAL_DEPENDS: &'static [&'static str] =
-        &["rotor.l", "start.r_c", "start.gamma", "support.c1", "support.c2"];
 
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {

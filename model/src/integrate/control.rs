@@ -1,6 +1,8 @@
 //! Step size control: a proportional–integral controller (Gustafsson 1991; Hairer, Nørsett and Wanner, Solving
 //! Ordinary Differential Equations I, 2nd ed., section IV.2 of volume II and the codes dopri5 and dop853).
 
+use crate::stored::stored;
+
 /// Proposes step sizes from the error norms of a method.
 #[derive(Clone, Copy, Debug)]
 pub struct Controller {
@@ -13,6 +15,8 @@ pub struct Controller {
     /// Whether the last attempt was rejected.
     rejected: bool,
 }
+
+stored!(Controller { alpha, beta, previous, rejected });
 
 /// A step is chosen this much smaller than the error would allow.
 const SAFETY: f64 = 0.9;

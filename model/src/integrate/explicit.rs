@@ -1,9 +1,10 @@
 //! Explicit Runge–Kutta pairs with adaptive steps and dense output, for any [`Tableau`]. No allocation.
 
 use super::control::Controller;
-use super::tableau::{Combination, ErrorRule, MOST_DENSE, MOST_STAGES, Tableau};
+use super::tableau::{Combination, DOP853, ErrorRule, MOST_DENSE, MOST_STAGES, Tableau};
 use super::{Cost, Fault, Refusal, System, Tolerance};
 use crate::scalar::ulp;
+use crate::stored::stored;
 
 /// A method at work: where it stands, its last step as a polynomial, and what it spent.
 #[derive(Clone, Debug)]
@@ -19,9 +20,13 @@ pub struct Explicit<const N: usize> {
     h: f64,
     /// The stages k_i of the last step; `k[tableau.last]` is the rate at its end.
     k: [[f64; N]; MOST_STAGES],
-    stall: Stall,
+    /// Attempts in a row that got nowhere.
+    stall: u32,
     segment: Segment<N>,
 }
+
+stored!(Explicit<const N: usize> { tableau, tolerance, controller, cost, t, y, h, k, stall, segment });
+stored!(Segment<const N: usize> { t, h, y, r, dense });
 
 /// A refused step is tried again with this part of it.
 const REFUSED: f64 = 0.6;
@@ -29,25 +34,9 @@ const REFUSED: f64 = 0.6;
 /// A first step spans at least so many units in the last place of the time.
 const LEAST_FIRST: f64 = 100.0;
 
-/// So many steps in a row may be shorter than what gets anywhere: a first step may start tiny and grow.
+/// So many attempts in a row may be shorter than what gets anywhere: a first step may start tiny and grow. Steps that
+/// succeed are borne with twice as long, so that the reason told is that of one that did not.
 const PATIENCE: u32 = 1000;
-
-/// Attempts that get nowhere, and what stood in their way.
-#[derive(Clone, Copy, Debug, Default)]
-struct Stall {
-    attempts: u32,
-    obstacle: Option<Obstacle>,
-}
-
-impl Stall {
-    fn count(&mut self, h: f64, least: f64) {
-        if h < least {
-            self.attempts += 1;
-        } else {
-            *self = Self::default();
-        }
-    }
-}
 
 /// The last step.
 #[derive(Clone, Debug)]
@@ -64,6 +53,12 @@ struct Segment<const N: usize> {
     dense: bool,
 }
 
+impl<const N: usize> Segment<N> {
+    fn blank() -> Self {
+        Self { t: 0.0, h: 0.0, y: [0.0; N], r: [[0.0; N]; MOST_DENSE - 1], dense: false }
+    }
+}
+
 impl<const N: usize> Explicit<N> {
     /// Starts at time `t` [s] and state `y`.
     pub fn start(
@@ -77,18 +72,31 @@ impl<const N: usize> Explicit<N> {
             tableau,
             tolerance,
             controller: Controller::new(tableau.error_order),
-            cost: Cost::default(),
             t,
             y,
-            h: 0.0,
-            k: [[0.0; N]; MOST_STAGES],
-            stall: Stall::default(),
-            segment: Segment { t, h: 0.0, y, r: [[0.0; N]; MOST_DENSE - 1], dense: false },
+            segment: Segment { t, y, ..Segment::blank() },
+            ..Self::blank()
         };
         method.k[tableau.last] = method.evaluate(system, t, &y);
         // A first guess may be too short to advance a late time; one too long is rejected.
         method.h = method.first_step(system).max(LEAST_FIRST * ulp(t));
         method
+    }
+
+    /// Nothing yet: a place for what was stored.
+    pub fn blank() -> Self {
+        Self {
+            tableau: &DOP853,
+            tolerance: Tolerance { absolute: [0.0; N], relative: [0.0; N] },
+            controller: Controller::new(DOP853.error_order),
+            cost: Cost::default(),
+            t: 0.0,
+            y: [0.0; N],
+            h: 0.0,
+            k: [[0.0; N]; MOST_STAGES],
+            stall: 0,
+            segment: Segment::blank(),
+        }
     }
 
     /// The time reached [s].
@@ -138,39 +146,49 @@ impl<const N: usize> Explicit<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward of the method's own choice. Where none is possible, the method stands as before.
+    /// One step forward of the method's own choice, but not past time `until` [s]. Where none is possible, the method
+    /// stands as before.
     ///
     /// Steps below `least` [s] get nowhere: after [`PATIENCE`] of them in a row, none is possible.
-    pub fn step(&mut self, system: &impl System<N>, least: f64) -> Result<(), Fault> {
+    pub fn step(&mut self, system: &impl System<N>, least: f64, until: f64) -> Result<(), Fault> {
         let (rate, h) = (self.k[self.tableau.last], self.h);
         if !rate.iter().all(|rate| rate.is_finite()) {
             return Err(Fault::NotFinite { t: self.t });
         }
+        let (mut obstacle, mut patience) = (None, 2 * PATIENCE);
         loop {
-            self.stall.count(self.h, least);
+            self.stall = if self.h < least { self.stall + 1 } else { 0 };
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * self.h > self.t;
-            if !advances || self.stall.attempts > PATIENCE {
-                (self.k[self.tableau.last], self.h) = (rate, h);
-                let stall = std::mem::take(&mut self.stall);
-                return Err(stall.obstacle.map_or(Fault::Underflow { t: self.t }, |obstacle| obstacle.fault(self.t)));
+            if !advances || self.stall > patience {
+                (self.k[self.tableau.last], self.h, self.stall) = (rate, h, 0);
+                return Err(
+                    obstacle.map_or(Fault::Underflow { t: self.t }, |obstacle: Obstacle| obstacle.fault(self.t))
+                );
             }
+            let wish = self.h;
+            let end = self.end_of_step(until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
-            self.h = (self.t + self.h) - self.t;
+            self.h = end - self.t;
             self.k[0] = rate;
             let y = self.attempt(system);
             let error = self.error_norm(&y);
-            let obstacle = if !error.is_finite() {
+            obstacle = if !error.is_finite() {
                 Some(Obstacle::NotFinite)
             } else if error > 1.0 {
                 None
-            } else if let Err(refusal) = system.admits(self.t + self.h, &y) {
+            } else if let Err(refusal) = system.admits(end, &y) {
                 Some(Obstacle::Refused(refusal))
             } else {
-                self.accept(y, error);
+                let cut = self.h < 0.999 * wish;
+                self.accept(end, y, error);
+                if cut {
+                    // What was cut short says little about the step that may follow.
+                    self.h = self.h.max(wish);
+                }
                 return Ok(());
             };
-            self.stall.obstacle = obstacle;
+            patience = PATIENCE;
             self.cost.rejected += 1.0;
             let factor = self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
             self.h *= if let Some(Obstacle::Refused(_)) = obstacle { factor.max(REFUSED) } else { factor };
@@ -182,8 +200,20 @@ impl<const N: usize> Explicit<N> {
         self.h = h;
         self.k[0] = self.k[self.tableau.last];
         let y = self.attempt(system);
-        self.accept(y, 0.0);
+        self.accept(self.t + h, y, 0.0);
         self.h = h;
+    }
+
+    /// Where a step of size h ends that may not pass `until`: it reaches it, or leaves half of a short rest.
+    fn end_of_step(&self, until: f64) -> f64 {
+        let rest = until - self.t;
+        if self.h >= rest {
+            until
+        } else if 2.0 * self.h > rest {
+            self.t + 0.5 * rest
+        } else {
+            self.t + self.h
+        }
     }
 
     /// The state at a time `t` [s] within the last step.
@@ -274,9 +304,9 @@ impl<const N: usize> Explicit<N> {
         (0..N).map(|n| square(v[n] / (absolute[n] + relative[n] * size[n]))).sum::<f64>() / N as f64
     }
 
-    fn accept(&mut self, y: [f64; N], error: f64) {
+    fn accept(&mut self, end: f64, y: [f64; N], error: f64) {
         self.segment = Segment { t: self.t, h: self.h, y: self.y, r: self.segment.r, dense: false };
-        self.t += self.h;
+        self.t = end;
         self.y = y;
         self.cost.steps += 1.0;
         self.cost.error_estimate += error;

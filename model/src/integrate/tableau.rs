@@ -6,6 +6,8 @@ mod dopri5;
 pub use dop853::DOP853;
 pub use dopri5::DOPRI5;
 
+use crate::stored::{Damaged, Stored, Walk, choice};
+
 /// Σ a_j k_j as pairs (j, a_j); what is zero is left out.
 pub type Combination = &'static [(usize, f64)];
 
@@ -16,6 +18,19 @@ pub struct Stage {
     pub c: f64,
     /// Of which stages before it.
     pub a: Combination,
+}
+
+impl Stored for &'static Tableau {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        choice(self, &[&DOPRI5, &DOP853], walk)
+    }
+}
+
+impl PartialEq for Tableau {
+    /// A tableau is itself only.
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self, other)
+    }
 }
 
 /// A pair with the rate at the end of a step as its last stage, which is the first of the next.

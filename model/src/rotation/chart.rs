@@ -5,6 +5,7 @@
 
 use super::{Angle, exact};
 use crate::scalar::Scalar;
+use crate::stored::{Damaged, Stored, Walk, choice};
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -16,6 +17,12 @@ pub enum Chart {
     FromE = 1,
     /// γ′ turns −e into t.
     FromMinusE = 2,
+}
+
+impl Stored for Chart {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        choice(self, &[Chart::FromE, Chart::FromMinusE], walk)
+    }
 }
 
 /// π less its double [rad].
@@ -60,14 +67,18 @@ impl Chart {
         }
     }
 
-    /// φ from e, wrapped, of whole turns, and φ [rad] and γ [rad] in this chart.
-    pub fn axial_angle(self, turns: f64, phi: f64, gamma: Vector2<f64>) -> Angle {
-        let remainder = match self {
+    /// φ from e [rad], up to whole turns, of φ [rad] and γ [rad] in this chart.
+    pub fn phi_from_e<S: Scalar>(self, phi: S, gamma: Vector2<S>) -> S {
+        match self {
             Chart::FromE => phi,
             // eq. 27: φ = φ′ + 2β
-            Chart::FromMinusE => phi + 2.0 * azimuth(gamma),
-        };
-        Angle { turns, remainder }.wrapped()
+            Chart::FromMinusE => phi + S::constant(2.0) * azimuth(gamma),
+        }
+    }
+
+    /// φ from e, wrapped, of whole turns, and φ [rad] and γ [rad] in this chart.
+    pub fn axial_angle(self, turns: f64, phi: f64, gamma: Vector2<f64>) -> Angle {
+        Angle { turns, remainder: self.phi_from_e(phi, gamma) }.wrapped()
     }
 
     /// φ in this chart, wrapped, of φ from e and γ [rad] in this chart.
@@ -126,8 +137,11 @@ pub fn crossed_exactly(gamma: Vector2<f64>) -> Vector2<f64> {
 }
 
 /// Azimuth β of γ about e, from y towards z [rad], in [−π, π].
-fn azimuth(gamma: Vector2<f64>) -> f64 {
-    libm::atan2(gamma.y, gamma.x)
+fn azimuth<S: Scalar>(gamma: Vector2<S>) -> S {
+    let (y, z) = (gamma.x.re(), gamma.y.re());
+    // dβ = e·(γ×dγ)/|γ|²
+    let turned = (gamma.y * S::constant(y) - gamma.x * S::constant(z)) / S::constant(y * y + z * z);
+    turned.with_value(libm::atan2(z, y))
 }
 
 /// Δβ [rad] from one γ to another, by the shorter way; +π where it is straight through the origin.

@@ -77,6 +77,24 @@ impl<S: Scalar> Tilt<S> {
         if rate.re().is_finite() { rate } else { in_chart }
     }
 
+    /// n = (e + t)/(1 + e·t) [1], along which a constant-velocity joint passes a torque on: ω_φ = n·ω.
+    #[inline(always)]
+    pub fn joint_axis(&self) -> Vector3<S> {
+        let g = self.g();
+        let across = match self.chart {
+            // eq. 6: n = e + τ g
+            Chart::FromE => g * self.tau,
+            // eq. 30: n = e − g′/(4xτ)
+            Chart::FromMinusE => -g / (self.x * self.tau * S::constant(4.0)),
+        };
+        Vector3::new(S::one(), across.x, across.y)
+    }
+
+    /// The chart in which γ is written.
+    pub fn chart(&self) -> Chart {
+        self.chart
+    }
+
     /// γ from e [rad], |γ| ≤ π.
     #[inline(always)]
     pub fn gamma(&self) -> Vector3<S> {

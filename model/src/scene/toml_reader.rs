@@ -3,7 +3,7 @@
 use super::{Experiment, defaults};
 use crate::effects::{self, CATALOGUE, Info};
 use crate::error::Invalid;
-use crate::variable::{Bound, Kind, Role};
+use crate::variable::{Bound, Kind};
 use crate::variables::{self, TOLERANCES, Variable};
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -28,8 +28,9 @@ struct Values<'v> {
 }
 
 impl<'v> Values<'v> {
-    fn parameters(&self) -> impl Iterator<Item = &'v Variable> + use<'v> {
-        self.variables.iter().filter(|variable| matches!(variable.meta.role, Role::Parameter { .. }))
+    /// What a file may give a value: parameters and inputs.
+    fn settable(&self) -> impl Iterator<Item = &'v Variable> + use<'v> {
+        self.variables.iter().filter(|variable| variable.meta.has_start())
     }
 }
 
@@ -116,17 +117,17 @@ impl Reader<'_> {
             let name = format!("{prefix}.{}", key.get_ref());
             let in_file = format!("{section}.{}", key.get_ref());
             let within = format!("{name}.");
-            if let Some(variable) = values.parameters().find(|variable| variable.name == name) {
+            if let Some(variable) = values.settable().find(|variable| variable.name == name) {
                 let number = self.number(value, variable, &in_file)?;
                 values.starts.insert(variable.place.value_reference(), number);
                 values.lines.push((name, self.line(value.span().start)));
-            } else if values.parameters().any(|variable| variable.name.starts_with(&within)) {
-                let keys = next_keys(values.parameters(), &name);
+            } else if values.settable().any(|variable| variable.name.starts_with(&within)) {
+                let keys = next_keys(values.settable(), &name);
                 let right = format!("a table of {}, such as {{ {} = 0.1 }}", keys.join(", "), keys[0]);
                 let table = value.get_ref().as_table().ok_or_else(|| self.wrong_type(value, &in_file, &right))?;
                 self.block(table, &name, &in_file, values)?;
             } else {
-                let known = next_keys(values.parameters(), prefix);
+                let known = next_keys(values.settable(), prefix);
                 let message = if known.is_empty() {
                     format!("unknown key `{in_file}`: [{section}] has no keys")
                 } else {
@@ -141,7 +142,7 @@ impl Reader<'_> {
     /// The value of a parameter, checked.
     fn number(&self, value: &Value, variable: &Variable, in_file: &str) -> Result<f64, Wrong> {
         let number = match variable.meta.kind {
-            Kind::Real => as_number(value.get_ref()).ok_or_else(|| {
+            Kind::Real | Kind::Integer => as_number(value.get_ref()).ok_or_else(|| {
                 let unit = variable.meta.unit.name;
                 let right = if unit.is_empty() { "a number".into() } else { format!("a number in {unit}") };
                 self.wrong_type(value, in_file, &right)
@@ -205,7 +206,7 @@ impl Reader<'_> {
 
 /// Every parameter has a value.
 fn nothing_missing(values: &Values) -> Result<(), Wrong> {
-    for variable in values.parameters() {
+    for variable in values.settable() {
         if !values.starts.contains_key(&variable.place.value_reference()) {
             let (unit, what) = (variable.meta.unit.name, variable.meta.description);
             let (section, key) = variable.name.split_once('.').unwrap_or(("", &variable.name));
@@ -225,9 +226,9 @@ fn as_number(value: &DeValue) -> Option<f64> {
 }
 
 /// The keys that may follow `prefix`.
-fn next_keys<'v>(parameters: impl Iterator<Item = &'v Variable>, prefix: &str) -> Vec<&'v str> {
+fn next_keys<'v>(settable: impl Iterator<Item = &'v Variable>, prefix: &str) -> Vec<&'v str> {
     let mut keys: Vec<&str> = Vec::new();
-    for variable in parameters {
+    for variable in settable {
         if let Some(rest) = variable.name.strip_prefix(prefix).and_then(|rest| rest.strip_prefix('.')) {
             let key = rest.split('.').next().unwrap_or(rest);
             if !keys.contains(&key) {

@@ -2,14 +2,14 @@
 
 use super::start::{Motion, tolerance};
 use crate::effects::Effects;
-use crate::energy::Ledger;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::integrate::{Cost, Fault};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart, Tilt};
-use crate::rotor::{self, DISSIPATED, Rotor, SUPPLIED, WITH_WORK};
-use crate::state::{Coordinates, GAMMA, Kinematics, PHI};
+use crate::rotor::{self, Rotor};
+use crate::state::{Coordinates, DISSIPATED, GAMMA, Kinematics, PHI, SUPPLIED, WITH_WORK};
+use crate::stored::stored;
 use crate::variables::{Reading, Setup};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -17,11 +17,9 @@ use std::f64::consts::TAU;
 /// A rotor with N equations, its method, and how far its answers are wanted.
 #[derive(Clone)]
 pub(super) struct Drive<E, const N: usize> {
-    /// The rotor, in the chart of the time that the method has reached.
+    /// The rotor, in the chart and with the whole turns of the time that the method has reached.
     rotor: Rotor<E>,
     method: Explicit<N>,
-    /// Whole turns of φ at the time that the method has reached.
-    turns: f64,
     last: LastStep,
     /// The longest step so far [s].
     longest: f64,
@@ -34,8 +32,12 @@ pub(super) struct Drive<E, const N: usize> {
     tilted: bool,
 }
 
+stored!(Drive<E: Effects, const N: usize> {
+    rotor, method, last, longest, t, total_at_start, relative_tolerance, tilted
+});
+
 /// What must be known of the last step to read it.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 struct LastStep {
     /// Its chart; the method may go on in the other one.
     chart: Chart,
@@ -46,6 +48,8 @@ struct LastStep {
     /// When [s] and where [rad] γ came closest to the origin, if its azimuth turned much.
     closest: Option<(f64, Vector2<f64>)>,
 }
+
+stored!(LastStep { chart, turns, gamma, closest });
 
 /// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely: on a
 /// curved path it may have turned by more than π. What whirls steadily turns by less ([`LONGEST_WHIRL`]).
@@ -71,17 +75,36 @@ const LONGEST_WHIRL: f64 = 1.0;
 impl<E: Effects, const N: usize> Drive<E, N> {
     /// A drive from time `t` [s] of a motion that shows `reading` at its start.
     pub(super) fn start(start: Motion<E>, reading: &Reading, setup: &Setup, t: f64) -> Self {
-        let Motion { rotor, coordinates, turns } = start;
+        let Motion { rotor, state } = start;
         let mut y = [0.0; N];
-        coordinates.write(&mut y);
-        let total_at_start = reading.ledger.total_at_start;
+        y.copy_from_slice(&state[..N]);
         let method = Explicit::start(tableau(setup.solver.method), tolerance(setup), &rotor, t, y);
-        let last = LastStep { chart: rotor.chart, turns, gamma: coordinates.gamma, closest: None };
-        let relative_tolerance = setup.solver.relative_tolerance;
-        let mut drive =
-            Self { rotor, method, turns, last, longest: 0.0, t, total_at_start, relative_tolerance, tilted: false };
+        let last = LastStep { chart: rotor.chart, turns: rotor.turns, gamma: gamma(&y), closest: None };
+        let mut drive = Self {
+            rotor,
+            method,
+            last,
+            t,
+            total_at_start: reading.ledger.total_at_start,
+            relative_tolerance: setup.solver.relative_tolerance,
+            ..Self::blank()
+        };
         drive.watch_tilt(reading.motion.axis().x);
         drive
+    }
+
+    /// Nothing yet: a place for what was stored.
+    pub(super) fn blank() -> Self {
+        Self {
+            rotor: Rotor::default(),
+            method: Explicit::blank(),
+            last: LastStep::default(),
+            longest: 0.0,
+            t: 0.0,
+            total_at_start: 0.0,
+            relative_tolerance: 0.0,
+            tilted: false,
+        }
     }
 
     /// The communication point [s].
@@ -98,13 +121,19 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         self.tilted |= axis_x < 0.0 && self.rotor.effects.needs_gamma();
     }
 
-    /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
-    pub(super) fn advance(&mut self, t: f64) -> Result<(), Fault> {
+    /// Moves the communication point to time `t` [s], `news` being the effects whose inputs were set. On a fault it stands
+    /// at the last time reached.
+    pub(super) fn advance(&mut self, t: f64, news: Option<&E>) -> Result<(), Fault> {
         assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
+        if let Some(effects) = news {
+            self.hear(effects)?;
+        }
+        // Where something from outside may change, the solver does not run ahead of it.
+        let until = if self.rotor.effects.listens() { t } else { f64::INFINITY };
         let wanted = t - self.method.time();
         while self.method.time() < t {
             let least = LEAST_PART * wanted.max(self.longest);
-            if let Err(fault) = self.step(least) {
+            if let Err(fault) = self.step(least, until) {
                 self.t = self.method.time();
                 return Err(fault);
             }
@@ -112,6 +141,19 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         }
         self.t = t;
         Ok(())
+    }
+
+    /// Goes on with the inputs of these effects.
+    fn hear(&mut self, effects: &E) -> Result<(), Fault> {
+        self.rotor.effects.hear(effects);
+        if !self.rotor.effects.listens() {
+            return Ok(());
+        }
+        let y = *self.method.state();
+        self.method.go_on_from(&self.rotor, y);
+        self.watch_tilt(self.rotor.motion(self.t, &y).axis().x);
+        let reached = self.rotor.reaches(gamma(&y), Chart::REACH);
+        reached.map_err(|reason| Fault::Refused { t: self.t, reason })
     }
 
     /// A step that keeps to what the chart and the counting of turns allow.
@@ -126,16 +168,16 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         }
     }
 
-    fn step(&mut self, least: f64) -> Result<(), Fault> {
+    fn step(&mut self, least: f64, until: f64) -> Result<(), Fault> {
         self.limit_step();
         // Near −e a step can pass where it may not end; then it is taken back.
         let before = (self.rotor.chart == Chart::FromMinusE && self.rotor.effects.needs_gamma())
             .then(|| (self.method.clone(), self.last));
         let mut limit = f64::INFINITY;
         loop {
-            self.method.step(&self.rotor, least)?;
+            self.method.step(&self.rotor, least, until)?;
             let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
-            self.last = LastStep { chart: self.rotor.chart, turns: self.turns, gamma: from, closest: None };
+            self.last = LastStep { chart: self.rotor.chart, turns: self.rotor.turns, gamma: from, closest: None };
             let near = before.is_some() && from.norm().min(to.norm()) < NEAR;
             if self.rotor.chart == Chart::FromMinusE && (near || azimuth_change(from, to).abs() > MUCH) {
                 self.last.closest = Some(self.closest_to_origin());
@@ -169,14 +211,14 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             let crossed = crossed_exactly(gamma);
             self.rotor.chart = chart.other();
             let phi = self.rotor.chart.own_angle(phi, crossed);
-            self.turns = phi.turns;
+            self.rotor.turns = phi.turns;
             let mut y = y;
             y[GAMMA].copy_from_slice(crossed.as_slice());
             y[PHI] = phi.remainder;
             self.method.go_on_from(&self.rotor, y);
         } else {
             let phi = Angle { turns, remainder: y[PHI] }.wrapped();
-            self.turns = phi.turns;
+            self.rotor.turns = phi.turns;
             self.method.replace(PHI, phi.remainder);
         }
     }
@@ -215,21 +257,16 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     /// What the communication point shows.
     pub(super) fn read(&mut self) -> Reading {
         let (y, chart, turns) = if self.t == self.method.time() {
-            (*self.method.state(), self.rotor.chart, self.turns)
+            (*self.method.state(), self.rotor.chart, self.rotor.turns)
         } else {
             let y = self.method.dense(&self.rotor, self.t);
             (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
         };
-        let coordinates = Coordinates::from_slice(&y);
-        let motion = Kinematics::new(self.rotor.body, chart, coordinates);
-        let [supplied, dissipated] = if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] };
+        let motion = Kinematics::new(self.rotor.body, chart, Coordinates::from_slice(&y)).when(self.t, turns);
+        let work = if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] };
         let spent = self.method.cost();
-        Reading {
-            motion,
-            phi: chart.axial_angle(turns, coordinates.phi, coordinates.gamma),
-            ledger: Ledger::new(&motion, &self.rotor.effects, supplied, dissipated, self.total_at_start),
-            cost: Cost { error_estimate: spent.error_estimate * self.relative_tolerance, ..spent },
-        }
+        let cost = Cost { error_estimate: spent.error_estimate * self.relative_tolerance, ..spent };
+        Reading::new(motion, &self.rotor.effects, work, self.total_at_start, cost)
     }
 }
 

@@ -1,19 +1,19 @@
 //! From parameters to the motion at the start and the tolerance of its integration.
 
+use crate::body::Body;
 use crate::effects::Effects;
 use crate::integrate::Tolerance;
 use crate::rotation::{Angle, Chart, Tilt};
 use crate::rotor::Rotor;
-use crate::state::{Coordinates, PHI};
+use crate::state::{Coordinates, PHI, WITH_WORK, Whole};
 use crate::variables::{Parameters, Setup};
 
 /// A rotor and where it is.
 pub(super) struct Motion<E> {
+    /// With the chart of the state and the whole turns of φ.
     pub rotor: Rotor<E>,
-    /// In the rotor's chart, φ wrapped.
-    pub coordinates: Coordinates<f64>,
-    /// Whole turns of φ.
-    pub turns: f64,
+    /// φ wrapped, no work done yet.
+    pub state: Whole<f64>,
 }
 
 impl<E: Effects> Motion<E> {
@@ -29,20 +29,34 @@ impl<E: Effects> Motion<E> {
             gamma,
             phi: phi.remainder,
         };
-        Self { rotor: Rotor { body, effects: parameters.effects.clone(), chart }, coordinates, turns: phi.turns }
+        let mut state = [0.0; WITH_WORK];
+        coordinates.write(&mut state);
+        Self { rotor: Rotor { body, effects: parameters.effects.clone(), chart, turns: phi.turns }, state }
     }
+
+    /// φ with all its turns in the state, as a host integrates it.
+    pub(super) fn unwrap_turns(&mut self) {
+        let turns = std::mem::take(&mut self.rotor.turns);
+        self.state[PHI] = Angle { turns, remainder: self.state[PHI] }.radians();
+    }
+}
+
+/// What each number of the state counts with, in its unit (INTERFACE.md); equal for all components of a vector.
+pub(super) fn nominals(rotor: &Body) -> Whole<f64> {
+    let mut nominal = [1.0; WITH_WORK];
+    nominal[0..3].fill(if rotor.l == 0.0 { 1.0 } else { rotor.l.abs() });
+    nominal[6..9].fill(rotor.Ja.max(rotor.Jt));
+    nominal
 }
 
 /// The tolerance of each component: relative to its size, plus absolute in nominals (INTERFACE.md).
 pub(super) fn tolerance<const N: usize>(setup: &Setup) -> Tolerance<N> {
-    let (rotor, solver) = (&setup.rotor, &setup.solver);
+    let solver = &setup.solver;
     let in_nominals =
         if solver.absolute_tolerance > 0.0 { solver.absolute_tolerance } else { solver.relative_tolerance };
-    let mut nominal = [1.0; N];
-    nominal[0..3].fill(if rotor.l == 0.0 { 1.0 } else { rotor.l.abs() });
-    nominal[6..9].fill(rotor.Ja.max(rotor.Jt));
-    let mut tolerance =
-        Tolerance { absolute: nominal.map(|nominal| in_nominals * nominal), relative: [solver.relative_tolerance; N] };
+    let nominal = nominals(&setup.rotor);
+    let absolute = std::array::from_fn(|n| in_nominals * nominal[n]);
+    let mut tolerance = Tolerance { absolute, relative: [solver.relative_tolerance; N] };
     // φ counts with 1 rad, not with its size, which the whole turns would make arbitrary.
     tolerance.absolute[PHI] += solver.relative_tolerance;
     tolerance.relative[PHI] = 0.0;

@@ -36,6 +36,8 @@ pub static RADIAN: Unit = Unit { name: "rad", exponents: [0, 0, 0, 1], display: 
 /// rad/s
 pub static RADIAN_PER_SECOND: Unit =
     Unit { name: "rad/s", exponents: [0, 0, -1, 1], display: Some(("rpm", 9.549_296_585_513_72)) };
+/// rad/s2
+pub static RADIAN_PER_SECOND_SQUARED: Unit = unit("rad/s2", [0, 0, -2, 1]);
 /// N
 pub static NEWTON: Unit = unit("N", [1, 1, -2, 0]);
 /// N.m
@@ -50,3 +52,5 @@ pub static NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", [1, 0, -1, 0]);
 pub static NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", [1, 2, -1, -1]);
 /// J
 pub static JOULE: Unit = unit("J", [1, 2, -2, 0]);
+/// W
+pub static WATT: Unit = unit("W", [1, 2, -3, 0]);

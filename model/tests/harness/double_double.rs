@@ -23,6 +23,14 @@ impl DoubleDouble {
 }
 
 impl Scalar for DoubleDouble {
+    fn with_value(self, value: f64) -> Self {
+        Self::constant(value)
+    }
+
+    fn moving(value: f64, _rate: f64) -> Self {
+        Self::constant(value)
+    }
+
     fn constant(high: f64) -> Self {
         Self { high, low: 0.0 }
     }

@@ -131,12 +131,12 @@ impl Scene {
         let called: Vec<(&'static Info, u32)> =
             E::NAMES.iter().map(|name| (named(name).expect("in the catalogue"), 1)).collect();
         let variables = of_scene(&called);
-        let default = |role: Role| match role {
-            Role::Parameter { default, .. } => default,
-            _ => None,
-        };
-        let defaults = variables.iter().filter_map(|v| Some((v.place, default(v.meta.role)?)));
-        let mut simulation = Simulation::new(defaults);
+        let mut simulation = Simulation::default();
+        for variable in &variables {
+            if let Role::Parameter { default: Some(default), .. } = variable.meta.role {
+                simulation.set_parameter(variable.place, default);
+            }
+        }
         for (name, value) in self.values() {
             match variables.iter().find(|v| v.name == name) {
                 Some(variable) => assert!(simulation.set_parameter(variable.place, value), "{name} is no parameter"),
@@ -169,7 +169,7 @@ impl Scene {
             let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
             assert!(effects.set_parameter(variable.place, *value));
         }
-        Rotor { body: self.body, effects, chart: Default::default() }
+        Rotor { body: self.body, effects, ..Rotor::default() }
     }
 
     /// Its state at the start, in the order of the coordinates.

@@ -1,0 +1,43 @@
+//! `shaft`: a torque from outside, and the angle that goes with it.
+
+use super::{Effect, Row, Wrench};
+use crate::scalar::Scalar;
+use crate::signal::Signal;
+use crate::state::{Coordinates, Kinematics};
+use crate::variable::units::{NEWTON_METRE, RADIAN, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
+use crate::variable::{input, output};
+use nalgebra::Vector3;
+
+/// A constant-velocity joint between the rotor and a shaft along e.
+#[derive(Clone, Debug, Default)]
+pub struct Shaft {
+    /// Torque τ of the shaft on the rotor [N·m].
+    pub tau: Signal,
+}
+
+impl Effect for Shaft {
+    const ROWS: &'static [Row<Self>] = &[
+        input!(tau, &NEWTON_METRE, 0.0, "torque of the shaft on the rotor, passed on by a constant-velocity joint"),
+        output!("phi", &RADIAN, "angle of the shaft, the axial angle of the rotor", |_, m| m.phi()),
+        output!("w", &RADIAN_PER_SECOND, "speed of the shaft, the rate of its angle", |_, m| m.axial_rate()),
+        output!("a", &RADIAN_PER_SECOND_SQUARED, "acceleration of the shaft", |_, m, rates| {
+            m.axial_acceleration(&Coordinates::from_slice(rates))
+        }),
+    ];
+
+    #[inline(always)]
+    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        // eq. 32: M = τ n
+        Wrench { force: Vector3::zeros(), moment: motion.tilt.joint_axis() * self.tau.at::<S>(motion.t) }
+    }
+
+    #[inline(always)]
+    fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        // eq. 32: P = τ ω_φ
+        self.tau.at::<S>(motion.t) * motion.axial_rate()
+    }
+
+    fn needs_gamma(&self) -> bool {
+        !self.tau.is_zero()
+    }
+}

@@ -1,0 +1,88 @@
+//! What comes in from outside, over time.
+
+use crate::scalar::Scalar;
+use crate::stored::stored;
+
+/// An input as a polynomial of degree 2 in time, about the communication point where it was last set.
+///
+/// What is sent at one communication point belongs together: a value and derivatives, in any order. A value alone is
+/// held. The polynomial stays in force until the input is set again.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Signal {
+    /// The communication point where it was last set [s].
+    origin: f64,
+    /// In the input's unit.
+    value: f64,
+    /// Its rate [unit/s].
+    slope: f64,
+    /// Its second derivative [unit/s²].
+    curvature: f64,
+    /// Whether a derivative was sent at `origin`.
+    sent: bool,
+    /// The direction in which derivatives are asked for [unit].
+    seed: f64,
+}
+
+stored!(Signal { origin, value, slope, curvature, sent, seed });
+
+/// The highest derivative of an input that a host may send.
+pub const HIGHEST_DERIVATIVE: u32 = 2;
+
+impl Signal {
+    /// A signal that holds this value.
+    pub fn held(value: f64) -> Self {
+        Self { value, ..Self::default() }
+    }
+
+    /// Its value at time `t` [s].
+    #[inline(always)]
+    pub fn at<S: Scalar>(&self, t: f64) -> S {
+        let s = t - self.origin;
+        // eq. 31: u(t₀ + s) = u₀ + u₁ s + ½ u₂ s²
+        S::moving(self.value + s * (self.slope + s * (0.5 * self.curvature)), self.seed)
+    }
+
+    /// Its rate at time `t` [unit/s].
+    pub fn rate_at(&self, t: f64) -> f64 {
+        self.slope + (t - self.origin) * self.curvature
+    }
+
+    /// Whether it is zero at all times.
+    pub fn is_zero(&self) -> bool {
+        self.value == 0.0 && self.slope == 0.0 && self.curvature == 0.0
+    }
+
+    /// Sets its value from the communication point `t` [s] on. Derivatives sent there stay.
+    pub fn set(&mut self, t: f64, value: f64) {
+        self.set_out_from(t);
+        self.value = value;
+    }
+
+    /// Sets its derivative of order 1 or 2 at the communication point `t` [s].
+    pub fn set_derivative(&mut self, t: f64, order: u32, value: f64) {
+        self.set_out_from(t);
+        self.sent = true;
+        if order == 1 {
+            self.slope = value;
+        } else {
+            self.curvature = value;
+        }
+    }
+
+    /// What was set before the run counts from its start at `t` [s].
+    pub fn begin(&mut self, t: f64) {
+        self.origin = t;
+    }
+
+    /// Derivatives are asked for in a direction that has this much more of this input.
+    pub fn ask(&mut self, seed: f64) {
+        self.seed += seed;
+    }
+
+    /// The value goes on from `t` [s]; derivatives sent elsewhere, or not at all, are forgotten.
+    fn set_out_from(&mut self, t: f64) {
+        if self.origin != t || !self.sent {
+            *self = Self { origin: t, value: self.at(t), ..Self::default() };
+        }
+    }
+}

@@ -1,0 +1,84 @@
+"""Third-party clients run the packaged FMU for a whole run, and every call is recorded: what they were given is what
+the library gives to the same calls made directly, and their motions agree with one another."""
+
+import struct
+import sys
+
+import pytest
+import recording
+from recording import Place
+from replay import first_difference
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="recorder.c is written for POSIX")
+
+SCENES = ["paper"]
+OTHERS = [pytest.param(client, marks=pytest.mark.long) for client in ("libcosimpy", "ecospy", "cofmpy")]
+
+CLOCKS = 1e-12  # [s], measured 1.8e-15 (libcosimpy) and 1.7e-13 (ecospy and cofmpy, which add up steps)
+MOTIONS = 1e-9  # of the nominal, measured 1.0e-12 and 1.0e-10: support.F.z, whose rate is 600 N/s, at these two clocks
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("client", ["fmpy", *OTHERS])
+def test_exact_the_same_calls_give_the_same_bits(record, packaged, client, scene):
+    assert first_difference(record(client, scene), packaged(scene).library) is None
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("client", ["fmpy", *OTHERS])
+def test_fmi_the_client_reads_everything_to_the_end_and_nothing_is_refused(record, packaged, client, scene):
+    fmu, calls = packaged(scene), record(client, scene)
+    assert [call for call in calls if not call.accepted] == []
+    points = recording.trajectory(calls)
+    assert len(points) >= round(fmu.stop / fmu.step)
+    assert points[-1][0] >= fmu.stop - CLOCKS
+    outputs = {variable.valueReference for variable in fmu.outputs}
+    assert [time for time, values in points if not outputs <= set(values)] == []
+
+
+@pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.parametrize("client", OTHERS)
+def test_fmi_the_motion_is_that_of_fmpy(record, packaged, client, scene):
+    """What the motion cost is left out, and so are turns and angle: together they are phi, apart they jump."""
+    compared = [v for v in packaged(scene).outputs if not v.name.startswith(("solver.", "turns", "angle"))]
+    pairs = list(zip(recording.trajectory(record("fmpy", scene)), recording.trajectory(record(client, scene))))
+    assert max(abs(time - other) for (time, _), (other, _) in pairs) <= CLOCKS
+    apart = {
+        v.name: max(abs(here[v.valueReference] - there[v.valueReference]) for (_, here), (_, there) in pairs)
+        / float(v.nominal or 1.0)
+        for v in compared
+    }
+    assert max(apart.values()) <= MOTIONS, apart
+
+
+def flipped(number):
+    """The next number but for the sign: the lowest bit of its digits is the other one."""
+    (bits,) = struct.unpack("<q", struct.pack("<d", number))
+    return struct.unpack("<d", struct.pack("<q", bits ^ 1))[0]
+
+
+def a_longer_step(call):
+    instance, start, step, rest = call.arguments
+    return call._replace(arguments=[instance, start, flipped(step), rest])
+
+
+def another_value(call):
+    *given, place = call.arguments
+    return call._replace(arguments=[*given, Place(None, [*place.after[:-1], flipped(place.after[-1])])])
+
+
+@pytest.mark.parametrize(
+    "function, mutate",
+    [
+        ("fmi2DoStep", a_longer_step),
+        ("fmi2GetReal", another_value),
+        ("fmi2DoStep", lambda call: call._replace(returned=recording.WARNING)),
+    ],
+)
+def test_exact_one_flipped_bit_is_seen(record, packaged, function, mutate):
+    calls = list(record("fmpy", "paper"))
+    where = next(i for i, call in enumerate(calls) if call.function == function)
+    calls[where] = mutate(calls[where])
+    line, _recorded, _again = first_difference(calls, packaged("paper").library)
+    # A step shows itself in what is read after it.
+    assert line - 1 in (where, where + 1)
