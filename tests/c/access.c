@@ -174,13 +174,15 @@ static void bad_inputs(struct rotor *rotor)
     fmi2ValueReference *inputs;
     size_t count = references_of('R', "input", &inputs);
     for (size_t i = 0; i < count; i++) {
-        fmi2Real old = 0.0625, value = 0.0;
+        fmi2Real before = 0.0, old = 0.0625, value = 0.0;
+        DONE(rotor, GetReal, &inputs[i], 1, &before);
         DONE(rotor, SetReal, &inputs[i], 1, &old);
         for (size_t j = 0; j < sizeof bad / sizeof *bad; j++) {
             REFUSED(rotor, SetReal, &inputs[i], 1, &bad[j]);
             DONE(rotor, GetReal, &inputs[i], 1, &value);
             CHECK(value == old, "an input refused is %g all the same", value);
         }
+        DONE(rotor, SetReal, &inputs[i], 1, &before);
     }
     free(inputs);
 }
