@@ -1,6 +1,6 @@
 //! `shaft`: a torque from outside, and the angle that goes with it.
 
-use super::{Effect, Row, Wrench};
+use super::{Effect, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::state::{Coordinates, Kinematics};
@@ -24,6 +24,10 @@ impl Effect for Shaft {
             m.axial_acceleration(&Coordinates::from_slice(rates))
         }),
     ];
+
+    // The members have the names of Modelica's adaptors between flanges and signals.
+    const TERMINAL: Option<Terminal> =
+        Some(Terminal { kind: "Modelica.Mechanics.Rotational.Interfaces.Flange_a", flows: &["tau"] });
 
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
