@@ -12,6 +12,7 @@ use crate::effects::Effects;
 use crate::error::Invalid;
 use crate::integrate::{Cost, Fault, Refusal};
 use crate::rotor;
+use crate::signal::Signal;
 use crate::state::{COORDINATES, WITH_WORK, Whole};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
@@ -84,29 +85,34 @@ impl<E: Effects> Simulation<E> {
 
     /// Sets an input from the communication point on; false where there is none at this place.
     pub fn set_input(&mut self, place: Place, value: f64) -> bool {
-        let t = self.time().unwrap_or_default();
-        let signal = self.parameters.effects.signal_mut(place);
-        let found = signal.map(|signal| signal.set(t, value)).is_some();
-        self.tell_of_inputs(found);
-        found
+        self.change_input(place, |signal, t| signal.set(t, value))
     }
 
     /// Sets a derivative of an input, of order 1 or 2, at the communication point; false where there is no input.
     pub fn set_input_derivative(&mut self, place: Place, order: u32, value: f64) -> bool {
+        self.change_input(place, |signal, t| signal.set_derivative(t, order, value))
+    }
+
+    fn change_input(&mut self, place: Place, change: impl FnOnce(&mut Signal, f64)) -> bool {
         let t = self.time().unwrap_or_default();
-        let signal = self.parameters.effects.signal_mut(place);
-        let found = signal.map(|signal| signal.set_derivative(t, order, value)).is_some();
-        self.tell_of_inputs(found);
-        found
+        let Some(signal) = self.parameters.effects.signal_mut(place) else { return false };
+        let before = *signal;
+        change(signal, t);
+        if signal.goes_on_like(&before) {
+            *signal = before;
+        } else {
+            self.tell_of_inputs();
+        }
+        true
     }
 
     /// A host's motion hears of inputs at once, a method when it goes on.
-    fn tell_of_inputs(&mut self, news: bool) {
-        if let (true, Some(Run::Open(open))) = (news, &mut self.run) {
+    fn tell_of_inputs(&mut self) {
+        if let Some(Run::Open(open)) = &mut self.run {
             open.hear(&self.parameters.effects);
             self.reading = None;
         } else {
-            self.news |= news;
+            self.news = true;
         }
     }
 

@@ -118,8 +118,6 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         motion: &Kinematics<S>,
         rates: impl FnOnce() -> Whole<S>,
     ) -> Option<S>;
-    /// Whether any of them has an input that now counts.
-    fn listens(&self) -> bool;
     /// An input; None where there is none at this place.
     fn signal(&self, place: Place) -> Option<&Signal>;
     /// An input to set; None where there is none at this place.
@@ -232,10 +230,6 @@ impl Effects for () {
         None
     }
 
-    fn listens(&self) -> bool {
-        false
-    }
-
     fn signal(&self, _place: Place) -> Option<&Signal> {
         None
     }
@@ -343,11 +337,6 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             Some(effect) => row?.access.calculated(effect, motion, rates),
             None => matches!(row?.access, Access::Output(_) | Access::Rate(_)).then(S::zero),
         }
-    }
-
-    fn listens(&self) -> bool {
-        let has_inputs = || H::Effect::ROWS.iter().any(|row| matches!(row.access, Access::Input { .. }));
-        self.0.active().is_some_and(|_| has_inputs()) || self.1.listens()
     }
 
     fn signal(&self, place: Place) -> Option<&Signal> {

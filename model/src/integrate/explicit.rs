@@ -129,6 +129,12 @@ impl<const N: usize> Explicit<N> {
         self.h = self.h.min(h);
     }
 
+    /// Goes back to a time `t` [s] within the last step, where the state is `y`.
+    pub fn go_back(&mut self, system: &impl System<N>, t: f64, y: [f64; N]) {
+        self.t = t;
+        self.go_on_from(system, y);
+    }
+
     /// Goes on from another description `y` of the state reached. What the last step's dense output needs of the old
     /// one must have been prepared.
     pub fn go_on_from(&mut self, system: &impl System<N>, y: [f64; N]) {
@@ -173,11 +179,13 @@ impl<const N: usize> Explicit<N> {
             self.k[0] = rate;
             let y = self.attempt(system);
             let error = self.error_norm(&y);
+            let mut least_factor = 0.0;
             obstacle = if !error.is_finite() {
                 Some(Obstacle::NotFinite)
             } else if error > 1.0 {
                 None
             } else if let Err(refusal) = system.admits(end, &y) {
+                least_factor = REFUSED;
                 Some(Obstacle::Refused(refusal))
             } else {
                 let cut = self.h < 0.999 * wish;
@@ -191,7 +199,7 @@ impl<const N: usize> Explicit<N> {
             patience = PATIENCE;
             self.cost.rejected += 1.0;
             let factor = self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
-            self.h *= if let Some(Obstacle::Refused(_)) = obstacle { factor.max(REFUSED) } else { factor };
+            self.h *= factor.max(least_factor);
         }
     }
 

@@ -128,8 +128,8 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         if let Some(effects) = news {
             self.hear(effects)?;
         }
-        // Where something from outside may change, the solver does not run ahead of it.
-        let until = if self.rotor.effects.listens() { t } else { f64::INFINITY };
+        // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
+        let until = if news.is_some() { t } else { f64::INFINITY };
         let wanted = t - self.method.time();
         while self.method.time() < t {
             let least = LEAST_PART * wanted.max(self.longest);
@@ -143,14 +143,12 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         Ok(())
     }
 
-    /// Goes on with the inputs of these effects.
+    /// Goes on from the communication point with the inputs of these effects.
     fn hear(&mut self, effects: &E) -> Result<(), Fault> {
+        let (y, chart, turns) = self.shown();
+        (self.rotor.chart, self.rotor.turns) = (chart, turns);
         self.rotor.effects.hear(effects);
-        if !self.rotor.effects.listens() {
-            return Ok(());
-        }
-        let y = *self.method.state();
-        self.method.go_on_from(&self.rotor, y);
+        self.method.go_back(&self.rotor, self.t, y);
         self.watch_tilt(self.rotor.motion(self.t, &y).axis().x);
         let reached = self.rotor.reaches(gamma(&y), Chart::REACH);
         reached.map_err(|reason| Fault::Refused { t: self.t, reason })
@@ -254,14 +252,18 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         if a.1.norm_squared() < b.1.norm_squared() { a } else { b }
     }
 
+    /// The state at the communication point, its chart, and the whole turns of φ.
+    fn shown(&mut self) -> ([f64; N], Chart, f64) {
+        if self.t == self.method.time() {
+            return (*self.method.state(), self.rotor.chart, self.rotor.turns);
+        }
+        let y = self.method.dense(&self.rotor, self.t);
+        (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
+    }
+
     /// What the communication point shows.
     pub(super) fn read(&mut self) -> Reading {
-        let (y, chart, turns) = if self.t == self.method.time() {
-            (*self.method.state(), self.rotor.chart, self.rotor.turns)
-        } else {
-            let y = self.method.dense(&self.rotor, self.t);
-            (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
-        };
+        let (y, chart, turns) = self.shown();
         let motion = Kinematics::new(self.rotor.body, chart, Coordinates::from_slice(&y)).when(self.t, turns);
         let work = if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] };
         let spent = self.method.cost();
