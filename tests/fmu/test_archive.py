@@ -1,5 +1,6 @@
 """The FMU as a zip archive: what is in it, and that it is packed as FMI 2.0.4 (2.3) asks, alike every time."""
 
+import re
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 
 import pytest
@@ -24,6 +25,7 @@ def test_exact_what_is_in_it(fmu, entries):
         f"binaries/{platform}/{fmu.scene}{sharedLibraryExtension}",
         "documentation/index.html",
         "documentation/licenses/license.txt",
+        "documentation/licenses/third-party.txt",
         "terminalsAndIcons/terminalsAndIcons.xml",
         "terminalsAndIcons/icon.png",
     ]
@@ -49,3 +51,11 @@ def test_exact_packaging_again_gives_the_same_bytes(paper, xtask, tmp_path):
     assert done.returncode == 0, done.stderr
     again = (tmp_path / "paper.fmu").read_bytes()
     assert again == paper.path.read_bytes(), "or target/fmu is out of date: run `cargo xtask package paper`"
+
+
+def test_exact_the_licence_of_each_linked_crate_is_there(fmu):
+    with ZipFile(fmu.path) as archive:
+        text = archive.read("documentation/licenses/third-party.txt").decode("utf-8")
+    crates = re.findall(r"^=+\n(\S+) \d+\.\d+\.\d+: (.+)\n=+\n(.*?)(?=^=+\n|\Z)", text, re.MULTILINE | re.DOTALL)
+    assert {"nalgebra", "libm", "libc"} <= {name for name, _, _ in crates}
+    assert [name for name, _, licence in crates if "Copyright" not in licence and "Apache License" not in licence] == []

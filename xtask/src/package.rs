@@ -1,7 +1,7 @@
 //! `package`: each scene as an FMU, a zip of its modelDescription.xml, its library, and what describes it to people.
 
 use crate::run::{cargo, run};
-use crate::{page, paths, scenes, terminals};
+use crate::{licences, page, paths, scenes, terminals};
 use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use model::scene::Scene;
@@ -86,13 +86,8 @@ fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
     add("model.png".into(), &icon)?;
     add(library_path(&scene.identifier())?, &std::fs::read(library)?)?;
     add("documentation/index.html".into(), page::page(scene)?.as_bytes())?;
-    let licence = |name: &str| std::fs::read_to_string(paths::root().join(name));
-    let both = format!(
-        "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n\n{}\n\n{}",
-        licence("LICENSE-MIT")?,
-        licence("LICENSE-APACHE")?
-    );
-    add("documentation/licenses/license.txt".into(), both.as_bytes())?;
+    add("documentation/licenses/license.txt".into(), licences::own()?.as_bytes())?;
+    add("documentation/licenses/third-party.txt".into(), licences::third_party()?.as_bytes())?;
     add("terminalsAndIcons/terminalsAndIcons.xml".into(), terminals::terminals_and_icons(scene)?.as_bytes())?;
     // Where FMI 3.0, which defines that file, looks for the icon.
     add("terminalsAndIcons/icon.png".into(), &icon)?;

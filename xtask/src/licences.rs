@@ -1,0 +1,58 @@
+//! The licences of an FMU: ours, and those of the crates in its library.
+
+use crate::paths;
+use crate::run::{cargo, output};
+use anyhow::{Context, Result};
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+
+/// Our own licence, for documentation/licenses/license.txt.
+pub fn own() -> Result<String> {
+    let text = |name: &str| std::fs::read_to_string(paths::root().join(name));
+    Ok(format!(
+        "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n\
+         The licences of the libraries in its binary stand in third-party.txt.\n\n{}\n\n{}",
+        text("LICENSE-MIT")?,
+        text("LICENSE-APACHE")?
+    ))
+}
+
+/// The licences of the crates that are linked into the library, in the order of their names.
+pub fn third_party() -> Result<String> {
+    let tree = ["tree", "--package", "split-rotor", "--edges", "normal,no-proc-macro", "--prefix", "none"];
+    let linked = output(cargo().args(tree).args(["--format", "{p}|{l}"]))?;
+    // Of this platform only: cargo would fetch the crates of all others.
+    let version = output(Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into())).arg("-vV"))?;
+    let host = version.lines().find_map(|line| line.strip_prefix("host: ")).context("rustc tells its host")?;
+    let metadata = ["metadata", "--format-version", "1", "--locked", "--filter-platform", host];
+    let metadata = output(cargo().args(metadata))?;
+    let metadata: Value = serde_json::from_str(&metadata).context("cargo metadata prints JSON")?;
+    let packages = metadata["packages"].as_array().context("cargo metadata lists packages")?;
+    let mut crates: Vec<_> = linked.lines().map(|line| line.trim_end_matches(" (*)")).collect();
+    crates.sort_unstable();
+    crates.dedup();
+    let mut text = "Rust's standard library is licensed under the MIT licence or the Apache licence 2.0.\n".to_owned();
+    for line in crates.into_iter().filter(|line| !line.starts_with("split-rotor")) {
+        let (package, licence) = line.split_once('|').context("a crate and its licence")?;
+        let (name, version) = package.split_once(" v").context("a name and a version")?;
+        let found = packages.iter().find(|package| package["name"] == name && package["version"] == version);
+        let manifest = found.and_then(|package| package["manifest_path"].as_str()).context("a crate has a manifest")?;
+        let folder = Path::new(manifest).parent().context("a manifest lies in a folder")?;
+        text += &format!("\n{0}\n{name} {version}: {licence}\n{0}\n{1}", "=".repeat(80), texts(folder)?);
+    }
+    Ok(text)
+}
+
+/// The texts of the licences in a crate's folder.
+fn texts(folder: &Path) -> Result<String> {
+    let names = std::fs::read_dir(folder)?.flatten().map(|entry| entry.path());
+    let is_licence = |path: &Path| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_uppercase();
+        path.is_file() && ["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| name.starts_with(start))
+    };
+    let mut files: Vec<_> = names.filter(|path| is_licence(path)).collect();
+    files.sort();
+    let texts = files.iter().map(std::fs::read_to_string).collect::<Result<Vec<_>, _>>()?;
+    Ok(texts.iter().map(|text| format!("\n{}\n", text.trim_end())).collect())
+}
