@@ -353,6 +353,24 @@ fn always(place: Place, could_work: bool) -> Option<&'static AlwaysRow> {
     BLOCKS.get(place.block as usize)?.get(place.row)
 }
 
+/// The Real outputs that are always there, by value reference: a second way to what [`BLOCKS`] holds, without detours.
+static QUICK: [Option<fn(&Setup, &Reading) -> f64>; (STATES << 8) as usize] = {
+    let mut quick = [None; (STATES << 8) as usize];
+    let mut block = 0;
+    while block < STATES {
+        let rows = BLOCKS[block as usize];
+        let mut row = 0;
+        while row < rows.len() {
+            if let Access::Output(output) = &rows[row].access {
+                quick[Place { block, row }.value_reference() as usize] = Some(output.value);
+            }
+            row += 1;
+        }
+        block += 1;
+    }
+    quick
+};
+
 /// The block of the states.
 const STATES: u32 = BLOCKS.len() as u32 - 1;
 
@@ -437,12 +455,9 @@ impl<E: Effects> Parameters<E> {
     #[inline(never)]
     pub fn reals(&self, references: &[u32], values: &mut [f64], reading: &Reading) -> bool {
         for (reference, value) in references.iter().zip(values.iter_mut()) {
-            let place = Place::of(*reference);
-            *value = match always(place, E::COULD_WORK) {
-                Some(Row { meta: Meta { kind: Kind::Real, .. }, access: Access::Output(output) }) => {
-                    (output.value)(&self.setup, reading)
-                }
-                _ => self.real(place, reading),
+            *value = match QUICK.get(*reference as usize) {
+                Some(Some(read)) => read(&self.setup, reading),
+                _ => self.real(Place::of(*reference), reading),
             };
         }
         // A sum of zeros, or of a NaN where a value is not finite.
