@@ -2,22 +2,34 @@
 
 #![allow(dead_code, reason = "each test crate uses a part")]
 
+pub mod named;
+
 use model::body::Body;
 use model::effects::gravity::Gravity;
+use model::effects::shaft::Shaft;
 use model::effects::support::Support;
-use model::effects::{Called, Effects, Info, named};
+use model::effects::{Called, Effects, Entry, Info, named};
 use model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use model::integrate::{Tolerance, explicit::Explicit};
 use model::rotor::Rotor;
 use model::simulation::Simulation;
 use model::state::{Coordinates, Kinematics};
-use model::variable::Role;
+use model::variable::{Place, Role};
 use model::variables::{Reading, of_scene};
 use nalgebra::{Vector2, Vector3};
 use proptest::test_runner::{Config as ProptestConfig, RngSeed};
 
 /// Gravity and the support: the paper's effects.
 pub type Supported = (Called<Gravity, 1>, (Called<Support, 1>, ()));
+
+/// Gravity, the support and the shaft.
+pub type Driven = (Called<Gravity, 1>, (Called<Support, 1>, (Called<Shaft, 1>, ())));
+
+/// The shaft alone.
+pub type Shafted = (Called<Shaft, 1>, ());
+
+/// Where `shaft.tau` stands; `shaft.phi`, `.w` and `.a` follow.
+pub const TORQUE: Place = Place { block: Place::effect_block(Shaft::NUMBER, 1), row: 0 };
 
 /// A list of effects with their names.
 pub trait Listed: Effects {
@@ -31,6 +43,14 @@ impl Listed for () {
 
 impl Listed for Supported {
     const NAMES: &'static [&'static str] = &["gravity", "support"];
+}
+
+impl Listed for Driven {
+    const NAMES: &'static [&'static str] = &["gravity", "support", "shaft"];
+}
+
+impl Listed for Shafted {
+    const NAMES: &'static [&'static str] = &["shaft"];
 }
 
 /// A method, by its number in the scene.
