@@ -32,8 +32,9 @@ class Message(NamedTuple):
 class Host:
     """An instance of a packaged FMU. Used as a context, it frees the instance."""
 
-    def __init__(self, fmu, logging=True, guid=None, name="instance", kind=CO_SIMULATION):
+    def __init__(self, fmu, logging=True, guid=None, name="instance", kind=CO_SIMULATION, memory_functions=True):
         self.log = []
+        self.fmu, self.kind = fmu, kind
         self.variables = fmu.variables
         self.number_of_states = fmu.description.numberOfContinuousStates
         self.slave = (FMU2Slave if kind == CO_SIMULATION else FMU2Model)(
@@ -44,8 +45,9 @@ class Host:
         )
         callbacks = fmi2CallbackFunctions()
         callbacks.logger = fmi2CallbackLoggerTYPE(self._logger)
-        callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-        callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+        if memory_functions:
+            callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+            callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self._callbacks = callbacks
         self.slave.component = self.slave.fmi2Instantiate(
             name.encode(),
