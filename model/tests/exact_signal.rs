@@ -156,6 +156,19 @@ fn exact_inputs_are_read_as_they_are_at_the_communication_point() {
     assert!(!simulation.set_input(model::variables::state_place(0), 1.0), "a state is no input");
 }
 
+#[test]
+fn regress_a_start_that_fails_leaves_the_inputs_where_they_were() {
+    let mut simulation = Scene { tolerance: 0.0, ..scene(Method::Dop853) }.simulation::<Driven>();
+    send(&mut simulation, &torque(0.0));
+    simulation.start(3.0, None).expect_err("an impossible tolerance");
+    assert_eq!(simulation.get(TORQUE), Ok(Some(2.0)));
+    // Still the same communication point: the derivatives stay.
+    simulation.set_input(TORQUE, 5.0);
+    simulation.start(3.0, Some(1e-10)).expect("a possible tolerance");
+    at(&mut simulation, 4.0);
+    assert_eq!(simulation.get(TORQUE), Ok(Some(5.0 + torque(1.0)[0] - 2.0)));
+}
+
 /// The state's error falls with the communication step as its power 1, 2, 3 (ORACLES.md 12), within this [1]: measured
 /// 0.017, 0.029, 0.029.
 const ORDER: f64 = 0.1;
