@@ -4,6 +4,7 @@
 mod harness;
 mod oracles;
 
+use harness::Random;
 use harness::named::{Named, names};
 use model::dependencies::Dependencies;
 use model::simulation::Integrator;
@@ -22,15 +23,6 @@ const SAMPLES: u32 = 12;
 /// A derivative below the first, relative to the largest of the variable and 1, is none, and one above the second is one.
 /// Measured 4.2e-12 and less for those that are none, 6.7e-6 and more for the others.
 const NONE: (f64, f64) = (1e-10, 1e-7);
-
-struct Random(u64);
-
-impl Random {
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-}
 
 fn is_calculated(variable: &Variable) -> bool {
     variable.meta.kind == Kind::Real && matches!(variable.meta.role, Role::Output | Role::State)

@@ -59,7 +59,12 @@ impl Host {
         let open = named.simulation.open().expect("for a host");
         open.set_time(self.t);
         open.set_state(&state);
-        if open.complete_step() {
+        let phi = named.get("phi");
+        let open = named.simulation.open().expect("for a host");
+        let wants_event = open.complete_step();
+        assert_eq!(named.get("phi"), phi, "to complete a step changes nothing that is shown");
+        if wants_event {
+            let open = named.simulation.open().expect("for a host");
             assert!(open.settle_chart(), "an event that was asked for changes the chart");
             assert!(!open.settle_chart(), "once");
             self.events += 1;

@@ -315,7 +315,9 @@ fn exact_a_torque_that_comes_beyond_the_limit_is_refused_and_may_go_again() {
         let mut simulation = end_over_end(method);
         at(&mut simulation, 0.312);
         simulation.set_input(TORQUE, 1.0);
+        assert!(!simulation.has_tilted(), "nothing to warn of yet");
         assert_refused(&mut simulation, 0.4, 0.312);
+        assert!(simulation.has_tilted());
         // Where it goes again, so does the rotor.
         simulation.set_input(TORQUE, 0.0);
         within("goes on", tilt_error(at(&mut simulation, 0.4).motion, 0.4), END_OVER_END);

@@ -5,7 +5,7 @@ mod harness;
 mod oracles;
 
 use harness::named::{Named, names};
-use harness::{largest, within};
+use harness::{Random, largest, within};
 use model::dual::{Dual, Tangent};
 use model::scalar::Scalar;
 use model::simulation::Integrator;
@@ -27,22 +27,12 @@ fn jumps(name: &str) -> bool {
     ["turns", "angle"].contains(&name)
 }
 
-/// Numbers that look random.
-struct Random(u64);
-
-impl Random {
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    /// Away from γ = 0, where the chart from −e is singular for what is reported.
-    fn state(&mut self) -> Whole<f64> {
-        let mut state: Whole<f64> = std::array::from_fn(|_| self.within(-2.0, 2.0));
-        let (theta, psi) = (self.within(0.5, 2.2), self.within(-3.0, 3.0));
-        (state[9], state[10]) = (theta * libm::cos(psi), theta * libm::sin(psi));
-        state
-    }
+/// A state without symmetry, away from γ = 0, where the chart from −e is singular for what is reported.
+fn state(random: &mut Random) -> Whole<f64> {
+    let mut state: Whole<f64> = std::array::from_fn(|_| random.within(-2.0, 2.0));
+    let (theta, psi) = (random.within(0.5, 2.2), random.within(-3.0, 3.0));
+    (state[9], state[10]) = (theta * libm::cos(psi), theta * libm::sin(psi));
+    state
 }
 
 /// A scene for a host, with inputs and a state that have no symmetry, in the chart 1 or 2.
@@ -54,7 +44,7 @@ fn somewhere(name: &str, chart: u8, random: &mut Random) -> (Named, Whole<f64>) 
     for input in inputs(&named) {
         named.simulation.set_input(input, random.within(-3.0, 3.0));
     }
-    (named, random.state())
+    (named, state(random))
 }
 
 fn inputs(named: &Named) -> Vec<Place> {

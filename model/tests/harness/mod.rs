@@ -236,6 +236,17 @@ pub fn properties(cases: u32) -> ProptestConfig {
     }
 }
 
+/// Numbers that look random, the same in every run (Knuth's multiplier).
+pub struct Random(pub u64);
+
+impl Random {
+    /// One from `low` to `high`.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
 /// The largest, or NaN where there is one.
 pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |most, value| if value > most || value.is_nan() { value } else { most })
