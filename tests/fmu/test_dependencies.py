@@ -64,7 +64,8 @@ def observed_at_start(fmu, calculated):
         host.slave.enterInitializationMode()
 
         def note(name, before):
-            pairs.update((of, name) for of, is_new in zip(calculated, changed(before, host.read(*calculated))) if is_new)
+            after = host.read(*calculated)
+            pairs.update((of, name) for of, is_new in zip(calculated, changed(before, after)) if is_new)
 
         for _ in range(SETUPS):
             setup = random_setup(physical, random) | TOLERANCES
@@ -101,9 +102,10 @@ def observed_later(fmu, calculated):
 
             host.set_states(state.values())
             before = host.read(*calculated)
-            for name, value in [(name, value) for name in states for value in (*perturbed(name, state[name]), -state[name])]:
-                host.set_states((state | {name: value}).values())
-                note(name, before)
+            for name in states:
+                for value in (*perturbed(name, state[name]), -state[name]):
+                    host.set_states((state | {name: value}).values())
+                    note(name, before)
             host.set_states(state.values())
             for name in inputs:
                 old = host.read(name)

@@ -23,7 +23,7 @@ CAPABILITIES = {
         "maxOutputDerivativeOrder": "1",
     },
 }
-"""All that INTERFACE.md promises; what is false is the standard's default. test_capabilities.py calls what they stand for."""
+"""All that INTERFACE.md promises; what is false is the standard's default. test_capabilities.py calls each."""
 
 
 def scalars(fmu):
@@ -130,12 +130,13 @@ def test_exact_each_state_has_its_derivative(fmu):
     """der(state.x) is the derivative of state.x; units and order go with it."""
     variables = scalars(fmu)
     found = {variables[i - 1][0].get("name"): variables[i - 1] for i in states(fmu)}
-    local = [v.get("name") for v, _ in variables if v.get("causality") == "local" and v.get("variability") == "continuous"]
+    continuous = [v for v, _ in variables if (v.get("causality"), v.get("variability")) == ("local", "continuous")]
+    local = [v.get("name") for v in continuous]
     assert [f"der({name})" for name in found] + list(found) == local[len(found):] + local[:len(found)]
     units = {"m": "m/s", "m/s": "m/s2", "kg.m2/s": "N.m", "rad": "rad/s", "J": "W"}
     rates = {v.get("name"): kind.get("unit") for v, kind in variables if is_derivative(v, kind)}
     assert rates == {f"der({name})": units[kind.get("unit")] for name, (_, kind) in found.items()}
-    assert len(found) == (14 if fmu.scene in ("paper", "driven") else 12), "the work integrals where something could work"
+    assert len(found) == (14 if fmu.scene in ("paper", "driven") else 12), "with work integrals where work could be done"
 
 
 def test_exact_states_that_a_change_of_chart_sets_anew_say_so(fmu):
