@@ -17,13 +17,11 @@ pub struct Signal {
     slope: f64,
     /// Its second derivative [unit/s²].
     curvature: f64,
-    /// Whether a derivative was sent at `origin`.
-    sent: bool,
     /// The direction in which derivatives are asked for [unit].
     seed: f64,
 }
 
-stored!(Signal { origin, value, slope, curvature, sent, seed });
+stored!(Signal { origin, value, slope, curvature, seed });
 
 /// The highest derivative of an input that a host may send.
 pub const HIGHEST_DERIVATIVE: u32 = 2;
@@ -67,7 +65,6 @@ impl Signal {
     /// Sets its derivative of order 1 or 2 at the communication point `t` [s].
     pub fn set_derivative(&mut self, t: f64, order: u32, value: f64) {
         self.set_out_from(t);
-        self.sent = true;
         if order == 1 {
             self.slope = value;
         } else {
@@ -85,9 +82,9 @@ impl Signal {
         self.seed += seed;
     }
 
-    /// The value goes on from `t` [s]; derivatives sent elsewhere, or not at all, are forgotten.
+    /// The value goes on from `t` [s]; derivatives sent elsewhere are forgotten.
     fn set_out_from(&mut self, t: f64) {
-        if self.origin != t || !self.sent {
+        if self.origin != t {
             *self = Self { origin: t, value: self.at(t), ..Self::default() };
         }
     }

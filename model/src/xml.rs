@@ -3,9 +3,10 @@
 use crate::dependencies::Dependencies;
 use crate::log::{self, Category};
 use crate::scene::Scene;
+use crate::state::{GAMMA, PHI};
 use crate::variable::units::Unit;
 use crate::variable::{Bound, Enumeration, Kind, Role};
-use crate::variables::Variable;
+use crate::variables::{Variable, state_number};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
@@ -170,6 +171,7 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
             }
             attributes.extend(start.map(|value| ("start", number(value))));
             attributes.extend(derivative_of(scene, variable).map(|index| ("derivative", index.to_string())));
+            attributes.extend(is_set_anew(variable).then(|| ("reinit", "true".to_owned())));
             empty(out, "Real", &attributes)
         }
         Kind::Integer => empty(out, "Integer", &[]),
@@ -186,6 +188,11 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
 fn derivative_of(scene: &Scene, variable: &Variable) -> Option<usize> {
     let state = variable.name.strip_prefix("der(")?.strip_suffix(')')?;
     Some(scene.variables.iter().position(|variable| variable.name == state)? + 1)
+}
+
+/// Whether the variable is a state that changes at an event, where the chart does.
+fn is_set_anew(variable: &Variable) -> bool {
+    state_number(variable.place).is_some_and(|n| GAMMA.contains(&n) || n == PHI)
 }
 
 fn real(unit: &Unit) -> Vec<(&'static str, String)> {

@@ -1,11 +1,12 @@
-"""A host of one instance: like fmpy's FMU2Slave, but every call returns its status, and every message is kept."""
+"""A host of one instance: like fmpy's FMU2Slave or FMU2Model, but every call returns its status, and every message is kept."""
 
-from ctypes import byref
+from ctypes import byref, c_double
 from typing import NamedTuple
 
 from fmpy import calloc, free
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (
+    FMU2Model,
     FMU2Slave,
     fmi2CallbackAllocateMemoryTYPE,
     fmi2CallbackFreeMemoryTYPE,
@@ -16,7 +17,7 @@ from fmpy.fmi2 import (
 )
 
 OK, WARNING, DISCARD, ERROR, FATAL = range(5)
-CO_SIMULATION = 1
+MODEL_EXCHANGE, CO_SIMULATION = range(2)
 
 
 class Message(NamedTuple):
@@ -31,10 +32,12 @@ class Message(NamedTuple):
 class Host:
     """An instance of a packaged FMU. Used as a context, it frees the instance."""
 
-    def __init__(self, fmu, logging=True, guid=None, name="instance", kind=CO_SIMULATION):
+    def __init__(self, fmu, logging=True, guid=None, name="instance", kind=CO_SIMULATION, memory_functions=True):
         self.log = []
+        self.fmu, self.kind = fmu, kind
         self.variables = fmu.variables
-        self.slave = FMU2Slave(
+        self.number_of_states = fmu.description.numberOfContinuousStates
+        self.slave = (FMU2Slave if kind == CO_SIMULATION else FMU2Model)(
             instanceName=name,
             guid=guid or fmu.description.guid,
             modelIdentifier=fmu.description.coSimulation.modelIdentifier,
@@ -42,8 +45,9 @@ class Host:
         )
         callbacks = fmi2CallbackFunctions()
         callbacks.logger = fmi2CallbackLoggerTYPE(self._logger)
-        callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-        callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+        if memory_functions:
+            callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+            callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self._callbacks = callbacks
         self.slave.component = self.slave.fmi2Instantiate(
             name.encode(),
@@ -65,7 +69,7 @@ class Host:
         self.log.append(Message(status, category.decode(), message.decode(), instance.decode()))
 
     def status(self, method, *arguments, **named):
-        """The status of a method of FMU2Slave, by its name."""
+        """The status of a method of fmpy's, by its name."""
         try:
             getattr(self.slave, method)(*arguments, **named)
         except FMICallException as refused:
@@ -92,8 +96,30 @@ class Host:
         """Sets solver.method."""
         self.slave.setInteger([self.reference("solver.method")], [number])
 
+    def set_states(self, states):
+        """fmi2SetContinuousStates"""
+        states = list(states)
+        self.slave.setContinuousStates((c_double * len(states))(*states), len(states))
+
+    def states(self):
+        """fmi2GetContinuousStates"""
+        return self._filled("getContinuousStates")
+
+    def rates(self):
+        """fmi2GetDerivatives"""
+        return self._filled("getDerivatives")
+
+    def nominals(self):
+        """fmi2GetNominalsOfContinuousStates"""
+        return self._filled("getNominalsOfContinuousStates")
+
+    def _filled(self, method):
+        numbers = (c_double * self.number_of_states)()
+        getattr(self.slave, method)(numbers, len(numbers))
+        return list(numbers)
+
     def start(self, values=(), **experiment):
-        """From the instantiated state to the first communication point."""
+        """From the instantiated state to the first communication point, or to the first event mode."""
         self.slave.setupExperiment(**experiment)
         self.set(dict(values))
         self.slave.enterInitializationMode()

@@ -1,16 +1,21 @@
-"""What InitialUnknowns says an output depends on, tested by perturbing every parameter in initialization mode."""
+"""What ModelStructure says that a variable depends on, tested by perturbing everything that it might.
 
-import struct
+In initialization mode every parameter and input; in model exchange, in both charts, every state and input. A change
+within rounding is none: phi passes through the chart from -e and back.
+"""
 
 import numpy as np
 import pytest
+from host import MODEL_EXCHANGE
 
 SETUPS = 24
 STEPS = (1e-3, 0.3)
 """Perturbations, relative to the value."""
 TURN = 7.0
-"""[rad]: more than a whole turn, for start.phi."""
+"""[rad]: more than a whole turn, for phi."""
+ROUNDING = 1e-12  # relative to the larger of the value and 1
 POSITIVE = {"rotor.m", "rotor.Jt", "support.c1", "support.c2", "support.d1", "support.d2"}
+TOLERANCES = {"solver.relative_tolerance": 1e-9, "solver.absolute_tolerance": 1e-3}
 
 
 def random_setup(names, random):
@@ -25,56 +30,117 @@ def random_setup(names, random):
 
 def perturbed(name, value):
     """Values nearby that are possible too."""
-    if name == "start.phi":
+    if name.endswith(".phi"):
         yield value + TURN
     # Ja grows no further than 2 Jt; the others stay possible however they grow
     yield from (value * (1.0 - step if name == "rotor.Ja" else 1.0 + step) for step in STEPS)
 
 
-def bits(values):
-    return [struct.pack("<d", value) for value in values]
+def changed(before, after):
+    """Where two lists of values differ by more than rounding."""
+    before, after = np.array(before), np.array(after)
+    return np.abs(after - before) > ROUNDING * np.maximum(1.0, np.abs(before))
+
+
+def names_of(fmu, *causalities):
+    """The Real variables of these causalities."""
+    return [v.name for v in fmu.description.modelVariables if v.causality in causalities and v.type == "Real"]
 
 
 @pytest.fixture
-def observed(fmu):
-    """The pairs (output, parameter) in which a change of the parameter was seen to change the output."""
-    outputs = [v.name for v in fmu.description.modelVariables if v.causality == "output"]
-    names = [v.name for v in fmu.description.modelVariables if v.causality == "parameter" and v.type == "Real"]
-    physical = [name for name in names if not name.startswith("solver.")]
-    tolerances = {"solver.relative_tolerance": 1e-9, "solver.absolute_tolerance": 1e-3}
+def calculated(fmu):
+    """The outputs, the states and their derivatives."""
+    return names_of(fmu, "output", "local")
+
+
+@pytest.fixture
+def observed_at_start(fmu, calculated):
+    """The pairs (variable, parameter or input) in which a change of the second was seen to change the first."""
+    physical = [name for name in names_of(fmu, "parameter", "input") if not name.startswith("solver.")]
     random = np.random.default_rng(20181)
     pairs = set()
     with fmu.host() as host:
         host.slave.setupExperiment()
         host.slave.enterInitializationMode()
+
+        def note(name, before):
+            after = host.read(*calculated)
+            pairs.update((of, name) for of, is_new in zip(calculated, changed(before, after)) if is_new)
+
         for _ in range(SETUPS):
-            setup = random_setup(physical, random) | tolerances
+            setup = random_setup(physical, random) | TOLERANCES
             host.set(setup)
-            before = bits(host.read(*outputs))
-            changes = [(name, value) for name in setup for value in perturbed(name, setup[name])]
-            for name, value in changes:
+            before = host.read(*calculated)
+            for name, value in [(name, value) for name in setup for value in perturbed(name, setup[name])]:
                 host.set({name: value})
-                after = bits(host.read(*outputs))
-                pairs |= {(o, name) for o, old, new in zip(outputs, before, after) if old != new}
+                note(name, before)
                 host.set({name: setup[name]})
             for method in (2, 3):
                 host.set_method(method)
-                after = bits(host.read(*outputs))
-                pairs |= {(o, "solver.method") for o, old, new in zip(outputs, before, after) if old != new}
-        assert bits(host.read(*outputs)) == before
+                note("solver.method", before)
+        assert host.read(*calculated) == before
     return pairs
 
 
 @pytest.fixture
-def listed(fmu):
+def observed_later(fmu, calculated):
+    """The pairs (output or derivative, state or input) in which a change of the second was seen to change the first."""
+    physical = [name for name in names_of(fmu, "parameter", "input") if not name.startswith("solver.")]
+    states = [d.variable.derivative.name for d in fmu.description.derivatives]
+    inputs = names_of(fmu, "input")
+    random = np.random.default_rng(20182)
+    pairs, charts = set(), set()
+    for _ in range(SETUPS):
+        with fmu.host(kind=MODEL_EXCHANGE) as host:
+            host.start(random_setup(physical, random)).slave.enterContinuousTimeMode()
+            charts |= set(host.slave.getInteger([host.reference("state.chart")]))
+            state = dict(zip(states, random.uniform(-2.0, 2.0, len(states))))
+
+            def note(name, before):
+                after = host.read(*calculated)
+                pairs.update((of, name) for of, is_new in zip(calculated, changed(before, after)) if is_new)
+
+            host.set_states(state.values())
+            before = host.read(*calculated)
+            for name in states:
+                for value in (*perturbed(name, state[name]), -state[name]):
+                    host.set_states((state | {name: value}).values())
+                    note(name, before)
+            host.set_states(state.values())
+            for name in inputs:
+                old = host.read(name)
+                for value in perturbed(name, old):
+                    host.set({name: value})
+                    note(name, before)
+                host.set({name: old})
+            assert host.read(*calculated) == before
+    assert charts == {1, 2}
+    return {(of, name) for of, name in pairs if of not in states}
+
+
+def listed(unknowns):
     """The pairs that modelDescription.xml lists."""
-    return {(u.variable.name, v.name) for u in fmu.description.initialUnknowns for v in u.dependencies}
+    return {(u.variable.name, v.name) for u in unknowns for v in u.dependencies}
 
 
-def test_exact_no_unlisted_parameter_changes_an_output(observed, listed):
-    assert sorted(observed - listed) == []
+def test_exact_dependencies_at_the_start(fmu, observed_at_start):
+    in_xml = listed(fmu.description.initialUnknowns)
+    assert sorted(observed_at_start - in_xml) == [], "not listed"
+    assert sorted(in_xml - observed_at_start) == [], "listed, but nothing changes"
+    assert in_xml
 
 
-def test_exact_every_listed_parameter_changes_its_output(observed, listed):
-    assert listed
-    assert sorted(listed - observed) == []
+def test_exact_dependencies_later(fmu, observed_later):
+    in_xml = listed(fmu.description.outputs) | listed(fmu.description.derivatives)
+    assert sorted(observed_later - in_xml) == [], "not listed"
+    assert sorted(in_xml - observed_later) == [], "listed, but nothing changes"
+    assert in_xml
+
+
+def test_exact_positions_and_angles_depend_on_no_input(fmus):
+    """Or a partner's solver would see an algebraic loop where there is none."""
+    driven = fmus["driven"].description
+    on_input = {u.variable.name for u in driven.outputs if "shaft.tau" in [v.name for v in u.dependencies]}
+    assert on_input == {"shaft.a"}
+    on_input = {u.variable.name for u in driven.derivatives if "shaft.tau" in [v.name for v in u.dependencies]}
+    assert on_input == {"der(state.K.x)", "der(state.K.y)", "der(state.K.z)", "der(state.supplied)"}

@@ -20,7 +20,7 @@ START = {
 END = LIMIT / TUMBLE  # [s]
 STEP = 0.01  # [s]
 STOP = 1.0  # [s]
-REASON = "the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2) has no limit at pi"
+REASON = "the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi"
 
 REACHED = 1e-12  # [rad], measured 4e-16
 MOTION = 1e-13  # [1] or [rad], measured 1.8e-15

@@ -1,10 +1,10 @@
-"""The 44 functions of FMI 2.0 that the library of every scene exports, and what those do that are not there yet."""
+"""The 44 functions of FMI 2.0 that the library of every scene exports, and what those of optional things refuse."""
 
 import ctypes
 
 import pytest
 from fmpy.fmi2 import FMU2Model, FMU2Slave
-from host import ERROR
+from host import ERROR, MODEL_EXCHANGE
 
 FUNCTIONS = """
     fmi2GetTypesPlatform fmi2GetVersion fmi2SetDebugLogging fmi2Instantiate fmi2FreeInstance fmi2SetupExperiment
@@ -41,22 +41,30 @@ def test_exact_platform_and_version(host):
     assert (host.slave.getTypesPlatform(), host.slave.getVersion()) == ("default", "2.0")
 
 
+R_C_X = "r_c.x (value reference 768)"
+STATE = "state.r.x (value reference 1280)"
+MASS = "rotor.m (value reference 0)"
+
+
 @pytest.mark.parametrize(
     "call, arguments, reason",
     [
-        ("serializeFMUstate", (None,), "fmi2SerializedFMUstateSize: the FMU state cannot be serialized yet: "
-                                       "canSerializeFMUstate is false"),
-        ("deSerializeFMUstate", (b"state",), "fmi2DeSerializeFMUstate: the FMU state cannot be serialized yet: "
-                                             "canSerializeFMUstate is false"),
-        ("getDirectionalDerivative", ([768], [0], [1.0]), "fmi2GetDirectionalDerivative: there are no directional "
-                                                          "derivatives yet: providesDirectionalDerivative is false"),
-        ("getRealOutputDerivatives", ([768], [1]), "fmi2GetRealOutputDerivatives: there are no output derivatives "
-                                                   "yet: maxOutputDerivativeOrder is 0"),
-        ("setRealInputDerivatives", ([0], [1], [0.0]), "fmi2SetRealInputDerivatives: this scene has no inputs"),
+        ("deSerializeFMUstate", (b"state",),
+         "fmi2DeSerializeFMUstate: the bytes are not a serialized state of a split-rotor FMU"),
+        ("getDirectionalDerivative", ([768], [0], [1.0]),
+         f"fmi2GetDirectionalDerivative: {MASS} is no known: inputs and states are"),
+        ("getDirectionalDerivative", ([0], [1280], [1.0]),
+         f"fmi2GetDirectionalDerivative: {MASS} is no unknown: outputs, states and derivatives are"),
+        ("getDirectionalDerivative", ([768], [1280], [float("nan")]),
+         f"fmi2GetDirectionalDerivative: the seed NaN of {STATE} must be a finite number"),
+        ("getRealOutputDerivatives", ([768], [2]),
+         f"fmi2GetRealOutputDerivatives: order = 2 of {R_C_X} must be 1, maxOutputDerivativeOrder"),
+        ("getRealOutputDerivatives", ([1280], [1]), f"fmi2GetRealOutputDerivatives: {STATE} is not an output"),
+        ("setRealInputDerivatives", ([768], [1], [0.0]), f"fmi2SetRealInputDerivatives: {R_C_X} is not an input"),
         ("cancelStep", (), "fmi2CancelStep: no step is asynchronous, so none can be cancelled"),
     ],
 )
-def test_exact_what_is_not_claimed_is_refused(host, call, arguments, reason):
+def test_exact_what_cannot_be_is_refused(host, call, arguments, reason):
     before = host.outputs()
     assert host.refused(call, *arguments) == reason
     assert host.outputs() == before
@@ -70,8 +78,19 @@ def test_exact_a_null_instance_is_refused(paper, name):
     assert getattr(library, name)(*zeros) == ERROR
 
 
-def test_exact_model_exchange_is_refused(paper):
-    with paper.host(kind=0) as host:
+def test_exact_functions_of_the_other_kind_are_refused(paper, host):
+    with paper.host(kind=MODEL_EXCHANGE) as exchange:
+        exchange.start()
+        for of, name, this, right in (
+            (exchange, "fmi2CancelStep", "model exchange", "co-simulation"),
+            (host, "fmi2EnterEventMode", "co-simulation", "model exchange"),
+        ):
+            assert getattr(of.slave.dll, name)(ctypes.c_void_p(of.slave.component)) == ERROR
+            assert of.log[-1].text == f"{name}: not legal of an instance for {this}: instantiate for {right}"
+
+
+def test_exact_an_unknown_kind_is_refused(paper):
+    with paper.host(kind=2) as host:
         assert host.slave.component is None
-        reason = "fmi2Instantiate: fmuType must be fmi2CoSimulation (1): there is no model exchange yet"
+        reason = "fmi2Instantiate: fmuType = 2 must be fmi2ModelExchange (0) or fmi2CoSimulation (1)"
         assert host.log == [(ERROR, "logStatusError", reason, "instance")]

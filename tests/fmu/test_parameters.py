@@ -73,8 +73,8 @@ def test_exact_the_limits_themselves_are_possible(host):
         ("setBoolean", (["rotor.m"], [True]),
          "fmi2SetBoolean: rotor.m (value reference 0) is of type Real, not Boolean"),
         ("getString", (["rotor.m"],), "fmi2GetString: rotor.m (value reference 0) is of type Real, not String"),
-        ("setReal", (["r_c.x"], [0.0]), "fmi2SetReal: r_c.x (value reference 768) is an output: only parameters can be set"),
-        ("setReal", (["support.F.x"], [0.0]), "fmi2SetReal: support.F.x (value reference 5124) is an output: only parameters can be set"),
+        ("setReal", (["r_c.x"], [0.0]), "fmi2SetReal: r_c.x (value reference 768) is an output: only parameters and inputs can be set"),
+        ("setReal", (["support.F.x"], [0.0]), "fmi2SetReal: support.F.x (value reference 5124) is an output: only parameters and inputs can be set"),
         ("getInteger", (["support.c1"],),
          "fmi2GetInteger: support.c1 (value reference 5120) is of type Real, not Integer"),
     ],
@@ -92,12 +92,19 @@ def test_exact_one_wrong_reference_leaves_all_values(host):
     assert host.read("rotor.m") == 5.0
 
 
-@pytest.mark.parametrize("call, name, value", [("setReal", "rotor.m", 6.0), ("setInteger", "solver.method", 2)])
-def test_exact_parameters_are_fixed_after_initialization(host, call, name, value):
+@pytest.mark.parametrize(
+    "call, name, value, reason",
+    [
+        ("setReal", "rotor.m", 6.0,
+         'fmi2SetReal: rotor.m (value reference 0) is a fixed parameter, not to be set in the state "step complete": set '
+         "it before fmi2ExitInitializationMode, or call fmi2Reset first"),
+        ("setInteger", "solver.method", 2,
+         'fmi2SetInteger: not legal in the state "step complete": all variables of this type are fixed parameters: set '
+         "them before fmi2ExitInitializationMode, or call fmi2Reset first"),
+    ],
+)
+def test_exact_parameters_are_fixed_after_initialization(host, call, name, value, reason):
     host.start()
-    assert host.refused(call, [host.reference(name)], [value]) == (
-        f'fmi2{call[0].upper()}{call[1:]}: not legal in the state "step complete": all settable variables are fixed '
-        "parameters: set them before fmi2ExitInitializationMode, or call fmi2Reset first"
-    )
+    assert host.refused(call, [host.reference(name)], [value]) == reason
     assert host.slave.getInteger([host.reference("solver.method")]) == [3]
     assert host.read("rotor.m") == 5.0

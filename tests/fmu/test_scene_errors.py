@@ -34,7 +34,7 @@ CASES = {
         ", line 20: unknown key `effects.support.F`: [effects.support] knows c1, c2, d1, d2",
     ),
     "unknown effect": (
-        "effects.gravity", "effects.gravty", ", line 15: unknown effect `gravty`: there are gravity, support",
+        "effects.gravity", "effects.gravty", ", line 15: unknown effect `gravty`: there are gravity, support, shaft",
     ),
     "text for a number": (
         "m = 5.0", 'm = "5 kg"', ', line 6: rotor.m = "5 kg" is not possible: it must be a number in kg',

@@ -2,22 +2,34 @@
 
 #![allow(dead_code, reason = "each test crate uses a part")]
 
+pub mod named;
+
 use model::body::Body;
 use model::effects::gravity::Gravity;
+use model::effects::shaft::Shaft;
 use model::effects::support::Support;
-use model::effects::{Called, Effects, Info, named};
+use model::effects::{Called, Effects, Entry, Info, named};
 use model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use model::integrate::{Tolerance, explicit::Explicit};
 use model::rotor::Rotor;
 use model::simulation::Simulation;
 use model::state::{Coordinates, Kinematics};
-use model::variable::Role;
+use model::variable::{Place, Role};
 use model::variables::{Reading, of_scene};
 use nalgebra::{Vector2, Vector3};
 use proptest::test_runner::{Config as ProptestConfig, RngSeed};
 
 /// Gravity and the support: the paper's effects.
 pub type Supported = (Called<Gravity, 1>, (Called<Support, 1>, ()));
+
+/// Gravity, the support and the shaft.
+pub type Driven = (Called<Gravity, 1>, (Called<Support, 1>, (Called<Shaft, 1>, ())));
+
+/// The shaft alone.
+pub type Shafted = (Called<Shaft, 1>, ());
+
+/// Where `shaft.tau` stands; `shaft.phi`, `.w` and `.a` follow.
+pub const TORQUE: Place = Place { block: Place::effect_block(Shaft::NUMBER, 1), row: 0 };
 
 /// A list of effects with their names.
 pub trait Listed: Effects {
@@ -31,6 +43,14 @@ impl Listed for () {
 
 impl Listed for Supported {
     const NAMES: &'static [&'static str] = &["gravity", "support"];
+}
+
+impl Listed for Driven {
+    const NAMES: &'static [&'static str] = &["gravity", "support", "shaft"];
+}
+
+impl Listed for Shafted {
+    const NAMES: &'static [&'static str] = &["shaft"];
 }
 
 /// A method, by its number in the scene.
@@ -213,6 +233,17 @@ pub fn properties(cases: u32) -> ProptestConfig {
         rng_seed: if asked.rng_seed == RngSeed::Random { RngSeed::Fixed(2018) } else { asked.rng_seed },
         failure_persistence: None,
         ..asked
+    }
+}
+
+/// Numbers that look random, the same in every run (Knuth's multiplier).
+pub struct Random(pub u64);
+
+impl Random {
+    /// One from `low` to `high`.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
     }
 }
 

@@ -3,9 +3,11 @@
 
 #![allow(dead_code, reason = "each test crate uses a part")]
 
+pub mod extrapolation;
 pub mod fixed;
 pub mod motion;
 pub mod numerics;
 pub mod paper;
+pub mod rigid_body;
 pub mod rotation;
 pub mod trees;

@@ -1,0 +1,69 @@
+//! The project's own scenes, as their files have them, over the list of all effects.
+
+use model::effects::All;
+use model::scene::Scene;
+use model::simulation::{Integrator, Simulation};
+use model::variable::Place;
+use model::variables::Variable;
+use std::path::Path;
+
+/// A scene of the folder `scenes`, and its simulation.
+pub struct Named {
+    /// What its file says.
+    pub scene: Scene,
+    /// Over the list of all effects.
+    pub simulation: Simulation<All>,
+}
+
+/// The names of all scenes.
+pub fn names() -> Vec<String> {
+    Scene::names(&folder())
+}
+
+fn folder() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
+}
+
+impl Named {
+    /// The scene of this name, not yet started.
+    pub fn new(name: &str, integrator: Integrator) -> Self {
+        let scene = Scene::find(name, &folder()).unwrap_or_else(|error| panic!("{error}"));
+        let simulation = Simulation::with(integrator, scene.parameters());
+        Self { scene, simulation }
+    }
+
+    /// The variable of this name.
+    pub fn variable(&self, name: &str) -> &Variable {
+        self.scene.variables.iter().find(|variable| variable.name == name).unwrap_or_else(|| panic!("no {name}"))
+    }
+
+    /// Where the variable of this name stands.
+    pub fn place(&self, name: &str) -> Place {
+        self.variable(name).place
+    }
+
+    /// Sets a parameter or an input.
+    pub fn set(&mut self, name: &str, value: f64) {
+        let place = self.place(name);
+        assert!(
+            self.simulation.set_parameter(place, value) || self.simulation.set_input(place, value),
+            "{name} cannot be set"
+        );
+    }
+
+    /// The value of a variable.
+    pub fn get(&mut self, name: &str) -> f64 {
+        let place = self.place(name);
+        self.at(place)
+    }
+
+    /// The value of the variable at this place.
+    pub fn at(&mut self, place: Place) -> f64 {
+        self.simulation.get(place).expect("possible parameters").expect("a variable")
+    }
+
+    /// Starts at time 0.
+    pub fn start(&mut self) {
+        self.simulation.start(0.0, None).expect("a possible scene");
+    }
+}
