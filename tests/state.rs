@@ -4,43 +4,11 @@
 
 mod harness;
 
-use harness::Instance;
+use harness::{Instance, Saved};
 use proptest::prelude::*;
-use split_rotor::abi::{FmuState, Real, Status};
+use split_rotor::abi::{Real, Status};
 use split_rotor::exports::{fmi2FreeFMUstate, fmi2GetFMUstate, fmi2SetFMUstate};
 use std::ptr::null_mut;
-
-/// A saved state, freed with the instance that it came from.
-struct Saved(FmuState);
-
-impl Saved {
-    fn of(instance: &Instance) -> Self {
-        let mut saved = Self(null_mut());
-        saved.again(instance);
-        assert!(!saved.0.is_null());
-        saved
-    }
-
-    /// Saves into the same object.
-    fn again(&mut self, instance: &Instance) {
-        // SAFETY: a live instance; null, or a state of this FMU's.
-        assert_eq!(unsafe { fmi2GetFMUstate(instance.component(), &raw mut self.0) }, Status::Ok);
-    }
-
-    fn restore(&self, instance: &Instance) {
-        // SAFETY: a live instance and a state of this FMU's.
-        assert_eq!(unsafe { fmi2SetFMUstate(instance.component(), self.0) }, Status::Ok);
-    }
-
-    fn free(mut self, instance: &Instance) {
-        // SAFETY: as above.
-        assert_eq!(unsafe { fmi2FreeFMUstate(instance.component(), &raw mut self.0) }, Status::Ok);
-        assert!(self.0.is_null());
-        // A second time there is nothing to free, which is no error.
-        // SAFETY: as above.
-        assert_eq!(unsafe { fmi2FreeFMUstate(instance.component(), &raw mut self.0) }, Status::Ok);
-    }
-}
 
 /// The paper's rotor; one that is damped; one that tumbles through both charts.
 const STARTS: [&[(&str, Real)]; 3] = [
@@ -84,7 +52,7 @@ proptest! {
         // Another way, and back; saved once more into the same object.
         walk(&mut instance, now, &detour);
         saved.restore(&instance);
-        saved.again(&instance);
+        prop_assert_eq!(saved.again(&instance), Status::Ok);
         prop_assert_eq!(walk(&mut instance, now, &after), expected.clone());
         // After the end, and after a reset.
         assert_eq!(instance.terminate(), Status::Ok);
