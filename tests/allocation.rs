@@ -3,7 +3,7 @@
 
 mod harness;
 
-use harness::{Instance, has, reals, scene};
+use harness::{Instance, reals, scene, there};
 use split_rotor::abi::{Real, Status};
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
@@ -67,8 +67,7 @@ fn counts_of(body: impl FnOnce()) -> [u64; 2] {
 /// integrals are solved too, if `damping` is positive and the scene has a support.
 fn counts_of_a_second(mut instance: Instance, method: i32, damping: Real) -> [u64; 2] {
     instance.set_method(method);
-    let damped = [("support.d1", damping)];
-    let mut instance = instance.started(if has(&["support.d1"]) { &damped } else { &[] });
+    let mut instance = instance.started(&there(&[("support.d1", damping)]));
     let (references, step) = (reals(scene()), 0.01);
     let mut values = vec![Real::NAN; references.len()];
     let counts = counts_of(|| {

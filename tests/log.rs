@@ -3,7 +3,7 @@
 
 mod harness;
 
-use harness::{Instance, Record, Request, has, scene};
+use harness::{Instance, Record, Request, scene, tumbling};
 use split_rotor::abi::*;
 use split_rotor::exports;
 use std::ffi::{CStr, CString};
@@ -99,21 +99,13 @@ fn fmi_percent_signs_are_doubled_in_messages() {
     assert!(record.message.contains("\"%%d\""), "{record:?}");
 }
 
-/// A rotor that tumbles, held by next to no spring, but by one: where |γ| = 3.1 rad, its law ends.
-const TUMBLING: [(&str, Real); 4] =
-    [("support.c1", 0.0), ("support.c2", 1e-300), ("start.omega.x", 0.0), ("start.omega.y", 30.0)];
-
-/// Whether the scene has the law that ends: without it no warning is due.
-fn can_tumble() -> bool {
-    has(&["support.c2"])
-}
-
 /// The categories of which an instance logs something on the way through an error, a chosen tolerance, a step that cannot
 /// be done, and a reset.
 fn heard(instance: &mut Instance) -> Vec<String> {
+    let tumbling = tumbling().expect("asked for where there is one");
     instance.journal.take();
     assert_eq!(instance.terminate(), Status::Error);
-    instance.set_all(&TUMBLING);
+    instance.set_all(&tumbling);
     assert_eq!(instance.enter_initialization(), Status::Ok);
     assert_eq!(instance.exit_initialization(), Status::Ok);
     assert_eq!(instance.do_step(0.0, 1.0), Status::Discard);
@@ -127,7 +119,7 @@ fn heard(instance: &mut Instance) -> Vec<String> {
 
 #[test]
 fn fmi_logging_on_says_everything_and_off_what_goes_wrong() {
-    if !can_tumble() {
+    if tumbling().is_none() {
         return;
     }
     let everything = ["logEvents", "logSolver", "logStatusDiscard", "logStatusError", "logStatusWarning"];
@@ -138,7 +130,7 @@ fn fmi_logging_on_says_everything_and_off_what_goes_wrong() {
 
 #[test]
 fn fmi_categories_that_are_disabled_are_not_called() {
-    if !can_tumble() {
+    if tumbling().is_none() {
         return;
     }
     let everything = ["logEvents", "logSolver", "logStatusDiscard", "logStatusError", "logStatusWarning"];
@@ -162,7 +154,7 @@ fn fmi_categories_that_are_disabled_are_not_called() {
 
 #[test]
 fn fmi_an_unknown_category_is_an_error_and_changes_nothing() {
-    if !can_tumble() {
+    if tumbling().is_none() {
         return;
     }
     let mut instance = Instance::quiet();
@@ -180,7 +172,7 @@ fn fmi_an_unknown_category_is_an_error_and_changes_nothing() {
 
 #[test]
 fn fmi_logging_choices_survive_a_reset() {
-    if !can_tumble() {
+    if tumbling().is_none() {
         return;
     }
     let mut instance = Instance::quiet();

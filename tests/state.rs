@@ -4,14 +4,14 @@
 
 mod harness;
 
-use harness::{Instance, Saved};
+use harness::{Instance, Saved, reference, scene, there, tumbling};
 use proptest::prelude::*;
 use split_rotor::abi::{Real, Status};
 use split_rotor::exports::{fmi2FreeFMUstate, fmi2GetFMUstate, fmi2SetFMUstate};
 use std::ptr::null_mut;
 
 /// The paper's rotor; one that is damped; one that tumbles through both charts.
-const STARTS: [&[(&str, Real)]; 3] = [
+const STARTS: [&[(&'static str, Real)]; 3] = [
     &[],
     &[("support.d1", 30.0), ("support.d2", 0.5)],
     &[("support.c2", 0.0), ("start.omega.x", 1.0), ("start.omega.y", 20.0)],
@@ -41,7 +41,7 @@ proptest! {
     ) {
         let mut instance = Instance::quiet();
         instance.set_method(method);
-        let mut instance = instance.started(STARTS[start]);
+        let mut instance = instance.started(&there(STARTS[start]));
         walk(&mut instance, 0.0, &before);
         let now: Real = before.iter().fold(0.0, |t, step| t + step);
         let here = instance.bits();
@@ -71,9 +71,10 @@ proptest! {
 
 #[test]
 fn exact_a_state_brings_back_a_failed_step_and_settings() {
+    let Some(tumbling) = tumbling() else { return };
     let mut instance = Instance::quiet();
     let fresh = Saved::of(&instance);
-    instance.set_all(&[("support.c1", 0.0), ("support.c2", 1e-300), ("start.omega.x", 0.0), ("start.omega.y", 30.0)]);
+    instance.set_all(&tumbling);
     let mut instance = instance.initialized();
     let start = Saved::of(&instance);
     assert_eq!(instance.do_step(0.0, 1.0), Status::Discard);
@@ -86,7 +87,7 @@ fn exact_a_state_brings_back_a_failed_step_and_settings() {
     assert_eq!((instance.step_status(), instance.terminated()), (Ok(Status::Discard), Ok(true)));
     // Back to before anything was set.
     fresh.restore(&instance);
-    assert_eq!(instance.get("support.c1"), 2000.0);
+    assert_eq!(instance.get("support.c1"), scene().starts[&reference("support.c1")]);
     let expected = Instance::quiet().started(&[]).run(0.0, 0.01, 20);
     assert_eq!(instance.started(&[]).run(0.0, 0.01, 20), expected);
 }

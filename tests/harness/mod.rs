@@ -47,6 +47,26 @@ pub fn has(names: &[&str]) -> bool {
     names.iter().all(|name| scene().variables.iter().any(|variable| variable.name == *name))
 }
 
+/// Of these values, those of variables that the scene has.
+pub fn there(values: &[(&'static str, Real)]) -> Vec<(&'static str, Real)> {
+    values.iter().copied().filter(|(name, _)| has(&[name])).collect()
+}
+
+/// A rotor that tumbles at 30 rad/s about y, held by next to no spring, but by one: where |γ| = 3.1 rad, its law ends.
+/// None in a scene without that law.
+pub fn tumbling() -> Option<Vec<(&'static str, Real)>> {
+    let all = [
+        ("support.c1", 0.0),
+        ("support.c2", 1e-300),
+        ("support.d1", 0.0),
+        ("support.d2", 0.0),
+        ("shaft.tau", 0.0),
+        ("start.omega.x", 0.0),
+        ("start.omega.y", 30.0),
+    ];
+    has(&["support.c2"]).then(|| there(&all))
+}
+
 /// The value references of the scene's inputs.
 pub fn inputs() -> Vec<ValueReference> {
     let inputs = scene().variables.iter().filter(|variable| matches!(variable.meta.role, Role::Input { .. }));
