@@ -169,7 +169,7 @@ const ME: u8 = I | N | E | C | T;
 /// Beyond the standard, since hosts do it: variables are read in the state instantiated too; after a step that failed
 /// another may be tried, with other inputs; derivatives of outputs are there in initialization mode.
 #[rustfmt::skip]
-pub const RULES: [Rule; 40] = [
+pub static RULES: [Rule; 40] = [
     rule("fmi2SetDebugLogging",               CS, ME),
     rule("fmi2SetupExperiment",               I, I),
     rule("fmi2EnterInitializationMode",       I, I),
