@@ -206,6 +206,23 @@ fn fmi_states_and_times_that_are_no_numbers_are_refused() {
 }
 
 #[test]
+fn regress_nominals_of_impossible_parameters_are_refused() {
+    for life in Life::EACH.into_iter().filter(|life| life.kind == MODEL_EXCHANGE && !life.stage.has_started()) {
+        for (name, wrong) in [("rotor.l", Real::NAN), ("rotor.Ja", Real::INFINITY), ("rotor.Jt", 0.0)] {
+            let mut instance = life.instance();
+            let nominals = instance.nominals().expect("the scene's parameters are possible");
+            assert!(nominals.iter().all(|nominal| nominal.is_finite() && *nominal > 0.0), "{nominals:?}");
+            instance.set_all(&[(name, wrong)]);
+            let mut values = [0.5; STATES];
+            // SAFETY: a live instance, and an array as long as told.
+            let call = |c| unsafe { exports::fmi2GetNominalsOfContinuousStates(c, values.as_mut_ptr(), STATES) };
+            refused(&mut instance, call, &["fmi2GetNominalsOfContinuousStates: ", name, "must be"]);
+            assert_eq!(values, [0.5; STATES], "nothing is written");
+        }
+    }
+}
+
+#[test]
 fn fmi_wrong_orders_and_derivatives_of_inputs_are_refused() {
     let output = reference("r_c.x");
     for life in Life::EACH.into_iter().filter(|life| life.kind == CO_SIMULATION && life.stage != Stage::Terminated) {
