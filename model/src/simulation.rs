@@ -122,14 +122,16 @@ impl<E: Effects> Simulation<E> {
     /// Where `t` is not finite.
     pub fn start(&mut self, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
-        self.parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         let mut parameters = self.parameters.clone();
+        parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         let solver = &mut parameters.setup.solver;
         solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
         parameters.check()?;
+        let (motion, reading) = self.at_start(&parameters, t)?;
+        // From here on nothing is refused any more: what is refused leaves everything as it was.
+        self.parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         self.reading = None;
         self.news = false;
-        let (motion, reading) = self.at_start(&parameters, t)?;
         self.run = Some(match self.integrator {
             Integrator::Host => Run::Open(Open::start(motion, &reading)),
             Integrator::Method if parameters.effects.works() => {

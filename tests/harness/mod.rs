@@ -299,6 +299,12 @@ impl Instance {
         unsafe { fmi2SetReal(self.component, references.as_ptr(), references.len(), values.as_ptr()) }
     }
 
+    /// fmi2SetRealInputDerivatives of one input.
+    pub fn send(&mut self, input: ValueReference, order: Integer, value: Real) -> Status {
+        // SAFETY: a live instance, and arrays of one.
+        unsafe { fmi2SetRealInputDerivatives(self.component, &raw const input, 1, &raw const order, &raw const value) }
+    }
+
     /// Sets Real parameters by name.
     pub fn set_all(&mut self, values: &[(&str, Real)]) {
         for (name, value) in values {
