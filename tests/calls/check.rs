@@ -1,8 +1,10 @@
 //! One call, and everything that must hold of it whatever it is.
 
 use super::Actor;
-use crate::harness::{Instance, Record};
-use split_rotor::abi::Status;
+use crate::harness::{Instance, Life, Record};
+use split_rotor::abi::{Choice, Status};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// What is known of a call beforehand.
 pub struct Told {
@@ -18,6 +20,22 @@ pub const OK_OR_DISCARD: &[Status] = &[Status::Ok, Status::Discard];
 pub const ANY: &[Status] = &[Status::Ok, Status::Discard, Status::Error];
 pub const DISCARD: &[Status] = &[Status::Discard];
 
+/// How often the present thread saw a function return a status, by kind and stage of the instance.
+pub type Tally = BTreeMap<(&'static str, Choice, u8, Status), u32>;
+
+thread_local! {
+    static TALLY: RefCell<Tally> = const { RefCell::new(Tally::new()) };
+}
+
+/// The tally so far; a new one begins.
+pub fn take_tally() -> Tally {
+    TALLY.take()
+}
+
+fn count(function: &'static str, Life { kind, stage }: Life, status: Status) {
+    TALLY.with_borrow_mut(|tally| *tally.entry((function, kind, stage as u8, status)).or_default() += 1);
+}
+
 /// Makes the call; it returns what it may, tells so, and a refusal changes nothing.
 pub fn call(actor: &mut Actor, told: &Told, call: impl FnOnce(&mut Instance) -> Status) -> Status {
     let Actor { instance, mind } = actor;
@@ -25,6 +43,7 @@ pub fn call(actor: &mut Actor, told: &Told, call: impl FnOnce(&mut Instance) -> 
     let before = (may != OK).then(|| instance.serialized());
     instance.journal.take();
     let status = call(instance);
+    count(told.function, mind.memory.life, status);
     let records = instance.journal.take();
     let shown = || format!("{} in {:?}: {status:?}, {records:?}", told.function, mind.memory.life);
     assert!(may.contains(&status), "{}, not one of {may:?}", shown());

@@ -14,6 +14,8 @@ mod source;
 mod stepping;
 
 use crate::harness::{Instance, Saved};
+pub use check::{Tally, take_tally};
+
 use check::Told;
 use mind::{Memory, Mind};
 use source::Source;
@@ -70,9 +72,8 @@ impl Theatre {
             0..=5 => actor.go_on(source),
             6 => actor.go_on_twice(source),
             7..=9 => actor.common_call(source),
-            10..=11 => actor.stepping_call(source),
-            12..=13 => actor.exchange_call(source),
-            14 => self.saving_call(n, source),
+            10..=12 => actor.call_of_its_kind(source),
+            13..=14 => self.saving_call(n, source),
             _ => self.come_and_go(n, source),
         }
         if let Some(actor) = self.actors.get_mut(n)
@@ -113,7 +114,19 @@ impl Actor {
             StepComplete => self.step_on(source),
             EventMode => self.settle(),
             ContinuousTime => self.integrate(source),
+            // Both are hard to reach, and should not be left at once.
+            StepFailed | Terminated if source.chance(112) => self.common_call(source),
+            StepFailed | Terminated if source.chance(192) => self.call_of_its_kind(source),
             StepFailed | Terminated => self.reset(),
+        }
+    }
+
+    /// Now and then one of the other kind.
+    fn call_of_its_kind(&mut self, source: &mut Source) {
+        if (self.mind.memory.life.kind == MODEL_EXCHANGE) == source.chance(224) {
+            self.exchange_call(source);
+        } else {
+            self.stepping_call(source);
         }
     }
 

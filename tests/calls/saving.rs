@@ -78,14 +78,23 @@ impl Theatre {
     fn serialize(&mut self, n: usize, source: &mut Source) {
         let actor = &mut self.actors[n];
         let Some(kept) = self.shelf.last() else { return };
-        assert!(kept.saved.bytes(&actor.instance) == kept.bytes, "a saved state has changed on the shelf");
-        let mut bytes = vec![0; kept.bytes.len() + 1];
-        let size = source.of(&[kept.bytes.len() + 1, kept.bytes.len() - 1, 0]);
-        let told = Told { function: "fmi2SerializeFMUstate", may: ERROR };
-        // SAFETY: a live instance, a saved state, and room for at least as many bytes as told.
-        actor.call(&told, |instance| unsafe {
-            fmi2SerializeFMUstate(instance.component(), kept.saved.pointer(), bytes.as_mut_ptr(), size)
+        let (state, length) = (kept.saved.pointer(), kept.bytes.len());
+        let mut size = 0;
+        // SAFETY: a live instance, a saved state, a place to write to.
+        actor.call(&Told { function: "fmi2SerializedFMUstateSize", may: OK }, |instance| unsafe {
+            fmi2SerializedFMUstateSize(instance.component(), state, &raw mut size)
         });
+        assert_eq!(size, length);
+        let size = source.of(&[length, length, length, length + 1, length - 1, 0]);
+        let mut bytes = vec![0x55_u8; length + 1];
+        let told = Told { function: "fmi2SerializeFMUstate", may: if size == length { OK } else { ERROR } };
+        // SAFETY: a live instance, a saved state, and room for at least as many bytes as told.
+        let status = actor.call(&told, |instance| unsafe {
+            fmi2SerializeFMUstate(instance.component(), state, bytes.as_mut_ptr().cast(), size)
+        });
+        let untouched = bytes.split_off(if status == Status::Ok { length } else { 0 });
+        assert!(untouched.iter().all(|byte| *byte == 0x55), "more was written than told");
+        assert!(status != Status::Ok || bytes == kept.bytes, "a saved state has changed on the shelf");
         if self.parcels.len() >= MOST {
             self.parcels.remove(0);
         }

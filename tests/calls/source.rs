@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 pub struct Source<'b>(&'b [u8]);
 
 /// Numbers on which arithmetic stumbles.
-const NASTY: [f64; 20] = [
+const NASTY: [f64; 18] = [
     f64::NAN,
     f64::INFINITY,
     f64::NEG_INFINITY,
@@ -18,8 +18,6 @@ const NASTY: [f64; 20] = [
     f64::MIN_POSITIVE,
     1e-300,
     -1e-300,
-    1e-30,
-    -1e-30,
     1e300,
     -1e300,
     f64::MAX,
@@ -73,7 +71,7 @@ impl<'b> Source<'b> {
 
     /// About this number, or a nasty one.
     pub fn about(&mut self, number: f64) -> f64 {
-        if self.chance(16) {
+        if self.chance(24) {
             self.nasty()
         } else if number == 0.0 {
             f64::from(self.byte()) / 128.0

@@ -31,16 +31,16 @@ impl Actor {
         }
     }
 
-    /// A step as a host makes it.
+    /// A step as a host makes it, now and then one that is far too long.
     pub fn step_on(&mut self, source: &mut Source) {
-        let step = source.of(&STEPS);
+        let step = if source.chance(8) { 1e300 } else { source.of(&STEPS) };
         self.do_step(self.mind.memory.now, step);
     }
 
     fn step(&mut self, source: &mut Source) {
         let now = self.mind.memory.now;
         let step = if source.chance(128) {
-            source.of(&[0.0, -0.0, -0.01, 1.0, 1e-18, Real::NAN, Real::INFINITY, 5e-324, 1e-300, 1e300, Real::MAX])
+            source.of(&[0.0, -0.0, -0.01, 1.0, 1e-18, Real::NAN, Real::INFINITY, 5e-324, 1e300, Real::MAX])
         } else {
             source.of(&STEPS)
         };
