@@ -6,7 +6,7 @@
 
 mod harness;
 
-use harness::{Instance, reals, scenes};
+use harness::{Instance, reals, scene, scenes};
 use model::scene::Scene;
 use model::simulation::Simulation;
 use model::variable::Place;
@@ -107,7 +107,7 @@ fn golden_trajectories_have_the_same_bits() {
 #[test]
 fn exact_compiled_list_and_list_of_all_effects_agree_bit_for_bit() {
     for (number, method) in METHODS {
-        let (exports, all) = (hash_through_the_exports(number), hash_over_all_effects("paper", number));
+        let (exports, all) = (hash_through_the_exports(number), hash_over_all_effects(&scene().name, number));
         assert_eq!(exports, all, "{method}");
     }
 }

@@ -5,8 +5,8 @@
 
 mod harness;
 
-use harness::{Instance, reference};
-use split_rotor::abi::{Real, Status, ValueReference};
+use harness::{Instance, Life, Stage, has, inputs, reference, tumbling};
+use split_rotor::abi::{CO_SIMULATION, Real, Status, ValueReference};
 use split_rotor::exports::fmi2DoStep;
 
 /// What the motion is, without what it cost: a reading between two steps of the solver's costs evaluations.
@@ -31,7 +31,7 @@ const MOTION: [&str; 21] = [
     "K_c.z",
     "energy.total",
     "energy.residual",
-    "support.F.z",
+    "energy.kinetic",
 ];
 
 fn motion(instance: &mut Instance) -> [u64; 21] {
@@ -55,6 +55,10 @@ fn refused(instance: &mut Instance, from: Real, step: Real, words: &[&str]) {
 
 #[test]
 fn fmi_the_motion_does_not_depend_on_the_communication_steps() {
+    if !inputs().is_empty() {
+        // Where an input may change, no step of the solver's passes a communication point.
+        return;
+    }
     for method in [2, 3] {
         let start = || {
             let mut instance = Instance::quiet();
@@ -195,19 +199,17 @@ fn fmi_no_step_goes_past_the_stop_time() {
     assert_eq!(instance.do_step(0.0, 12.0), Status::Ok);
 }
 
-/// Next to no spring, no spin, 30 rad/s about y: γ_y = 30 rad/s · t until 3.1 rad, where the law of c2 ends.
-const TUMBLING: [(&str, Real); 4] =
-    [("support.c1", 0.0), ("support.c2", 1e-300), ("start.omega.x", 0.0), ("start.omega.y", 30.0)];
-
 #[test]
 fn exact_a_step_that_cannot_be_done_stands_at_the_last_successful_time() {
     /// How near the last time [s], the tilt [rad], the fall [m], the speed [rad/s] and the energy [1] come to what is
     /// exact: the steps shrink until they advance no more. Measured 1.8e-15, allow 1e-14.
     const NEARNESS: Real = 1e-14;
+    // γ_y = 30 rad/s · t until 3.1 rad.
+    let Some(tumbling) = tumbling() else { return };
     for method in [2, 3] {
         let mut instance = Instance::quiet();
         instance.set_method(method);
-        let mut instance = instance.started(&TUMBLING);
+        let mut instance = instance.started(&tumbling);
         instance.run(0.0, 0.01, 10);
         assert_eq!((instance.step_status(), instance.terminated()), (Ok(Status::Ok), Ok(false)));
         let warnings = instance.journal.take();
@@ -235,7 +237,8 @@ fn exact_a_step_that_cannot_be_done_stands_at_the_last_successful_time() {
 
 #[test]
 fn fmi_after_a_step_that_cannot_be_done() {
-    let mut instance = Instance::quiet().started(&TUMBLING);
+    let Some(tumbling) = tumbling() else { return };
+    let mut instance = Instance::quiet().started(&tumbling);
     assert_eq!(instance.do_step(0.0, 1.0), Status::Discard);
     let last = instance.last_successful_time().expect("a step was made");
     let shown = motion(&mut instance);
@@ -261,6 +264,9 @@ fn fmi_after_a_step_that_cannot_be_done() {
 
 #[test]
 fn fmi_a_force_that_overflows_is_a_discarded_step() {
+    if !has(&["support.c1"]) {
+        return;
+    }
     // A mass so small that the acceleration overflows, though force and energy do not.
     let mut instance = Instance::quiet().started(&[("rotor.m", 1e-300), ("support.c1", 1e10), ("start.r_c.x", 1e3)]);
     assert_eq!(instance.do_step(0.0, 0.01), Status::Discard);
@@ -278,7 +284,7 @@ fn fmi_the_reset_of_any_state_gives_the_same_bits_again() {
     let ways: [Way; 5] = [
         ("instantiated", |instance| instance.set_method(2)),
         ("initialization mode", |instance| {
-            instance.set_all(&[("support.c2", 90.0)]);
+            instance.set_all(&[("rotor.m", 90.0)]);
             assert_eq!(instance.enter_initialization(), Status::Ok);
         }),
         ("impossible parameters", |instance| {
@@ -294,7 +300,7 @@ fn fmi_the_reset_of_any_state_gives_the_same_bits_again() {
             instance.run(7.0, 0.01, 7);
         }),
         ("terminated", |instance| {
-            instance.set_all(&[("support.d1", 100.0)]);
+            instance.set_all(&[("start.v_c.y", 0.1)]);
             assert_eq!(instance.enter_initialization(), Status::Ok);
             assert_eq!(instance.exit_initialization(), Status::Ok);
             instance.run(0.0, 0.01, 7);
@@ -381,12 +387,13 @@ fn fmi_parameters_of_initialization_mode_count() {
 
 #[test]
 fn fmi_instances_do_not_know_of_one_another() {
-    let kinds: [&[(&str, Real)]; 3] = [&[], &[("support.d1", 50.0), ("rotor.m", 6.0)], &[("start.omega.x", 80.0)]];
+    let kinds: [&[(&str, Real)]; 3] = [&[], &[("start.gamma.z", 0.5), ("rotor.m", 6.0)], &[("start.omega.x", 80.0)]];
     let alone = kinds.map(|values| Instance::quiet().started(values).run(0.0, 0.01, 30));
     let mut together = kinds.map(|values| Instance::quiet().started(values));
     for i in 0..30 {
         // One more comes and goes between their steps.
-        Instance::quiet().started(&TUMBLING).do_step(0.0, 1.0);
+        let status = Life::new(CO_SIMULATION, Stage::StepFailed).instance().step_status();
+        assert_eq!(status, Ok(Status::Discard));
         for (instance, alone) in together.iter_mut().zip(&alone) {
             assert_eq!(instance.run(f64::from(i) * 0.01, 0.01, 1)[0], alone[i as usize]);
         }

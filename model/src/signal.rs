@@ -50,9 +50,9 @@ impl Signal {
         self.value == 0.0 && self.slope == 0.0 && self.curvature == 0.0
     }
 
-    /// Whether it is the same as another: both hold one value, and none was sent derivatives.
+    /// Whether it is the same as another: both hold one value.
     pub fn goes_on_like(&self, other: &Self) -> bool {
-        let held = |signal: &Self| !signal.sent && signal.slope == 0.0 && signal.curvature == 0.0;
+        let held = |signal: &Self| signal.slope == 0.0 && signal.curvature == 0.0;
         held(self) && held(other) && self.value.to_bits() == other.value.to_bits()
     }
 

@@ -127,10 +127,11 @@ impl<E: Effects> Simulation<E> {
         let solver = &mut parameters.setup.solver;
         solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
         parameters.check()?;
+        let (motion, reading) = self.at_start(&parameters, t)?;
+        // From here on nothing is refused any more: what is refused leaves everything as it was.
+        self.parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         self.reading = None;
         self.news = false;
-        let (motion, reading) = self.at_start(&parameters, t)?;
-        self.parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         self.run = Some(match self.integrator {
             Integrator::Host => Run::Open(Open::start(motion, &reading)),
             Integrator::Method if parameters.effects.works() => {

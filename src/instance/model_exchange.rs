@@ -93,6 +93,8 @@ impl Instance {
     /// fmi2GetNominalsOfContinuousStates
     pub fn nominals(&mut self, nominals: &mut [Real]) -> Reply {
         check_number(nominals.len())?;
+        // Before the start their parameters may be impossible.
+        self.memory.simulation.parameters().check()?;
         nominals.copy_from_slice(&self.memory.simulation.nominals()[..Simulation::STATES]);
         Ok(Status::Ok)
     }

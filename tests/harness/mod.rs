@@ -1,30 +1,76 @@
 //! A small C host for the tests: instances of the compiled-in scene behind the exported functions, a logger that writes
-//! everything down, and value references by name.
+//! everything down, and value references by name. `life` tells when a call is legal, `exchange` integrates instances for
+//! model exchange, `saved` holds their FMU states.
 #![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
-#![allow(dead_code, reason = "each test file uses a part")]
+#![allow(dead_code, unused_imports, reason = "each test file uses a part")]
+
+mod exchange;
+mod life;
+mod saved;
+
+pub use life::{Life, RULES, Rule, Stage};
+pub use saved::Saved;
 
 use model::scene::Scene;
-use model::variable::Kind;
+use model::variable::{Kind, Role};
 use model::variables::Variable;
 use split_rotor::abi::*;
 use split_rotor::exports::*;
+use split_rotor::scene::GUID;
 use std::ffi::{CStr, CString};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
 
-/// The folder of the scenes.
+/// The folder of the scenes: beside the tests, or above a crate that shares them.
 pub fn scenes() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes")
+    let folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().map(|folder| folder.join("scenes"));
+    folders.into_iter().find(|folder| folder.is_dir()).expect("the project has a folder of scenes")
 }
 
-/// The scene that the tests expect to be compiled in.
+/// The scene that is compiled in.
 pub fn scene() -> &'static Scene {
     static SCENE: OnceLock<Scene> = OnceLock::new();
     SCENE.get_or_init(|| {
-        let scene = Scene::find("paper", &scenes()).unwrap_or_else(|error| panic!("{error}"));
-        assert_eq!(model::xml::guid(&scene), split_rotor::scene::GUID, "the compiled-in scene must be paper");
-        scene
+        let read = |name: String| Scene::find(&name, &scenes()).unwrap_or_else(|error| panic!("{error}"));
+        let mut all = Scene::names(&scenes()).into_iter().map(read);
+        all.find(|scene| model::xml::guid(scene) == GUID).expect("the compiled-in scene must be one of scenes/")
     })
+}
+
+/// Whether the compiled-in scene is the paper's, whose numbers some tests know.
+pub fn is_paper() -> bool {
+    scene().name == "paper"
+}
+
+/// Whether the scene has variables of these names.
+pub fn has(names: &[&str]) -> bool {
+    names.iter().all(|name| scene().variables.iter().any(|variable| variable.name == *name))
+}
+
+/// Of these values, those of variables that the scene has.
+pub fn there(values: &[(&'static str, Real)]) -> Vec<(&'static str, Real)> {
+    values.iter().copied().filter(|(name, _)| has(&[name])).collect()
+}
+
+/// A rotor that tumbles at 30 rad/s about y, held by next to no spring, but by one: where |γ| = 3.1 rad, its law ends.
+/// None in a scene without that law.
+pub fn tumbling() -> Option<Vec<(&'static str, Real)>> {
+    let all = [
+        ("support.c1", 0.0),
+        ("support.c2", 1e-300),
+        ("support.d1", 0.0),
+        ("support.d2", 0.0),
+        ("shaft.tau", 0.0),
+        ("start.omega.x", 0.0),
+        ("start.omega.y", 30.0),
+    ];
+    has(&["support.c2"]).then(|| there(&all))
+}
+
+/// The value references of the scene's inputs.
+pub fn inputs() -> Vec<ValueReference> {
+    let inputs = scene().variables.iter().filter(|variable| matches!(variable.meta.role, Role::Input { .. }));
+    inputs.map(|variable| variable.place.value_reference()).collect()
 }
 
 /// The variable of this name.
@@ -103,7 +149,7 @@ pub struct Request {
 
 impl Default for Request {
     fn default() -> Self {
-        let guid = CString::new(model::xml::guid(scene())).expect("a GUID holds no zero");
+        let guid = CString::new(GUID).expect("a GUID holds no zero");
         Self { name: Some(c"rotor".into()), kind: CO_SIMULATION, guid: Some(guid), logging_on: false, has_logger: true }
     }
 }
@@ -157,6 +203,11 @@ impl Instance {
     /// An instance that says only what goes wrong.
     pub fn quiet() -> Self {
         Request::default().instantiate().expect("the request is right")
+    }
+
+    /// One of this kind, fmi2Type, that says only what goes wrong.
+    pub fn of(kind: Choice) -> Self {
+        Request { kind, ..Request::default() }.instantiate().expect("the request is right")
     }
 
     /// An instance that says everything.
@@ -248,6 +299,12 @@ impl Instance {
         unsafe { fmi2SetReal(self.component, references.as_ptr(), references.len(), values.as_ptr()) }
     }
 
+    /// fmi2SetRealInputDerivatives of one input.
+    pub fn send(&mut self, input: ValueReference, order: Integer, value: Real) -> Status {
+        // SAFETY: a live instance, and arrays of one.
+        unsafe { fmi2SetRealInputDerivatives(self.component, &raw const input, 1, &raw const order, &raw const value) }
+    }
+
     /// Sets Real parameters by name.
     pub fn set_all(&mut self, values: &[(&str, Real)]) {
         for (name, value) in values {
@@ -297,6 +354,14 @@ impl Instance {
         if status == Status::Ok { Ok(value == TRUE) } else { Err(status) }
     }
 
+    /// Its FMU state as bytes: all that it remembers.
+    pub fn serialized(&self) -> Vec<u8> {
+        let saved = Saved::of(self);
+        let bytes = saved.bytes(self);
+        saved.free(self);
+        bytes
+    }
+
     /// Everything that can be read, each on its own: all variables and all statuses. What this logs is dropped.
     pub fn snapshot(&mut self) -> Vec<(String, Readable)> {
         let kept = self.journal.take();
@@ -337,4 +402,23 @@ impl Instance {
         });
         steps.collect()
     }
+}
+
+/// Calls a function that must be refused with one log line that says so in these words, and must change nothing: neither
+/// what can be read, nor what the instance remembers.
+#[track_caller]
+pub fn refused(instance: &mut Instance, call: impl FnOnce(Component) -> Status, words: &[&str]) {
+    // The snapshot first: to read between two steps of the solver's costs evaluations, which are remembered.
+    let before = (instance.snapshot(), instance.serialized());
+    instance.journal.take();
+    let status = call(instance.component());
+    let records = instance.journal.take();
+    assert_eq!(status, Status::Error, "{words:?}: {records:?}");
+    let [record] = &records[..] else { panic!("{words:?}: one line, not {records:?}") };
+    assert_eq!((record.status, record.category.as_str()), (Status::Error, "logStatusError"), "{record:?}");
+    for word in words {
+        assert!(record.message.contains(word), "{word:?} must be in {:?}", record.message);
+    }
+    let bytes = instance.serialized();
+    assert_eq!(before, (instance.snapshot(), bytes), "{words:?}");
 }

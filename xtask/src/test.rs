@@ -9,7 +9,7 @@ use model::scene::Scene;
 type Job = fn() -> Result<()>;
 
 /// What always runs, the quickest first.
-const SHORT: [Job; 3] = [rust_tests, other_builds, packaged_fmus];
+const SHORT: [Job; 4] = [rust_tests, driven_tests, other_builds, packaged_fmus];
 
 /// What takes long, or needs more than the README asks for.
 const LONG: [Job; 3] = [clients, sanitize::sanitizers, memcheck::valgrind];
@@ -21,6 +21,18 @@ pub fn test(long: bool) -> Result<()> {
 
 fn rust_tests() -> Result<()> {
     run(cargo().args(["test", "--quiet", "--workspace"]))
+}
+
+/// The call rules once more with a scene that has an input.
+fn driven_tests() -> Result<()> {
+    // A target directory of its own, or both scenes would be built anew each time.
+    let tests = ["abi", "arguments", "state"].into_iter().flat_map(|name| ["--test", name]);
+    run(cargo()
+        .args(["test", "--quiet"])
+        .args(tests)
+        .arg("--target-dir")
+        .arg(paths::target().join("driven"))
+        .env("SPLIT_ROTOR_SCENE", paths::scenes().join("driven.toml")))
 }
 
 /// The bits are the same in every build.

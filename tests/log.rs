@@ -1,0 +1,196 @@
+//! fmi2Instantiate, and what an instance says: to whom, under which name, in which categories.
+#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
+
+mod harness;
+
+use harness::{Instance, Record, Request, scene, tumbling};
+use split_rotor::abi::*;
+use split_rotor::exports;
+use std::ffi::{CStr, CString};
+use std::ptr::null;
+
+/// The one record of a refused fmi2Instantiate.
+#[track_caller]
+fn not_instantiated(request: Request) -> Record {
+    let Err(records) = request.instantiate() else { panic!("the request is wrong") };
+    let [record] = &records[..] else { panic!("one line, not {records:?}") };
+    assert_eq!((record.status, record.category.as_str()), (Status::Error, "logStatusError"));
+    assert!(record.message.starts_with("fmi2Instantiate: "), "{record:?}");
+    record.clone()
+}
+
+#[test]
+fn fmi_instantiate_refuses_bad_arguments_and_says_why() {
+    let right = Request::default;
+    let guid = model::xml::guid(scene());
+    for wrong in [c"".to_owned(), c"{00000000-0000-0000-0000-000000000000}".to_owned(), {
+        CString::new(guid.trim_matches(['{', '}'])).expect("a GUID holds no zero")
+    }] {
+        let record = not_instantiated(Request { guid: Some(wrong.clone()), ..right() });
+        let wrong = wrong.to_str().expect("ASCII");
+        assert!(record.message.contains(&guid) && record.message.contains(wrong), "{record:?}");
+        assert_eq!(record.instance, "rotor");
+    }
+    assert!(not_instantiated(Request { guid: None, ..right() }).message.contains("fmuGUID is a null pointer"));
+    let record = not_instantiated(Request { name: None, ..right() });
+    assert!(record.message.contains("instanceName is a null pointer"));
+    assert_eq!(record.instance, "", "no name, but a string all the same");
+    for kind in [2, -1, Choice::MAX] {
+        let record = not_instantiated(Request { kind, ..right() });
+        assert!(record.message.contains("fmuType") && record.message.contains("fmi2CoSimulation"), "{record:?}");
+    }
+    // The same without a logger: null, and nobody is told.
+    let silent = Request { has_logger: false, guid: None, ..right() };
+    assert_eq!(silent.instantiate().err(), Some(vec![]));
+}
+
+#[test]
+fn fmi_instantiate_without_callbacks_is_null() {
+    let guid = CString::new(model::xml::guid(scene())).expect("a GUID holds no zero");
+    let (name, place) = (c"rotor".as_ptr(), c"".as_ptr());
+    // SAFETY: strings that live during the call, and null.
+    let component =
+        unsafe { exports::fmi2Instantiate(name, CO_SIMULATION, guid.as_ptr(), place, null(), FALSE, FALSE) };
+    assert!(component.is_null());
+}
+
+#[test]
+fn fmi_an_instance_without_a_logger_works() {
+    let request = Request { has_logger: false, logging_on: true, ..Request::default() };
+    let mut instance = request.instantiate().expect("a logger is not needed");
+    assert_eq!(instance.do_step(0.0, 0.01), Status::Error);
+    assert_eq!(instance.started(&[]).run(0.0, 0.01, 3), Instance::quiet().started(&[]).run(0.0, 0.01, 3));
+}
+
+#[test]
+fn fmi_the_struct_of_callbacks_may_go_after_instantiate() {
+    // The harness overwrites it (with a logger that aborts) and frees it in each test; here its messages still arrive.
+    let mut instance = Instance::talkative();
+    assert_eq!(instance.journal.take().len(), 1);
+    assert_eq!(instance.do_step(0.0, 0.01), Status::Error);
+    assert_eq!(instance.journal.take().len(), 1);
+}
+
+#[test]
+fn fmi_messages_go_to_the_environment_and_under_the_name_of_their_instance() {
+    let named = |name: &CStr| Request { name: Some(name.into()), ..Request::default() }.instantiate().expect("right");
+    // The name is no format either; it is handed back as it came.
+    let (mut one, mut other) = (named(c"one 100% of it"), named(c"the other"));
+    assert_eq!(one.terminate(), Status::Error);
+    let (mine, theirs) = (one.journal.take(), other.journal.take());
+    assert_eq!((mine.len(), theirs.len()), (1, 0));
+    assert_eq!(mine[0].instance, "one 100% of it");
+    assert_eq!(other.reset(), Status::Ok);
+    assert_eq!(other.terminate(), Status::Error);
+    let (mine, theirs) = (one.journal.take(), other.journal.take());
+    assert_eq!((mine.len(), theirs.len()), (0, 1));
+    assert_eq!(theirs[0].instance, "the other");
+}
+
+#[test]
+fn fmi_percent_signs_are_doubled_in_messages() {
+    let mut instance = Instance::quiet();
+    assert_eq!(instance.debug_logging(true, &[c"100%"]), Status::Error);
+    assert_eq!(instance.debug_logging(true, &[c"%s%n"]), Status::Error);
+    let records = instance.journal.take();
+    assert!(records[0].message.contains("100%%\""), "{records:?}");
+    assert!(records[1].message.contains("\"%%s%%n\""), "{records:?}");
+    let record = not_instantiated(Request { guid: Some(c"%d".into()), ..Request::default() });
+    assert!(record.message.contains("\"%%d\""), "{record:?}");
+}
+
+/// The categories of which an instance logs something on the way through an error, a chosen tolerance, a step that cannot
+/// be done, and a reset.
+fn heard(instance: &mut Instance) -> Vec<String> {
+    let tumbling = tumbling().expect("asked for where there is one");
+    instance.journal.take();
+    assert_eq!(instance.terminate(), Status::Error);
+    instance.set_all(&tumbling);
+    assert_eq!(instance.enter_initialization(), Status::Ok);
+    assert_eq!(instance.exit_initialization(), Status::Ok);
+    assert_eq!(instance.do_step(0.0, 1.0), Status::Discard);
+    assert_eq!(instance.terminate(), Status::Ok);
+    assert_eq!(instance.reset(), Status::Ok);
+    let mut categories: Vec<_> = instance.journal.take().into_iter().map(|record| record.category).collect();
+    categories.sort();
+    categories.dedup();
+    categories
+}
+
+#[test]
+fn fmi_logging_on_says_everything_and_off_what_goes_wrong() {
+    if tumbling().is_none() {
+        return;
+    }
+    let everything = ["logEvents", "logSolver", "logStatusDiscard", "logStatusError", "logStatusWarning"];
+    let unasked = ["logStatusDiscard", "logStatusError", "logStatusWarning"];
+    assert_eq!(heard(&mut Instance::talkative()), everything);
+    assert_eq!(heard(&mut Instance::quiet()), unasked);
+}
+
+#[test]
+fn fmi_categories_that_are_disabled_are_not_called() {
+    if tumbling().is_none() {
+        return;
+    }
+    let everything = ["logEvents", "logSolver", "logStatusDiscard", "logStatusError", "logStatusWarning"];
+    let mut instance = Instance::quiet();
+    let mut check = |on: bool, names: &[&CStr], expected: &[&str]| {
+        assert_eq!(instance.debug_logging(on, names), Status::Ok);
+        assert_eq!(heard(&mut instance), expected, "{on} {names:?}");
+    };
+    check(true, &[], &everything);
+    check(false, &[], &[]);
+    check(true, &[c"logEvents"], &["logEvents"]);
+    check(true, &[c"logSolver", c"logStatusError"], &["logSolver", "logStatusError"]);
+    check(false, &[c"logSolver"], &["logStatusError"]);
+    check(true, &[c"logStatusWarning", c"logStatusError"], &["logStatusError", "logStatusWarning"]);
+    check(false, &[c"logStatusWarning"], &["logStatusError"]);
+    check(true, &[c"logAll"], &everything);
+    let rest = ["logEvents", "logSolver", "logStatusError", "logStatusWarning"];
+    check(false, &[c"logStatusDiscard", c"logStatusDiscard"], &rest);
+    check(false, &[c"logAll"], &[]);
+}
+
+#[test]
+fn fmi_an_unknown_category_is_an_error_and_changes_nothing() {
+    if tumbling().is_none() {
+        return;
+    }
+    let mut instance = Instance::quiet();
+    assert_eq!(instance.debug_logging(true, &[c"logSolver", c"logStatusError"]), Status::Ok);
+    for names in [&[c"logEvents", c"nonsense"][..], &[c"nonsense", c"logAll"], &[c"logall"], &[c""], &[c"\xff\xfe"]] {
+        for on in [true, false] {
+            assert_eq!(instance.debug_logging(on, names), Status::Error);
+            let records = instance.journal.take();
+            assert_eq!(records.len(), 1);
+            assert!(records[0].message.starts_with("fmi2SetDebugLogging: there is no category"), "{records:?}");
+            assert_eq!(heard(&mut instance), ["logSolver", "logStatusError"], "{names:?}");
+        }
+    }
+}
+
+#[test]
+fn fmi_logging_choices_survive_a_reset() {
+    if tumbling().is_none() {
+        return;
+    }
+    let mut instance = Instance::quiet();
+    assert_eq!(instance.debug_logging(false, &[]), Status::Ok);
+    assert_eq!(instance.reset(), Status::Ok);
+    assert_eq!(heard(&mut instance), [""; 0]);
+}
+
+#[test]
+fn fmi_the_categories_are_those_of_the_model_description() {
+    let xml = model::xml::model_description(scene());
+    let mut instance = Instance::quiet();
+    let mut count = 0;
+    for part in xml.split("<Category name=\"").skip(1) {
+        let name = part.split('"').next().expect("a name ends");
+        let name = CString::new(name).expect("XML holds no zero");
+        assert_eq!(instance.debug_logging(true, &[&name]), Status::Ok, "{name:?}");
+        count += 1;
+    }
+    assert_eq!(count, 6);
+}
