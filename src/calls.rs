@@ -105,7 +105,8 @@ const IN_EVENT_MODE: &str = "call it in event mode, after fmi2ExitInitialization
 const IN_CONTINUOUS: &str = "call fmi2EnterContinuousTimeMode first";
 const TO_SET: &str =
     "inputs are set until fmi2Terminate, parameters before fmi2ExitInitializationMode; or call fmi2Reset first";
-const PARAMETERS: &str = "all variables of this type are fixed parameters: set them before fmi2ExitInitializationMode, or call fmi2Reset first";
+const PARAMETERS: &str =
+    "no input is of this type, and parameters are set before fmi2ExitInitializationMode: call fmi2Reset first";
 const EXPERIMENT: &str = "call it before fmi2EnterInitializationMode, or fmi2Reset first";
 
 /// The calls, in the order of the standard.

@@ -14,7 +14,7 @@ use crate::logger::Logger;
 use crate::scene::{STARTS, Simulation};
 use model::error::Invalid;
 use model::integrate::{Cost, Refusal};
-use model::log::Category;
+use model::log::{ALL, Category};
 use model::simulation::Integrator;
 use model::variable::Place;
 use model::variables::TOLERANCES;
@@ -120,7 +120,8 @@ impl Instance {
     /// fmi2SetDebugLogging
     pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Reply {
         self.logger.choose(on, categories).map_err(|unknown| {
-            Failure::error(format!("there is no category {unknown:?}: modelDescription.xml lists those there are"))
+            let names = Category::EACH.map(|category| category.words().0).join(", ");
+            Failure::error(format!("there is no category {unknown:?}: there are {names} and {ALL}"))
         })?;
         Ok(Status::Ok)
     }

@@ -31,6 +31,11 @@ pub const FORBIDDEN: f64 = PI - LIMIT;
 
 const BEYOND_REACH: Refusal = Refusal("the axis turns too far for one chart, however short the step");
 
+const BEYOND_CHART: Refusal = Refusal(
+    "|gamma| of the continuous states exceeds 3.1 rad, too far for their chart: complete a step earlier, so that an event \
+     can change it",
+);
+
 const BEYOND_LIMIT: Refusal =
     Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi");
 
@@ -48,8 +53,11 @@ fn rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Coordina
     }
 }
 
-/// The rates of the coordinates and of the work integrals.
+/// The rates of the coordinates and of the work integrals; not a number where a law that follows γ has no limit nearby.
 pub fn whole_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
+    if effects.needs_gamma() && motion.tilt.gamma().map(S::re).norm() > LIMIT {
+        return [S::constant(f64::NAN); WITH_WORK];
+    }
     let mut whole = [S::zero(); WITH_WORK];
     rates(effects, motion).write(&mut whole);
     if effects.works() {
@@ -78,7 +86,7 @@ impl<E: Effects> Rotor<E> {
     pub fn reaches(&self, gamma: Vector2<f64>, reach: f64) -> Result<(), Refusal> {
         let theta_squared = gamma.norm_squared();
         if theta_squared > reach * reach {
-            return Err(BEYOND_REACH);
+            return Err(if reach < LIMIT { BEYOND_REACH } else { BEYOND_CHART });
         }
         if self.chart == Chart::FromMinusE && self.effects.needs_gamma() && theta_squared < FORBIDDEN * FORBIDDEN {
             return Err(BEYOND_LIMIT);

@@ -56,6 +56,6 @@ def test_exact_packaging_again_gives_the_same_bytes(paper, xtask, tmp_path):
 def test_exact_the_licence_of_each_linked_crate_is_there(fmu):
     with ZipFile(fmu.path) as archive:
         text = archive.read("documentation/licenses/third-party.txt").decode("utf-8")
-    crates = re.findall(r"^=+\n(\S+) \d+\.\d+\.\d+: (.+)\n=+\n(.*?)(?=^=+\n|\Z)", text, re.MULTILINE | re.DOTALL)
+    crates = re.findall(r"^=+\n(\S+) \d+\.\d+\.\d+: ([^\n]+)\n=+\n(.*?)(?=^=+\n|\Z)", text, re.MULTILINE | re.DOTALL)
     assert {"nalgebra", "libm", "libc"} <= {name for name, _, _ in crates}
     assert [name for name, _, licence in crates if "Copyright" not in licence and "Apache License" not in licence] == []

@@ -5,7 +5,8 @@ from host import OK
 import pytest
 
 UNKNOWN = "100 %d %x"  # formats that a host without arguments for them survives
-COMPLAINT = f'there is no category "{UNKNOWN}": modelDescription.xml lists those there are'
+KNOWN = "logStatusError, logStatusWarning, logStatusDiscard, logEvents, logSolver and logAll"
+COMPLAINT = f'there is no category "{UNKNOWN}": there are {KNOWN}'
 
 
 @pytest.fixture

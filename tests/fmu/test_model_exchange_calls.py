@@ -10,7 +10,10 @@ from host import DISCARD, MODEL_EXCHANGE, OK
 
 ROUNDING = 1e-14  # of what is shown at a change of chart, relative to the larger of it and 1, measured 2.0e-15
 REASON = "the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi"
-REACH = "the axis turns too far for one chart, however short the step"
+REACH = (
+    "|gamma| of the continuous states exceeds 3.1 rad, too far for their chart: complete a step earlier, so that an event "
+    "can change it"
+)
 
 
 @pytest.fixture

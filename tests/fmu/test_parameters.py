@@ -99,8 +99,8 @@ def test_exact_one_wrong_reference_leaves_all_values(host):
          'fmi2SetReal: rotor.m (value reference 0) is a fixed parameter, not to be set in the state "step complete": set '
          "it before fmi2ExitInitializationMode, or call fmi2Reset first"),
         ("setInteger", "solver.method", 2,
-         'fmi2SetInteger: not legal in the state "step complete": all variables of this type are fixed parameters: set '
-         "them before fmi2ExitInitializationMode, or call fmi2Reset first"),
+         'fmi2SetInteger: not legal in the state "step complete": no input is of this type, and parameters are set before '
+         "fmi2ExitInitializationMode: call fmi2Reset first"),
     ],
 )
 def test_exact_parameters_are_fixed_after_initialization(host, call, name, value, reason):

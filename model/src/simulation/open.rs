@@ -3,6 +3,7 @@
 use super::start::Motion;
 use crate::effects::Effects;
 use crate::integrate::{Cost, Refusal};
+use crate::rotation::Chart;
 use crate::rotation::chart::crossed_exactly;
 use crate::rotor::{LIMIT, Rotor};
 use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK, Whole};
@@ -18,30 +19,48 @@ pub struct Open<E> {
     t: f64,
     /// φ with all its turns but those that it gains beside the chart from −e, which the rotor's `turns` count.
     state: Whole<f64>,
-    /// γ [rad] at the end of the last completed step.
-    gamma: Vector2<f64>,
+    /// Where the last completed step ended.
+    completed: Completed,
     /// Total energy at the start [J].
     total_at_start: f64,
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
 }
 
-stored!(Open<E: Effects> { rotor, t, state, gamma, total_at_start, tilted });
+stored!(Open<E: Effects> { rotor, t, state, completed, total_at_start, tilted });
+
+/// The end of a completed step.
+#[derive(Clone, Copy, Default)]
+struct Completed {
+    /// [s]
+    t: f64,
+    /// γ [rad].
+    gamma: Vector2<f64>,
+    /// dγ/dt [rad/s].
+    rate: Vector2<f64>,
+}
+
+stored!(Completed { t, gamma, rate });
+
+/// Into so many pieces the way between two completed steps is cut to count turns.
+const PIECES: u32 = 32;
 
 impl<E: Effects> Open<E> {
     /// From a motion that shows `reading` at its start.
     pub(super) fn start(start: Motion<E>, reading: &Reading) -> Self {
         let Motion { rotor, state } = start;
         let total_at_start = reading.ledger.total_at_start;
-        let mut open = Self { rotor, t: reading.motion.t, state, gamma: gamma(&state), total_at_start, tilted: false };
+        let t = reading.motion.t;
+        let mut open = Self { rotor, t, state, completed: Completed::default(), total_at_start, tilted: false };
+        open.completed = open.here();
         open.watch_tilt();
         open
     }
 
     /// Nothing yet: a place for what was stored.
     pub(super) fn blank() -> Self {
-        let state = [0.0; WITH_WORK];
-        Self { rotor: Rotor::default(), t: 0.0, state, gamma: gamma(&state), total_at_start: 0.0, tilted: false }
+        let (rotor, completed) = (Rotor::default(), Completed::default());
+        Self { rotor, t: 0.0, state: [0.0; WITH_WORK], completed, total_at_start: 0.0, tilted: false }
     }
 
     /// The time [s].
@@ -84,11 +103,10 @@ impl<E: Effects> Open<E> {
 
     /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
     pub fn complete_step(&mut self) -> bool {
-        let now = gamma(&self.state);
         self.rotor.turns = self.turns();
-        self.gamma = now;
+        self.completed = self.here();
         self.watch_tilt();
-        self.rotor.chart.is_left_at(now)
+        self.rotor.chart.is_left_at(self.completed.gamma)
     }
 
     /// At an event: goes on in the other chart where this one is left, which changes the state. Whether it did.
@@ -104,7 +122,7 @@ impl<E: Effects> Open<E> {
         self.state[PHI] = self.rotor.chart.own_angle(phi, crossed).radians();
         self.state[GAMMA].copy_from_slice(crossed.as_slice());
         self.rotor.turns = 0.0;
-        self.gamma = crossed;
+        self.completed = self.here();
         true
     }
 
@@ -115,9 +133,33 @@ impl<E: Effects> Open<E> {
         Reading::new(motion, &self.rotor.effects, work, self.total_at_start, Cost::default())
     }
 
-    /// The turns that go with the present γ, which came from that of the last completed step by the shorter way.
+    /// The turns that go with the present γ: those that it gained since the last completed step. A host that completes no
+    /// step while γ goes around the origin loses count.
     fn turns(&self) -> f64 {
-        self.rotor.turns + self.rotor.chart.turns_gained(self.gamma, gamma(&self.state))
+        let mut last = self.completed.gamma;
+        let gained = self.path().map(|gamma| self.rotor.chart.turns_gained(std::mem::replace(&mut last, gamma), gamma));
+        self.rotor.turns + gained.sum::<f64>()
+    }
+
+    /// The way of γ [rad] since the last completed step, in pieces.
+    fn path(&self) -> impl Iterator<Item = Vector2<f64>> {
+        let (start, end) = (self.completed, self.here());
+        let h = end.t - start.t;
+        // From e nothing happens on the way.
+        let pieces = if self.rotor.chart == Chart::FromE { 1 } else { PIECES };
+        (1..=pieces).map(move |piece| {
+            let s = f64::from(piece) / f64::from(pieces);
+            let r = 1.0 - s;
+            // eq. 33: γ(σ) = (1 − σ)²((1 + 2σ)γ₀ + σhγ̇₀) + σ²((3 − 2σ)γ₁ − (1 − σ)hγ̇₁)
+            (start.gamma * (1.0 + 2.0 * s) + start.rate * (s * h)) * (r * r)
+                + (end.gamma * (3.0 - 2.0 * s) - end.rate * (r * h)) * (s * s)
+        })
+    }
+
+    /// Where the motion is now.
+    fn here(&self) -> Completed {
+        let motion = self.rotor.motion(self.t, &self.state);
+        Completed { t: self.t, gamma: motion.at.gamma, rate: motion.tilt.gamma_rate(&motion.omega) }
     }
 
     fn watch_tilt(&mut self) {
