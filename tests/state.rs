@@ -11,7 +11,7 @@ use split_rotor::exports::{fmi2FreeFMUstate, fmi2GetFMUstate, fmi2SetFMUstate};
 use std::ptr::null_mut;
 
 /// The paper's rotor; one that is damped; one that tumbles through both charts.
-const STARTS: [&[(&'static str, Real)]; 3] = [
+const STARTS: [&[(&str, Real)]; 3] = [
     &[],
     &[("support.d1", 30.0), ("support.d2", 0.5)],
     &[("support.c2", 0.0), ("start.omega.x", 1.0), ("start.omega.y", 20.0)],
