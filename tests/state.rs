@@ -3,69 +3,47 @@
 #![allow(unsafe_code, reason = "FMU states are raw pointers")]
 
 mod harness;
+mod journey;
 
-use harness::{Instance, Saved, reference, scene, there, tumbling};
+use harness::{Instance, Life, Saved, reference, refused, scene, tumbling};
+use journey::journey;
 use proptest::prelude::*;
-use split_rotor::abi::{Real, Status};
-use split_rotor::exports::{fmi2FreeFMUstate, fmi2GetFMUstate, fmi2SetFMUstate};
+use split_rotor::abi::Status;
+use split_rotor::exports::{fmi2FreeFMUstate, fmi2SetFMUstate};
 use std::ptr::null_mut;
 
-/// The paper's rotor; one that is damped; one that tumbles through both charts.
-const STARTS: [&[(&'static str, Real)]; 3] = [
-    &[],
-    &[("support.d1", 30.0), ("support.d2", 0.5)],
-    &[("support.c2", 0.0), ("start.omega.x", 1.0), ("start.omega.y", 20.0)],
-];
-
-/// Walks through steps [s] from a time, and what all variables show after each.
-fn walk(instance: &mut Instance, from: Real, steps: &[Real]) -> Vec<Vec<u64>> {
-    let mut t = from;
-    let one = |step: &Real| {
-        assert_eq!(instance.do_step(t, *step), Status::Ok);
-        t += step;
-        instance.bits()
-    };
-    steps.iter().map(one).collect()
-}
-
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(48) })]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(96) })]
 
     #[test]
-    fn exact_what_follows_a_rollback_has_the_same_bits(
-        start in 0..STARTS.len(),
-        method in 2..=3,
-        before in prop::collection::vec(1e-4..0.1_f64, 0..8),
-        after in prop::collection::vec(1e-4..0.1_f64, 1..8),
-        detour in prop::collection::vec(1e-4..0.3_f64, 0..4),
-    ) {
-        let mut instance = Instance::quiet();
-        instance.set_method(method);
-        let mut instance = instance.started(&there(STARTS[start]));
-        walk(&mut instance, 0.0, &before);
-        let now: Real = before.iter().fold(0.0, |t, step| t + step);
-        let here = instance.bits();
+    fn exact_what_follows_a_rollback_has_the_same_bits(journey in journey()) {
+        let (mut instance, now) = journey.traveller();
+        let here = instance.snapshot();
         let mut saved = Saved::of(&instance);
-        let expected = walk(&mut instance, now, &after);
+        let bytes = saved.bytes(&instance);
+        let expected = journey.way_on(&mut instance, now);
         saved.restore(&instance);
-        prop_assert_eq!(instance.bits(), here.clone());
+        prop_assert_eq!(instance.serialized(), bytes.clone());
+        prop_assert_eq!(instance.snapshot(), here);
         // Another way, and back; saved once more into the same object.
-        walk(&mut instance, now, &detour);
+        journey.detour(&mut instance, now);
         saved.restore(&instance);
         prop_assert_eq!(saved.again(&instance), Status::Ok);
-        prop_assert_eq!(walk(&mut instance, now, &after), expected.clone());
+        prop_assert_eq!(saved.bytes(&instance), bytes);
+        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
         // After the end, and after a reset.
         assert_eq!(instance.terminate(), Status::Ok);
         saved.restore(&instance);
-        prop_assert_eq!(walk(&mut instance, now, &after), expected.clone());
+        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
         assert_eq!(instance.reset(), Status::Ok);
         saved.restore(&instance);
-        prop_assert_eq!(walk(&mut instance, now, &after), expected.clone());
-        // In another instance.
-        let mut other = Instance::quiet();
+        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
+        // In another instance, after the first is gone.
+        let mut other = journey.stranger();
+        drop(instance);
         saved.restore(&other);
-        prop_assert_eq!(walk(&mut other, now, &after), expected);
-        saved.free(&instance);
+        prop_assert_eq!(journey.way_on(&mut other, now), expected);
+        saved.free(&other);
     }
 }
 
@@ -93,15 +71,36 @@ fn exact_a_state_brings_back_a_failed_step_and_settings() {
 }
 
 #[test]
-fn fmi_null_states_are_errors() {
-    let instance = Instance::quiet();
-    // SAFETY: a live instance and null pointers.
-    unsafe {
-        assert_eq!(fmi2GetFMUstate(instance.component(), null_mut()), Status::Error);
-        assert_eq!(fmi2SetFMUstate(instance.component(), null_mut()), Status::Error);
-        assert_eq!(fmi2FreeFMUstate(instance.component(), null_mut()), Status::Ok);
+fn fmi_a_state_of_one_kind_does_not_fit_the_other() {
+    for (from, to) in Life::EACH.into_iter().flat_map(|from| Life::EACH.map(|to| (from, to))) {
+        let (source, mut target) = (from.instance(), to.instance());
+        let saved = Saved::of(&source);
+        if from.kind == to.kind {
+            saved.restore(&target);
+            assert_eq!(target.serialized(), source.serialized(), "{from:?} into {to:?}");
+        } else {
+            let words = [format!("instance for {}", from.kind_name()), format!("this one is for {}", to.kind_name())];
+            // SAFETY: a live instance and a state of this FMU's.
+            let call = |c| unsafe { fmi2SetFMUstate(c, saved.pointer()) };
+            refused(&mut target, call, &["fmi2SetFMUstate: ", &words[0], &words[1]]);
+            assert_eq!(to.future(target), to.future(to.instance()), "{from:?} into {to:?}: the way on is the same");
+        }
+        saved.free(&source);
     }
-    let messages: Vec<_> = instance.journal.take().into_iter().map(|record| record.message).collect();
-    let null = "FMUstate is a null pointer";
-    assert_eq!(messages, [format!("fmi2GetFMUstate: {null}"), format!("fmi2SetFMUstate: {null}")]);
+}
+
+#[test]
+fn fmi_to_free_nothing_is_no_error() {
+    for life in Life::EACH {
+        let instance = life.instance();
+        let (before, mut nothing) = (instance.serialized(), null_mut());
+        // SAFETY: a live instance, and null or a place that holds null.
+        let statuses = unsafe {
+            let c = instance.component();
+            [fmi2FreeFMUstate(c, null_mut()), fmi2FreeFMUstate(c, &raw mut nothing)]
+        };
+        assert_eq!((statuses, nothing), ([Status::Ok; 2], null_mut()));
+        assert_eq!(instance.serialized(), before);
+        assert_eq!(instance.journal.take(), []);
+    }
 }

@@ -353,8 +353,11 @@ fn always(place: Place, could_work: bool) -> Option<&'static AlwaysRow> {
     BLOCKS.get(place.block as usize)?.get(place.row)
 }
 
+/// Reads an output.
+type Read = fn(&Setup, &Reading) -> f64;
+
 /// The Real outputs that are always there, by value reference: a second way to what [`BLOCKS`] holds, without detours.
-static QUICK: [Option<fn(&Setup, &Reading) -> f64>; (STATES << 8) as usize] = {
+static QUICK: [Option<Read>; (STATES << 8) as usize] = {
     let mut quick = [None; (STATES << 8) as usize];
     let mut block = 0;
     while block < STATES {

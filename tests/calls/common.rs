@@ -4,10 +4,11 @@ use super::Actor;
 use super::arguments::*;
 use super::check::{ANY, ERROR, OK, OK_OR_DISCARD, Told};
 use super::source::Source;
-use crate::harness::{Instance, Request, Stage, scene};
+use crate::harness::{Instance, Request, Stage, reals, scene};
 use model::variables::TOLERANCES;
 use split_rotor::abi::*;
 use split_rotor::exports::*;
+use std::sync::OnceLock;
 
 /// What a call may return whose arguments are right, or are not.
 fn ok_if(right: bool) -> &'static [Status] {
@@ -312,12 +313,12 @@ impl Actor {
 
     /// Reads everything at once: with fmi2OK, every number is finite, and every parameter is what it was set to.
     pub fn look(&mut self) {
-        let references: Vec<ValueReference> =
-            scene().variables.iter().filter(|v| is_real(v)).map(|v| v.place.value_reference()).collect();
+        static ALL: OnceLock<Vec<ValueReference>> = OnceLock::new();
+        let references = ALL.get_or_init(|| reals(scene()));
         let mut values = vec![Real::NAN; references.len()];
         let told = Told { function: "fmi2GetReal", may: self.calculation() };
-        if self.call(&told, |instance| instance.read(&references, &mut values)) == Status::Ok {
-            self.check_values(&references, &values);
+        if self.call(&told, |instance| instance.read(references, &mut values)) == Status::Ok {
+            self.check_values(references, &values);
         }
     }
 }

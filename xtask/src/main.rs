@@ -4,6 +4,7 @@ mod bench;
 mod c;
 mod c_host;
 mod demo;
+mod fuzz;
 mod licences;
 mod memcheck;
 mod package;

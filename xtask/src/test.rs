@@ -1,7 +1,7 @@
 //! `test`: everything that must hold, as a list of jobs.
 
 use crate::run::{cargo, run};
-use crate::{c_host, memcheck, package, paths, python, sanitize};
+use crate::{c_host, fuzz, memcheck, package, paths, python, sanitize};
 use anyhow::Result;
 use model::scene::Scene;
 
@@ -12,7 +12,7 @@ type Job = fn() -> Result<()>;
 const SHORT: [Job; 4] = [rust_tests, driven_tests, other_builds, packaged_fmus];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 3] = [clients, sanitize::sanitizers, memcheck::valgrind];
+const LONG: [Job; 4] = [clients, sanitize::sanitizers, memcheck::valgrind, fuzz::fuzz];
 
 /// Runs the short jobs, and the long ones too where they are asked for.
 pub fn test(long: bool) -> Result<()> {
@@ -26,7 +26,7 @@ fn rust_tests() -> Result<()> {
 /// The call rules once more with a scene that has an input.
 fn driven_tests() -> Result<()> {
     // A target directory of its own, or both scenes would be built anew each time.
-    let tests = ["abi", "arguments", "state"].into_iter().flat_map(|name| ["--test", name]);
+    let tests = ["abi", "arguments", "inputs", "random_calls", "state"].into_iter().flat_map(|name| ["--test", name]);
     run(cargo()
         .args(["test", "--quiet"])
         .args(tests)

@@ -1,0 +1,213 @@
+//! FMU states as bytes: what follows has the same bits in the same instance, in another one and in another process; what is
+//! damaged, or comes from elsewhere, is refused.
+#![allow(unsafe_code, reason = "FMU states are raw pointers")]
+
+mod harness;
+mod journey;
+
+use harness::{Instance, Life, Saved};
+use journey::{Journey, journey};
+use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngSeed, TestRunner};
+use split_rotor::abi::Status;
+use split_rotor::scene::GUID;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Brings an instance to where the bytes were written.
+fn restore(instance: &Instance, bytes: &[u8]) {
+    let saved = Saved::read(instance, bytes).unwrap_or_else(|_| panic!("{:?}", instance.journal.take()));
+    saved.restore(instance);
+    saved.free(instance);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(96) })]
+
+    #[test]
+    fn exact_what_follows_from_bytes_has_the_same_bits(journey in journey()) {
+        let (mut instance, now) = journey.traveller();
+        let bytes = instance.serialized();
+        let expected = journey.way_on(&mut instance, now);
+        // Another way, and back.
+        journey.detour(&mut instance, now);
+        restore(&instance, &bytes);
+        prop_assert_eq!(instance.serialized(), bytes.clone());
+        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
+        // In a new instance.
+        drop(instance);
+        let mut other = journey.stranger();
+        restore(&other, &bytes);
+        prop_assert_eq!(other.serialized(), bytes);
+        prop_assert_eq!(journey.way_on(&mut other, now), expected);
+    }
+}
+
+/// What tells this test program that it runs as another process: a folder that holds the bytes.
+const CHILD: &str = "SPLIT_ROTOR_TEST_CHILD";
+
+/// The same journeys in every process.
+fn journeys() -> Vec<Journey> {
+    let seed = RngSeed::Fixed(7);
+    let mut runner = TestRunner::new(ProptestConfig { rng_seed: seed, ..ProptestConfig::default() });
+    (0..64).map(|_| journey().new_tree(&mut runner).expect("nothing is filtered").current()).collect()
+}
+
+fn bytes_of(folder: &Path, n: usize) -> PathBuf {
+    folder.join(format!("{n}.state"))
+}
+
+fn way_of(folder: &Path, n: usize) -> PathBuf {
+    folder.join(format!("{n}.way"))
+}
+
+/// Text that tells every bit of a way.
+fn told(way: &[journey::Shown]) -> String {
+    way.iter().map(|step| format!("{step:x?}\n")).collect()
+}
+
+#[test]
+fn exact_what_follows_in_another_process_has_the_same_bits() {
+    if let Some(folder) = std::env::var_os(CHILD) {
+        return go_on_as_a_child(Path::new(&folder));
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("states-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("target can be written");
+    let mut expected = Vec::new();
+    for (n, journey) in journeys().iter().enumerate() {
+        let (mut instance, now) = journey.traveller();
+        std::fs::write(bytes_of(&folder, n), [&now.to_le_bytes()[..], &instance.serialized()].concat())
+            .expect("target can be written");
+        expected.push(told(&journey.way_on(&mut instance, now)));
+    }
+    let own = std::env::current_exe().expect("it has a path");
+    let name = "exact_what_follows_in_another_process_has_the_same_bits";
+    let status = Command::new(own).args(["--exact", name]).env(CHILD, &folder).status().expect("it can be run");
+    assert!(status.success(), "{status}");
+    for (n, expected) in expected.iter().enumerate() {
+        let found = std::fs::read_to_string(way_of(&folder, n)).expect("the child wrote it");
+        assert!(found == *expected, "journey {n} goes another way in another process");
+    }
+    std::fs::remove_dir_all(folder).expect("target can be written");
+}
+
+fn go_on_as_a_child(folder: &Path) {
+    for (n, journey) in journeys().iter().enumerate() {
+        let bytes = std::fs::read(bytes_of(folder, n)).expect("the parent wrote it");
+        let (now, bytes) = bytes.split_first_chunk().expect("a time stands before the state");
+        let mut instance = journey.stranger();
+        restore(&instance, bytes);
+        let way = journey.way_on(&mut instance, f64::from_le_bytes(*now));
+        std::fs::write(way_of(folder, n), told(&way)).expect("target can be written");
+    }
+}
+
+/// Offers bytes that must be refused with one log line in these words, and must change nothing; the pointer stays.
+#[track_caller]
+fn refused(instance: &Instance, own: &[u8], bytes: &[u8], words: &[&str]) {
+    assert_eq!(Saved::read(instance, bytes).expect_err("it must be refused"), Status::Error);
+    let records = instance.journal.take();
+    let [record] = &records[..] else { panic!("one line, not {records:?}") };
+    assert_eq!((record.status, record.category.as_str()), (Status::Error, "logStatusError"), "{record:?}");
+    for word in ["fmi2DeSerializeFMUstate: "].iter().chain(words) {
+        assert!(record.message.contains(word), "{word:?} must be in {:?}", record.message);
+    }
+    assert!(instance.serialized() == own, "{words:?}: nothing changed");
+}
+
+/// Where the parts of a serialized state begin: magic, version, GUID, length of the numbers, numbers.
+const VERSION: usize = 8;
+const SCENE: usize = VERSION + 4;
+const LENGTH: usize = SCENE + GUID.len();
+const NUMBERS: usize = LENGTH + 8;
+const CHECKSUM: usize = 4;
+
+/// With the checksum that these bytes should have.
+fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+    let end = bytes.len() - CHECKSUM;
+    let sum = crc32fast::hash(&bytes[..end]);
+    bytes[end..].copy_from_slice(&sum.to_le_bytes());
+    bytes
+}
+
+#[test]
+fn fmi_every_flipped_bit_and_every_cut_is_refused() {
+    for life in Life::EACH {
+        let instance = life.instance();
+        let own = instance.serialized();
+        assert!(own.len() > NUMBERS + CHECKSUM);
+        for place in 0..own.len() {
+            let mut bytes = own.clone();
+            bytes[place] ^= 1 << (place % 8);
+            let word = match place {
+                0..VERSION => "not a serialized state",
+                VERSION..SCENE => "version",
+                SCENE..LENGTH => "another FMU",
+                _ => "damaged",
+            };
+            refused(&instance, &own, &bytes, &[word]);
+        }
+        for length in 0..own.len() {
+            refused(
+                &instance,
+                &own,
+                &own[..length],
+                &[if length < VERSION { "not a serialized state" } else { "damaged" }],
+            );
+        }
+        for more in [1, 7, 8, 4096] {
+            refused(&instance, &own, &[&own[..], &vec![0; more]].concat(), &["damaged"]);
+        }
+        assert_eq!(life.future(instance), life.future(life.instance()), "{life:?}: the way on is the same");
+    }
+}
+
+#[test]
+fn fmi_states_of_other_versions_scenes_and_kinds_are_refused() {
+    for life in Life::EACH {
+        let instance = life.instance();
+        let own = instance.serialized();
+        assert_eq!(sealed(own.clone()), own, "the tests know the checksum");
+        for version in [0_u32, 2, u32::MAX] {
+            let mut bytes = own.clone();
+            bytes[VERSION..SCENE].copy_from_slice(&version.to_le_bytes());
+            refused(&instance, &own, &sealed(bytes), &[&format!("version {version}"), "reads version 1"]);
+        }
+        let other = "{00000000-0000-0000-0000-000000000000}";
+        let mut bytes = own.clone();
+        bytes[SCENE..LENGTH].copy_from_slice(other.as_bytes());
+        refused(&instance, &own, &sealed(bytes), &[other, GUID]);
+        for other in Life::EACH.into_iter().filter(|other| other.kind != life.kind) {
+            let words =
+                [format!("instance for {}", other.kind_name()), format!("this one is for {}", life.kind_name())];
+            refused(&instance, &own, &other.instance().serialized(), &[&words[0], &words[1]]);
+        }
+    }
+}
+
+#[test]
+fn fmi_whole_bytes_that_mean_nothing_are_refused() {
+    for life in Life::EACH {
+        let instance = life.instance();
+        let own = instance.serialized();
+        // A length that is not that of the numbers; a number too many, and one too few.
+        let with_length = |bytes: &[u8], length: usize| {
+            let mut bytes = bytes.to_vec();
+            bytes[LENGTH..NUMBERS].copy_from_slice(&(length as u64).to_le_bytes());
+            sealed(bytes)
+        };
+        let length = own.len() - NUMBERS - CHECKSUM;
+        refused(&instance, &own, &with_length(&own, length + 8), &["damaged"]);
+        let longer = [&own[..NUMBERS + length], &[0; 8 + CHECKSUM]].concat();
+        refused(&instance, &own, &with_length(&longer, length + 8), &["damaged"]);
+        let shorter = &own[..own.len() - 8];
+        refused(&instance, &own, &with_length(shorter, length - 8), &["damaged"]);
+        // The first number is the state of life: there is none of these.
+        for nonsense in [-1.0, 0.5, 99.0, f64::NAN, f64::INFINITY] {
+            let mut bytes = own.clone();
+            bytes[NUMBERS..NUMBERS + 8].copy_from_slice(&f64::to_le_bytes(nonsense));
+            refused(&instance, &own, &sealed(bytes), &["damaged"]);
+        }
+    }
+}
