@@ -26,7 +26,9 @@ fn rust_tests() -> Result<()> {
 /// The call rules once more with a scene that has an input.
 fn driven_tests() -> Result<()> {
     // A target directory of its own, or both scenes would be built anew each time.
-    let tests = ["abi", "arguments", "inputs", "random_calls", "state"].into_iter().flat_map(|name| ["--test", name]);
+    let tests = ["abi", "arguments", "inputs", "many", "random_calls", "serialized", "state"]
+        .into_iter()
+        .flat_map(|name| ["--test", name]);
     run(cargo()
         .args(["test", "--quiet"])
         .args(tests)
