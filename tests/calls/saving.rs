@@ -101,9 +101,9 @@ impl Theatre {
         self.parcels.push((kept.bytes.clone(), Some(kept.memory.clone())));
     }
 
-    /// Flips a bit, cuts or lengthens.
+    /// Flips a bit, cuts or lengthens; once, for a second time may undo the first.
     fn damage(&mut self, source: &mut Source) {
-        let Some((bytes, whose)) = self.parcels.last_mut() else { return };
+        let Some((bytes, whose @ Some(_))) = self.parcels.last_mut() else { return };
         let place = (usize::from(source.byte()) << 8 | usize::from(source.byte())) % bytes.len().max(1);
         match source.below(3) {
             0 if !bytes.is_empty() => bytes[place] ^= 1 << source.below(8),
