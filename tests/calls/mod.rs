@@ -34,15 +34,23 @@ struct Kept {
     bytes: Vec<u8>,
 }
 
+/// A saved state on its way, as bytes.
+struct Parcel {
+    /// As they were written.
+    whole: Vec<u8>,
+    /// As they arrive.
+    bytes: Vec<u8>,
+    memory: Memory,
+}
+
 /// Everything that a sequence plays with.
 struct Theatre {
     actors: Vec<Actor>,
     shelf: Vec<Kept>,
-    /// Bytes of saved states, some of them damaged, and whose they are if they are whole.
-    parcels: Vec<(Vec<u8>, Option<Memory>)>,
+    parcels: Vec<Parcel>,
 }
 
-/// So many instances, and so many saved states, are there at most.
+/// So many instances, saved states and parcels are there at most.
 const MOST: usize = 3;
 
 /// Makes the calls that the bytes stand for.

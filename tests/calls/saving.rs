@@ -1,9 +1,8 @@
 //! FMU states: saved, brought back, freed, written down and read, damaged.
 
 use super::check::{ERROR, OK, Told};
-use super::mind::Memory;
 use super::source::Source;
-use super::{Kept, MOST, Theatre};
+use super::{Kept, MOST, Parcel, Theatre};
 use crate::harness::{Instance, Saved};
 use split_rotor::abi::*;
 use split_rotor::exports::*;
@@ -98,28 +97,28 @@ impl Theatre {
         if self.parcels.len() >= MOST {
             self.parcels.remove(0);
         }
-        self.parcels.push((kept.bytes.clone(), Some(kept.memory.clone())));
+        let whole = kept.bytes.clone();
+        self.parcels.push(Parcel { bytes: whole.clone(), whole, memory: kept.memory.clone() });
     }
 
-    /// Flips a bit, cuts or lengthens; once, for a second time may undo the first.
+    /// Flips a bit, cuts or lengthens; done twice, that may leave the bytes whole.
     fn damage(&mut self, source: &mut Source) {
-        let Some((bytes, whose @ Some(_))) = self.parcels.last_mut() else { return };
+        let Some(Parcel { bytes, .. }) = self.parcels.last_mut() else { return };
         let place = (usize::from(source.byte()) << 8 | usize::from(source.byte())) % bytes.len().max(1);
         match source.below(3) {
             0 if !bytes.is_empty() => bytes[place] ^= 1 << source.below(8),
             1 if !bytes.is_empty() => bytes.truncate(place),
             _ => bytes.push(source.byte()),
         }
-        *whose = None;
     }
 
     fn deserialize(&mut self, n: usize, source: &mut Source) {
         let actor = &mut self.actors[n];
-        let nothing = (Vec::new(), None);
-        let (bytes, whose): &(Vec<u8>, Option<Memory>) =
-            if self.parcels.is_empty() { &nothing } else { &self.parcels[source.below(self.parcels.len())] };
-        let fits = whose.as_ref().is_some_and(|memory| memory.life.kind == actor.mind.memory.life.kind);
-        let told = Told { function: "fmi2DeSerializeFMUstate", may: if fits { OK } else { ERROR } };
+        let parcel = if self.parcels.is_empty() { None } else { Some(&self.parcels[source.below(self.parcels.len())]) };
+        let kind = actor.mind.memory.life.kind;
+        let fits = parcel.filter(|parcel| parcel.bytes == parcel.whole && parcel.memory.life.kind == kind);
+        let bytes = parcel.map_or(&[][..], |parcel| &parcel.bytes);
+        let told = Told { function: "fmi2DeSerializeFMUstate", may: if fits.is_some() { OK } else { ERROR } };
         let mut read = None;
         actor.call(&told, |instance| match Saved::read(instance, bytes) {
             Ok(saved) => {
@@ -128,10 +127,10 @@ impl Theatre {
             }
             Err(status) => status,
         });
-        let (Some(saved), Some(memory)) = (read, whose) else { return };
-        assert!(saved.bytes(&actor.instance) == *bytes, "what was read is not what was written");
+        let (Some(saved), Some(Parcel { memory, .. })) = (read, fits) else { return };
+        assert!(saved.bytes(&actor.instance) == bytes, "what was read is not what was written");
         if self.shelf.len() < MOST {
-            self.shelf.push(Kept { saved, memory: memory.clone(), bytes: bytes.clone() });
+            self.shelf.push(Kept { saved, memory: memory.clone(), bytes: bytes.to_vec() });
         } else {
             saved.free(&actor.instance);
         }

@@ -13,7 +13,10 @@ const CARGO_FUZZ: &str = "0.13.2";
 
 /// Half of the sequences with each scene, at the same time: one whose solver runs ahead, and one with an input.
 const SCENES: [&str; 2] = ["paper", "driven"];
-const SEQUENCES: u32 = 1_000_000 / SCENES.len() as u32;
+const SEQUENCES: usize = 1_000_000;
+
+/// Where somebody wants fewer of them: the name of an environment variable with their number.
+const FEWER: &str = "SPLIT_ROTOR_SEQUENCES";
 
 /// The longest sequence, in bytes; a call takes some five.
 const LONGEST: u32 = 200;
@@ -26,6 +29,10 @@ pub fn fuzz() -> Result<()> {
     if !(cfg!(target_os = "linux") && cfg!(target_env = "gnu")) {
         bail!("fuzzing needs Linux with the GNU C library, for the sanitizers");
     }
+    let sequences = match std::env::var(FEWER) {
+        Ok(number) => number.parse().with_context(|| format!("{FEWER} = {number} must be a whole number"))?,
+        Err(_) => SEQUENCES,
+    };
     let tools = paths::target().join("tools");
     run(cargo()
         .args(["install", "--quiet", "--locked", "--version", CARGO_FUZZ, "cargo-fuzz"])
@@ -33,7 +40,8 @@ pub fn fuzz() -> Result<()> {
         .arg(&tools))?;
     let folder = paths::target().join("fuzz");
     let targets = SCENES.iter().map(|scene| build(scene, &tools, &folder)).collect::<Result<Vec<_>>>()?;
-    let started = SCENES.iter().zip(&targets).map(|(scene, target)| start(scene, target, &folder));
+    let started =
+        SCENES.iter().zip(&targets).map(|(scene, target)| start(scene, target, sequences / SCENES.len(), &folder));
     let mut running = started.collect::<Result<Vec<_>>>()?;
     let statuses = running.iter_mut().map(|(_, child)| child.wait()).collect::<Result<Vec<_>, _>>()?;
     for ((log, _), status) in running.iter().zip(statuses) {
@@ -63,11 +71,11 @@ fn build(scene: &str, tools: &Path, folder: &Path) -> Result<PathBuf> {
 }
 
 /// Starts a run; its log and its process.
-fn start(scene: &str, target: &Path, folder: &Path) -> Result<(PathBuf, Child)> {
+fn start(scene: &str, target: &Path, sequences: usize, folder: &Path) -> Result<(PathBuf, Child)> {
     let log = folder.join(format!("{scene}.log"));
-    eprintln!("{SEQUENCES} random sequences of calls with {scene}, log in {}", log.display());
+    eprintln!("{sequences} random sequences of calls with {scene}, log in {}", log.display());
     let child = Command::new(target)
-        .args([format!("-runs={SEQUENCES}"), "-seed=1".into()])
+        .args([format!("-runs={sequences}"), "-seed=1".into()])
         .args([format!("-max_len={LONGEST}"), "-len_control=0".into(), format!("-timeout={PATIENCE}")])
         .arg(format!("-artifact_prefix={}/{scene}-", folder.display()))
         .env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1")
