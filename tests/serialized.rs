@@ -5,7 +5,7 @@
 mod harness;
 mod journey;
 
-use harness::{Instance, Life, Saved};
+use harness::{Instance, Life, Saved, tumbling};
 use journey::{Journey, journey};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
@@ -41,6 +41,29 @@ proptest! {
         restore(&other, &bytes);
         prop_assert_eq!(other.serialized(), bytes);
         prop_assert_eq!(journey.way_on(&mut other, now), expected);
+    }
+}
+
+#[test]
+fn fmi_a_warning_comes_once_and_after_a_rollback_as_often_as_it_is_due() {
+    let Some(tumbling) = tumbling() else { return };
+    // At 30 rad/s the tilt exceeds π/2 after 0.0524 s; a solver that runs ahead knows before.
+    let mut instance = Instance::quiet().started(&tumbling);
+    let warnings = |instance: &mut Instance, from: u32, to: u32| {
+        for n in from..to {
+            assert_eq!(instance.do_step(f64::from(n) * 0.01, 0.01), Status::Ok);
+        }
+        instance.journal.take().len()
+    };
+    let early = instance.serialized();
+    assert_eq!(warnings(&mut instance, 0, 8), 1);
+    let late = instance.serialized();
+    assert_eq!(warnings(&mut instance, 8, 10), 0);
+    for mut instance in [instance, Instance::quiet()] {
+        restore(&instance, &late);
+        assert_eq!(warnings(&mut instance, 8, 10), 0);
+        restore(&instance, &early);
+        assert_eq!(warnings(&mut instance, 0, 10), 1);
     }
 }
 
