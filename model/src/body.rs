@@ -19,17 +19,60 @@ pub struct Body {
     pub l: f64,
 }
 
-stored!(Body { m, Ja, Jt, l });
+/// What the motion needs of a body, with the divisions done once.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inertia {
+    /// Mass [kg].
+    pub m: f64,
+    /// Distance from the support point a to the mass centre c, along t [m].
+    pub l: f64,
+    /// 1/m [1/kg].
+    pub per_m: f64,
+    /// 1/Jt [1/(kg·m²)].
+    pub per_jt: f64,
+    /// 1/Ja − 1/Jt [1/(kg·m²)].
+    pub spin: f64,
+}
 
-impl Body {
+stored!(Inertia { m, l, per_m, per_jt, spin });
+
+impl From<Body> for Inertia {
+    #[allow(non_snake_case, reason = "the paper's symbols")]
+    fn from(Body { m, Ja, Jt, l }: Body) -> Self {
+        Self { m, l, per_m: 1.0 / m, per_jt: 1.0 / Jt, spin: 1.0 / Ja - 1.0 / Jt }
+    }
+}
+
+impl Inertia {
     /// ω [rad/s] of angular momentum K [kg·m²/s] about c, the axis being t.
     #[inline(always)]
-    pub fn angular_velocity<S: Scalar>(&self, momentum: &Vector3<S>, axis: &Vector3<S>) -> Vector3<S> {
-        let (transverse, axial) = (1.0 / self.Jt, 1.0 / self.Ja - 1.0 / self.Jt);
+    pub fn angular_velocity<S: Scalar>(&self, momentum: &Vector3<S>, axis: &Vector3<S>) -> AngularVelocity<S> {
         // eq. 11: ω = K/Jt + (1/Ja − 1/Jt)(K·t) t
-        momentum * S::constant(transverse) + axis * (S::constant(axial) * momentum.dot(axis))
+        AngularVelocity {
+            swing: momentum * S::constant(self.per_jt),
+            spin: S::constant(self.spin) * momentum.dot(axis),
+        }
     }
+}
 
+/// An angular velocity ω = swing + spin t.
+#[derive(Clone, Copy, Debug)]
+pub struct AngularVelocity<S: Scalar> {
+    /// What moves the axis [rad/s]; of a symmetric body along K, so not across the axis alone.
+    pub swing: Vector3<S>,
+    /// What turns the body about its axis besides [rad/s].
+    pub spin: S,
+}
+
+impl<S: Scalar> AngularVelocity<S> {
+    /// ω [rad/s], the axis being t.
+    #[inline(always)]
+    pub fn omega(&self, axis: &Vector3<S>) -> Vector3<S> {
+        self.swing + axis * self.spin
+    }
+}
+
+impl Body {
     /// K [kg·m²/s] about c of angular velocity ω [rad/s], the axis being t.
     pub fn angular_momentum<S: Scalar>(&self, omega: &Vector3<S>, axis: &Vector3<S>) -> Vector3<S> {
         // eq. 11: K = Jt ω + (Ja − Jt)(ω·t) t

@@ -44,6 +44,13 @@ pub trait Effect: Clone + Default + Send + 'static {
         Wrench::zero()
     }
 
+    /// What damps, as a force on the rotor and a moment about c [N, N·m], beside [`Effect::load`]: it is asked for only
+    /// where some effect [works](Effect::works), so that undamped motions do not pay for it.
+    #[inline(always)]
+    fn damping<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
+        Wrench::zero()
+    }
+
     /// Potential energy [J].
     #[inline(always)]
     fn potential<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {

@@ -2,12 +2,17 @@
 
 pub mod control;
 pub mod explicit;
+mod lanes;
+mod power;
 pub mod tableau;
 
 use crate::stored::stored;
 
 /// N ordinary differential equations dy/dt = f(t, y).
 pub trait System<const N: usize> {
+    /// The rates depend on the first so many components only; the others are quadratures.
+    const DEPENDED_ON: usize = N;
+
     /// f(t, y).
     fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N];
 
@@ -22,7 +27,7 @@ pub struct Refusal(pub &'static str);
 /// How large the error of a step may be, component by component: absolute + relative·|y|.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance<const N: usize> {
-    /// In the component's unit.
+    /// In the component's unit; infinite where the component's error does not count.
     pub absolute: [f64; N],
     /// Relative to the component's size [1].
     pub relative: [f64; N],

@@ -1,11 +1,11 @@
 //! The equations of motion of a body under its effects.
 
-use crate::body::Body;
-use crate::effects::Effects;
+use crate::body::Inertia;
+use crate::effects::{Effects, Wrench};
 use crate::integrate::{Refusal, System};
 use crate::rotation::Chart;
 use crate::scalar::Scalar;
-use crate::state::{Coordinates, DISSIPATED, Kinematics, SUPPLIED, WITH_WORK, Whole};
+use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, Whole};
 use crate::stored::stored;
 use nalgebra::Vector2;
 use std::f64::consts::PI;
@@ -14,7 +14,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Default)]
 pub struct Rotor<E> {
     /// The body.
-    pub body: Body,
+    pub body: Inertia,
     /// What acts on it.
     pub effects: E,
     /// The chart in which its state is written.
@@ -39,18 +39,27 @@ const BEYOND_CHART: Refusal = Refusal(
 const BEYOND_LIMIT: Refusal =
     Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi");
 
-/// The rates of the coordinates.
+/// The rates of the coordinates under this load.
 #[inline(always)]
-fn rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Coordinates<S> {
-    let load = effects.load(motion);
+fn rates<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Coordinates<S> {
     // eq. 12: dr_c/dt = v_c, m dv_c/dt = ΣF, dK_c/dt = ΣM_c
     Coordinates {
         r_c: motion.at.v_c,
-        v_c: load.force * S::constant(1.0 / motion.body.m),
+        v_c: load.force * S::constant(motion.body.per_m),
         k_c: load.moment,
-        gamma: motion.tilt.gamma_rate(&motion.omega),
-        phi: motion.tilt.phi_rate(&motion.omega),
+        gamma: motion.gamma_rate(),
+        phi: motion.phi_rate(),
     }
+}
+
+/// The rates of the coordinates and of the work integrals.
+#[inline(always)]
+fn working_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
+    let mut whole = [S::zero(); WITH_WORK];
+    rates(motion, effects.load(motion) + effects.damping(motion)).write(&mut whole);
+    whole[SUPPLIED] = effects.supply(motion);
+    whole[DISSIPATED] = effects.loss(motion);
+    whole
 }
 
 /// The rates of the coordinates and of the work integrals; not a number where a law that follows γ has no limit nearby.
@@ -58,22 +67,15 @@ pub fn whole_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -
     if effects.needs_gamma() && motion.tilt.gamma().map(S::re).norm() > LIMIT {
         return [S::constant(f64::NAN); WITH_WORK];
     }
-    let mut whole = [S::zero(); WITH_WORK];
-    rates(effects, motion).write(&mut whole);
     if effects.works() {
-        whole[SUPPLIED] = effects.supply(motion);
-        whole[DISSIPATED] = effects.loss(motion);
+        return working_rates(effects, motion);
     }
+    let mut whole = [S::zero(); WITH_WORK];
+    rates(motion, effects.load(motion)).write(&mut whole);
     whole
 }
 
 impl<E: Effects> Rotor<E> {
-    /// The rates of the coordinates.
-    #[inline(always)]
-    pub fn rates<S: Scalar>(&self, motion: &Kinematics<S>) -> Coordinates<S> {
-        rates(&self.effects, motion)
-    }
-
     /// The motion at time `t` [s], from a state.
     #[inline(always)]
     pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
@@ -82,6 +84,20 @@ impl<E: Effects> Rotor<E> {
 }
 
 impl<E: Effects> Rotor<E> {
+    /// The rates of a state of N numbers in this chart.
+    #[inline(always)]
+    fn rates_in<const N: usize>(&self, chart: Chart, t: f64, y: &[f64; N]) -> [f64; N] {
+        let motion = Kinematics::new(self.body, chart, Coordinates::from_slice(y)).when(t, self.turns);
+        let mut some = [0.0; N];
+        debug_assert!(N == WITH_WORK || !self.effects.works(), "what works is solved with its work");
+        if N == WITH_WORK {
+            some.copy_from_slice(&working_rates(&self.effects, &motion));
+        } else {
+            rates(&motion, self.effects.load(&motion)).write(&mut some);
+        }
+        some
+    }
+
     /// Whether a state may have this γ [rad] in the chart, whose own reach is told, under these effects.
     pub fn reaches(&self, gamma: Vector2<f64>, reach: f64) -> Result<(), Refusal> {
         let theta_squared = gamma.norm_squared();
@@ -98,16 +114,16 @@ impl<E: Effects> Rotor<E> {
 stored!(Rotor<E: Effects> { body, effects, chart, turns });
 
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
+    /// φ and the work integrals are quadratures: no law depends on them.
+    const DEPENDED_ON: usize = PHI;
+
     #[inline(always)]
     fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = self.motion(t, y);
-        let mut rates = [0.0; N];
-        self.rates(&motion).write(&mut rates);
-        if N == WITH_WORK {
-            rates[SUPPLIED] = self.effects.supply(&motion);
-            rates[DISSIPATED] = self.effects.loss(&motion);
+        // Once for each chart, so that neither asks again which one it is.
+        match self.chart {
+            Chart::FromE => self.rates_in(Chart::FromE, t, y),
+            Chart::FromMinusE => self.rates_in(Chart::FromMinusE, t, y),
         }
-        rates
     }
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {

@@ -1,6 +1,6 @@
 //! The state of the motion and its kinematics.
 
-use crate::body::Body;
+use crate::body::{AngularVelocity, Inertia};
 use crate::dual::Dual;
 use crate::rotation::{Angle, Chart, Tilt};
 use crate::scalar::Scalar;
@@ -69,7 +69,7 @@ impl<S: Scalar> Coordinates<S> {
 #[derive(Clone, Copy, Debug)]
 pub struct Kinematics<S: Scalar> {
     /// The body that moves.
-    pub body: Body,
+    pub body: Inertia,
     /// Time [s].
     pub t: f64,
     /// Whole turns of φ, counted apart.
@@ -78,6 +78,10 @@ pub struct Kinematics<S: Scalar> {
     pub at: Coordinates<S>,
     /// Its tilt: γ and the axis t.
     pub tilt: Tilt<S>,
+    /// The part of ω that moves the axis [rad/s]: ω = swing + spin t.
+    pub swing: Vector3<S>,
+    /// The rest of ω, about t [rad/s].
+    pub spin: S,
     /// Angular velocity ω [rad/s].
     pub omega: Vector3<S>,
 }
@@ -85,10 +89,11 @@ pub struct Kinematics<S: Scalar> {
 impl<S: Scalar> Kinematics<S> {
     /// The kinematics of `body` at these coordinates of a chart, at time 0 and with no turns counted apart.
     #[inline(always)]
-    pub fn new(body: Body, chart: Chart, at: Coordinates<S>) -> Self {
+    pub fn new(body: Inertia, chart: Chart, at: Coordinates<S>) -> Self {
         let tilt = Tilt::new(chart, at.gamma);
-        let omega = body.angular_velocity(&at.k_c, &tilt.axis);
-        Self { body, t: 0.0, turns: 0.0, at, tilt, omega }
+        let velocity = body.angular_velocity(&at.k_c, &tilt.axis);
+        let (omega, AngularVelocity { swing, spin }) = (velocity.omega(&tilt.axis), velocity);
+        Self { body, t: 0.0, turns: 0.0, at, tilt, swing, spin, omega }
     }
 
     /// The same at time `t` [s], with whole turns counted apart.
@@ -114,10 +119,24 @@ impl<S: Scalar> Kinematics<S> {
         &self.tilt.axis
     }
 
-    /// dt/dt = ω×t, the rate of the axis [1/s].
+    /// dt/dt = ω×t = swing×t, the rate of the axis [1/s].
     #[inline(always)]
     pub fn axis_rate(&self) -> Vector3<S> {
-        self.omega.cross(self.axis())
+        self.swing.cross(self.axis())
+    }
+
+    /// The rate of γ in the chart in force [rad/s].
+    #[inline(always)]
+    pub fn gamma_rate(&self) -> Vector2<S> {
+        // eq. 8; it does not feel what turns about t
+        self.tilt.gamma_rate(&self.swing)
+    }
+
+    /// The rate of φ in the chart in force [rad/s].
+    #[inline(always)]
+    pub fn phi_rate(&self) -> S {
+        // eq. 6, eq. 29; n·t = 1
+        self.tilt.phi_rate(&self.swing) + self.spin
     }
 
     /// ω_φ = dφ/dt [rad/s], φ from e.
@@ -140,10 +159,16 @@ impl<S: Scalar> Kinematics<S> {
         rate
     }
 
+    /// From c to the station at `p` [m] along t, in O [m].
+    #[inline(always)]
+    pub fn lever(&self, p: f64) -> Vector3<S> {
+        self.axis() * S::constant(p)
+    }
+
     /// Position of the station at `p` [m] along t from c, in O [m].
     #[inline(always)]
     pub fn station(&self, p: f64) -> Vector3<S> {
-        self.at.r_c + self.axis() * S::constant(p)
+        self.at.r_c + self.lever(p)
     }
 
     /// Velocity of the station at `p` [m] along t from c, in O [m/s].

@@ -93,8 +93,8 @@ impl<S: Scalar> Reading<S> {
         &self.motion.at.k_c
     }
 
-    /// γ from e [rad], where rounding gives |γ| > π: π.
-    fn gamma(&self) -> Vector3<S> {
+    /// γ_y and γ_z from e [rad], where rounding gives |γ| > π: π.
+    fn gamma(&self) -> Vector2<S> {
         let gamma = self.motion.tilt.gamma();
         let is_crossed = self.motion.tilt.chart() == Chart::FromMinusE;
         if is_crossed && gamma.map(S::re).norm_squared() > PI * PI {
@@ -252,8 +252,8 @@ const MOTION: &[AlwaysRow] = &[
         .motion
         .phi()
         .with_value(r.motion.angle().remainder)),
-    output!("gamma.y", &RADIAN, "transverse Euler vector, y", |_, r| r.gamma().y),
-    output!("gamma.z", &RADIAN, "transverse Euler vector, z", |_, r| r.gamma().z),
+    output!("gamma.y", &RADIAN, "transverse Euler vector, y", |_, r| r.gamma().x),
+    output!("gamma.z", &RADIAN, "transverse Euler vector, z", |_, r| r.gamma().y),
     output!("omega.x", &RADIAN_PER_SECOND, "angular velocity, x", |_, r| r.omega().x),
     output!("omega.y", &RADIAN_PER_SECOND, "angular velocity, y", |_, r| r.omega().y),
     output!("omega.z", &RADIAN_PER_SECOND, "angular velocity, z", |_, r| r.omega().z),

@@ -1,7 +1,7 @@
 //! The two charts against the closed form of the torque-free symmetric rotor (ORACLES.md item 2): passages of the
 //! antipode −e at distances down to 0, and φ against ∫ω_φ dt.
 
-use model::body::Body;
+use model::body::{Body, Inertia};
 use model::integrate::explicit::Explicit;
 use model::integrate::tableau::DOP853;
 use model::integrate::{Refusal, System, Tolerance};
@@ -56,7 +56,8 @@ fn exact_attitude(omega: Vector3<f64>, t: f64) -> Matrix3<f64> {
 /// The attitude that the simulation reports, L(γ)·L(φe).
 fn attitude(simulation: &mut Simulation<()>) -> Matrix3<f64> {
     let reading = simulation.read().unwrap();
-    rotation(&reading.motion.tilt.gamma()) * about(Vector3::x(), reading.motion.angle().remainder)
+    let gamma = reading.motion.tilt.gamma();
+    rotation(&Vector3::new(0.0, gamma.x, gamma.y)) * about(Vector3::x(), reading.motion.angle().remainder)
 }
 
 /// Worst error of the attitude (Frobenius norm of the difference, √2 times the angle), looked at 20 times a turn over 100
@@ -104,7 +105,7 @@ impl System<1> for AxialRate {
     fn rates(&self, t: f64, _y: &[f64; 1]) -> [f64; 1] {
         let axis = exact_attitude(self.0, t) * Vector3::x();
         let k = Vector3::new(BODY.Ja * self.0.x, BODY.Jt * self.0.y, BODY.Jt * self.0.z);
-        let omega = BODY.angular_velocity(&k, &axis);
+        let omega = Inertia::from(BODY).angular_velocity(&k, &axis).omega(&axis);
         // eq. 6 with 1 + e·t = ½|e + t|², which keeps its digits near t = −e
         let sum = Vector3::x() + axis;
         [2.0 * omega.dot(&sum) / sum.norm_squared()]
@@ -162,7 +163,7 @@ fn exact_phi_past_the_antipode_on_a_curved_path() {
             // It starts where the cone is farthest from −e, K and t in the plane of x and y.
             let start = polar - alpha;
             let axis = Vector3::new(libm::cos(start), libm::sin(start), 0.0);
-            let omega = BODY.angular_velocity(&(direction * (BODY.Jt * TUMBLE)), &axis);
+            let omega = Inertia::from(BODY).angular_velocity(&(direction * (BODY.Jt * TUMBLE)), &axis).omega(&axis);
             let mut rotor = tilted_rotor([0.0, start], omega, 1e-11);
             rotor.start(0.0, None).unwrap();
             let mut worst = 0.0_f64;

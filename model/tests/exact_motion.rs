@@ -6,9 +6,7 @@ mod oracles;
 use harness::{Method, Scene, Supported, at, largest, momentum_about_e, times, within};
 use model::body::Body;
 use model::dual::Dual;
-use model::rotation::Chart;
-use model::scalar::Scalar;
-use model::state::{COORDINATES, Coordinates, Kinematics};
+use model::state::COORDINATES;
 use model::variables::Reading;
 use nalgebra::{SMatrix, Vector2, Vector3};
 use oracles::motion::{FreeRotor, Oscillator, Whirl, small_whirl};
@@ -55,7 +53,7 @@ fn exact_free_rotor() {
             let (exact, scene) = (exact_of(&scene), Scene { method, ..scene });
             for (t, reading) in times(10.0, 50).zip(scene.run::<()>(times(10.0, 50))) {
                 let at = &reading.motion.at;
-                let reached = rotation::attitude(reading.motion.angle().remainder, &reading.motion.tilt.gamma().yz());
+                let reached = rotation::attitude(reading.motion.angle().remainder, &reading.motion.tilt.gamma());
                 attitude = largest([attitude, (reached - exact.attitude(t)).amax()]);
                 phi = largest([phi, (reading.motion.phi() - exact.phi(t, 40 + (60.0 * t) as usize)).abs()]);
                 path = largest([path, (at.r_c - scene.r_c - scene.v_c * t).amax()]);
@@ -197,8 +195,7 @@ fn exact_heavy_top_tends_to_lagrange() {
 /// Frequencies of small motions about a state at which only the axis spins [rad/s], in order.
 fn frequencies(scene: &Scene, y: &[f64; COORDINATES]) -> Vec<f64> {
     let duals: [Dual<COORDINATES>; COORDINATES] = std::array::from_fn(|n| Dual::variable(y[n], n));
-    let mut rates = [Dual::constant(0.0); COORDINATES];
-    scene.rotor().rates(&Kinematics::new(scene.body, Chart::FromE, Coordinates::from_slice(&duals))).write(&mut rates);
+    let rates = scene.rates(&duals);
     let jacobian = SMatrix::<f64, COORDINATES, COORDINATES>::from_fn(|row, column| rates[row].eps[column]);
     let eigenvalues = jacobian.complex_eigenvalues();
     // Zero comes several times, and so with half the digits only.
@@ -245,9 +242,7 @@ fn literature_modes_about_the_sag() {
     let sagged = Scene { gamma, r_c, omega: axis * 50.0, ..scene };
     let y = sagged.state();
     // At rest but for φ.
-    let mut rates = [0.0; COORDINATES];
-    sagged.rotor().rates(&Kinematics::new(sagged.body, Chart::FromE, Coordinates::from_slice(&y))).write(&mut rates);
-    within("rates at rest", largest(rates[..COORDINATES - 1].iter().map(|rate| rate.abs())), AT_REST);
+    within("rates at rest", largest(sagged.rates(&y)[..COORDINATES - 1].iter().map(|rate| rate.abs())), AT_REST);
     for (computed, printed) in frequencies(&sagged, &y).into_iter().zip(SAGGED) {
         within("mode", (computed - printed).abs(), 0.0005);
     }
@@ -322,7 +317,7 @@ fn exact_damped_decay_of_a_large_tilt() {
     };
     let exact = Oscillator { m: scene.body.Jt, d: scene.d2, c: scene.c2, x: theta, v: 0.0 };
     for (t, reading) in times(2.0, 80).zip(scene.run::<Supported>(times(2.0, 80))) {
-        within("tilt", (reading.motion.tilt.gamma().yz() - direction * exact.at(t).0).norm(), SWING);
+        within("tilt", (reading.motion.tilt.gamma() - direction * exact.at(t).0).norm(), SWING);
         within("phi", libm::remainder(reading.motion.phi(), TAU).abs(), SWING);
         let lost = exact.energy(0.0) - exact.energy(t);
         within("dissipated", (reading.ledger.dissipated - lost).abs(), SWING_ENERGY);

@@ -49,7 +49,7 @@ proptest! {
         let (chart, theta) = if chart { (Chart::FromE, theta) } else { (Chart::FromMinusE, 0.5 + 0.8 * theta) };
         let gamma = Vector2::new(libm::cos(psi), libm::sin(psi)) * theta;
         let at = Coordinates { r_c: Vector3::zeros(), v_c: Vector3::zeros(), k_c: k.into(), gamma, phi: 0.3 };
-        let motion = Kinematics::new(Scene::paper().body, chart, at);
+        let motion = Kinematics::new(Scene::paper().body.into(), chart, at);
         let shaft = Shaft { tau: Signal::held(tau) };
         let load = shaft.load(&motion);
         let expected = joint(&(rotation::axis(&gamma) * chart.sign())) * tau;

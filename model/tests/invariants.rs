@@ -125,7 +125,7 @@ proptest! {
             r_c: at.r_c,
             v_c: -at.v_c,
             phi: there.motion.phi(),
-            gamma: there.motion.tilt.gamma().yz(),
+            gamma: there.motion.tilt.gamma(),
             omega: -there.motion.omega,
             ..scene.clone()
         });

@@ -26,7 +26,7 @@ impl Effect for Gravity {
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
         // eq. 13: F = m g
-        Wrench { force: (self.g * motion.body.m).map(S::constant), moment: Vector3::zeros() }
+        Wrench { force: (self.g * motion.body.m).map(S::constant), ..Wrench::zero() }
     }
 
     #[inline(always)]

@@ -81,8 +81,10 @@ impl<E: Entry, const INDEX: u32> Member for Switched<E, INDEX> {
 pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Whether any of them can lose energy or be supplied with it, with any parameters.
     const COULD_WORK: bool;
-    /// Force on the rotor and moment about c [N, N·m].
+    /// Force on the rotor and moment about c [N, N·m], without what damps.
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S>;
+    /// Of what damps [N, N·m]: zero where nothing works.
+    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S>;
     /// Potential energy [J].
     fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
     /// Power that leaves the mechanics [W].
@@ -173,6 +175,11 @@ impl Effects for () {
     }
 
     #[inline(always)]
+    fn damping<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
+        Wrench::zero()
+    }
+
+    #[inline(always)]
     fn potential<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
         S::zero()
     }
@@ -251,25 +258,46 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
         let rest = self.1.load(motion);
-        self.0.active().map_or(rest, |effect| effect.load(motion) + rest)
+        match self.0.active() {
+            Some(effect) => effect.load(motion) + rest,
+            None => rest,
+        }
+    }
+
+    #[inline(always)]
+    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        let rest = self.1.damping(motion);
+        match self.0.active() {
+            Some(effect) => effect.damping(motion) + rest,
+            None => rest,
+        }
     }
 
     #[inline(always)]
     fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
         let rest = self.1.potential(motion);
-        self.0.active().map_or(rest, |effect| effect.potential(motion) + rest)
+        match self.0.active() {
+            Some(effect) => effect.potential(motion) + rest,
+            None => rest,
+        }
     }
 
     #[inline(always)]
     fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
         let rest = self.1.loss(motion);
-        self.0.active().map_or(rest, |effect| effect.loss(motion) + rest)
+        match self.0.active() {
+            Some(effect) => effect.loss(motion) + rest,
+            None => rest,
+        }
     }
 
     #[inline(always)]
     fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
         let rest = self.1.supply(motion);
-        self.0.active().map_or(rest, |effect| effect.supply(motion) + rest)
+        match self.0.active() {
+            Some(effect) => effect.supply(motion) + rest,
+            None => rest,
+        }
     }
 
     fn needs_gamma(&self) -> bool {

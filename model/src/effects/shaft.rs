@@ -6,7 +6,6 @@ use crate::signal::Signal;
 use crate::state::{Coordinates, Kinematics};
 use crate::variable::units::{NEWTON_METRE, RADIAN, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
 use crate::variable::{input, output};
-use nalgebra::Vector3;
 
 /// A constant-velocity joint between the rotor and a shaft along e.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +31,7 @@ impl Effect for Shaft {
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
         // eq. 32: M = τ n
-        Wrench { force: Vector3::zeros(), moment: motion.tilt.joint_axis() * self.tau.at::<S>(motion.t) }
+        Wrench { moment: motion.tilt.joint_axis() * self.tau.at::<S>(motion.t), ..Wrench::zero() }
     }
 
     #[inline(always)]

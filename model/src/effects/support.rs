@@ -8,7 +8,7 @@ use crate::variable::units::{
     NEWTON_SECOND_PER_METRE,
 };
 use crate::variable::{Bound, output, parameter};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 /// Springs and dampers between the support point a and the point O, the reference axis e.
 #[derive(Clone, Debug, Default)]
@@ -24,22 +24,46 @@ pub struct Support {
 }
 
 impl Support {
-    /// Force at a [N].
+    /// Force of the springs at a [N], and their moment against tilt [N·m].
     #[inline(always)]
-    fn force<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
-        let l = motion.body.l;
-        // eq. 14: F = −c1 r_a − d1 v_a
-        let spring = motion.station(-l) * S::constant(-self.c1);
-        if self.d1 == 0.0 { spring } else { spring - motion.station_velocity(-l) * S::constant(self.d1) }
+    fn springs<S: Scalar>(&self, motion: &Kinematics<S>) -> [Vector3<S>; 2] {
+        let to_origin = motion.lever(motion.body.l) - motion.at.r_c;
+        // eq. 14: F = −c1 r_a, M = −c2 γ
+        [to_origin * S::constant(self.c1), -across(motion.tilt.gamma() * S::constant(self.c2))]
     }
 
-    /// Moment of the springs and dampers against tilt [N·m].
+    /// Force of the dampers at a [N], and their moment against tilt [N·m].
     #[inline(always)]
-    fn moment<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
-        // eq. 14: M = −c2 γ − d2 t×(dt/dt)
-        let spring = motion.tilt.gamma() * S::constant(-self.c2);
-        if self.d2 == 0.0 { spring } else { spring - motion.axis().cross(&motion.axis_rate()) * S::constant(self.d2) }
+    fn dampers<S: Scalar>(&self, motion: &Kinematics<S>) -> [Vector3<S>; 2] {
+        // eq. 14: F = −d1 v_a, M = −d2 t×(dt/dt)
+        [
+            motion.station_velocity(-motion.body.l) * S::constant(-self.d1),
+            motion.axis().cross(&motion.axis_rate()) * S::constant(-self.d2),
+        ]
     }
+
+    /// A force at a [N] and a moment [N·m] as a wrench.
+    #[inline(always)]
+    fn wrench<S: Scalar>(motion: &Kinematics<S>, [force, moment]: [Vector3<S>; 2]) -> Wrench<S> {
+        // eq. 14: M_c = F×l t + M
+        Wrench { force, moment: force.cross(&motion.lever(motion.body.l)) + moment }
+    }
+
+    /// Force on the rotor at a [N].
+    fn force<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+        self.springs(motion)[0] + self.dampers(motion)[0]
+    }
+
+    /// Moment against tilt [N·m].
+    fn moment<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+        self.springs(motion)[1] + self.dampers(motion)[1]
+    }
+}
+
+/// (0, y, z).
+#[inline(always)]
+fn across<S: Scalar>(v: Vector2<S>) -> Vector3<S> {
+    Vector3::new(S::zero(), v.x, v.y)
 }
 
 impl Effect for Support {
@@ -58,10 +82,12 @@ impl Effect for Support {
 
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        let force = self.force(motion);
-        let arm = motion.axis() * S::constant(-motion.body.l);
-        // eq. 14: M_c = −l t×F + M
-        Wrench { force, moment: arm.cross(&force) + self.moment(motion) }
+        Self::wrench(motion, self.springs(motion))
+    }
+
+    #[inline(always)]
+    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        if self.works() { Self::wrench(motion, self.dampers(motion)) } else { Wrench::zero() }
     }
 
     #[inline(always)]

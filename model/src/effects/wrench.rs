@@ -14,10 +14,12 @@ pub struct Wrench<S: Scalar> {
 }
 
 impl<S: Scalar> Wrench<S> {
-    /// No load.
+    /// No load: zeros that leave every sum as it is, −0 + x = x. (+0 does not: +0 + −0 = +0. The compiler would have to add
+    /// it.)
     #[inline(always)]
     pub fn zero() -> Self {
-        Self { force: Vector3::zeros(), moment: Vector3::zeros() }
+        let none = Vector3::repeat(S::constant(-0.0));
+        Self { force: none, moment: none }
     }
 }
 

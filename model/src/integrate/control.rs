@@ -1,6 +1,7 @@
 //! Step size control: a proportional–integral controller (Gustafsson 1991; Hairer, Nørsett and Wanner, Solving
 //! Ordinary Differential Equations I, 2nd ed., section IV.2 of volume II and the codes dopri5 and dop853).
 
+use super::power::power;
 use crate::stored::stored;
 
 /// Proposes step sizes from the error norms of a method.
@@ -38,7 +39,7 @@ impl Controller {
     /// The factor to the next step size after a step of error norm `error` ≤ 1 was accepted.
     pub fn accepted(&mut self, error: f64) -> f64 {
         // eq. 23: h_new = h·clip(safety·err^(−α)·err_prev^β)
-        let factor = SAFETY * libm::pow(error, -self.alpha) * libm::pow(self.previous, self.beta);
+        let factor = SAFETY * power(error, -self.alpha) * power(self.previous, self.beta);
         let greatest = if self.rejected { 1.0 } else { GREATEST_FACTOR };
         self.previous = error.max(LEAST_ERROR);
         self.rejected = false;
@@ -49,7 +50,7 @@ impl Controller {
     pub fn rejected(&mut self, error: f64) -> f64 {
         self.rejected = true;
         if error.is_finite() {
-            (SAFETY * libm::pow(error, -self.alpha)).clamp(LEAST_FACTOR, SAFETY)
+            (SAFETY * power(error, -self.alpha)).clamp(LEAST_FACTOR, SAFETY)
         } else {
             LEAST_FACTOR
         }

@@ -1,7 +1,9 @@
 //! Explicit Runge–Kutta pairs with adaptive steps and dense output, for any [`Tableau`]. No allocation.
 
 use super::control::Controller;
-use super::tableau::{Combination, DOP853, ErrorRule, MOST_DENSE, MOST_STAGES, Tableau};
+use super::lanes::{both, pair, pairs, put, sum};
+use super::power::power;
+use super::tableau::{Combination, DOP853, Dop853, Dopri5, ErrorRule, MOST_DENSE, MOST_STAGES, Pair, Stage, Tableau};
 use super::{Cost, Fault, Refusal, System, Tolerance};
 use crate::scalar::ulp;
 use crate::stored::stored;
@@ -11,6 +13,8 @@ use crate::stored::stored;
 pub struct Explicit<const N: usize> {
     tableau: &'static Tableau,
     tolerance: Tolerance<N>,
+    /// The share of each component in the error norm: 1/n of n that count.
+    share: f64,
     controller: Controller,
     cost: Cost,
     /// The time reached [s], and the state there.
@@ -25,7 +29,7 @@ pub struct Explicit<const N: usize> {
     segment: Segment<N>,
 }
 
-stored!(Explicit<const N: usize> { tableau, tolerance, controller, cost, t, y, h, k, stall, segment });
+stored!(Explicit<const N: usize> { tableau, tolerance, share, controller, cost, t, y, h, k, stall, segment });
 stored!(Segment<const N: usize> { t, h, y, r, dense });
 
 /// A refused step is tried again with this part of it.
@@ -70,6 +74,7 @@ impl<const N: usize> Explicit<N> {
     ) -> Self {
         let mut method = Self {
             tableau,
+            share: 1.0 / tolerance.absolute.iter().filter(|absolute| absolute.is_finite()).count() as f64,
             tolerance,
             controller: Controller::new(tableau.error_order),
             t,
@@ -88,6 +93,7 @@ impl<const N: usize> Explicit<N> {
         Self {
             tableau: &DOP853,
             tolerance: Tolerance { absolute: [0.0; N], relative: [0.0; N] },
+            share: 0.0,
             controller: Controller::new(DOP853.error_order),
             cost: Cost::default(),
             t: 0.0,
@@ -127,6 +133,11 @@ impl<const N: usize> Explicit<N> {
     /// The next step will be no longer than this [s].
     pub fn limit_step(&mut self, h: f64) {
         self.h = self.h.min(h);
+    }
+
+    /// The size of the next step [s], unless it is limited.
+    pub fn next_step(&self) -> f64 {
+        self.h
     }
 
     /// Goes back to a time `t` [s] within the last step, where the state is `y`.
@@ -177,8 +188,7 @@ impl<const N: usize> Explicit<N> {
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             self.h = end - self.t;
             self.k[0] = rate;
-            let y = self.attempt(system);
-            let error = self.error_norm(&y);
+            let (y, error) = self.attempt(system);
             let mut least_factor = 0.0;
             obstacle = if !error.is_finite() {
                 Some(Obstacle::NotFinite)
@@ -207,7 +217,7 @@ impl<const N: usize> Explicit<N> {
     pub fn fixed_step(&mut self, system: &impl System<N>, h: f64) {
         self.h = h;
         self.k[0] = self.k[self.tableau.last];
-        let y = self.attempt(system);
+        let (y, _) = self.attempt(system);
         self.accept(self.t + h, y, 0.0);
         self.h = h;
     }
@@ -248,55 +258,93 @@ impl<const N: usize> Explicit<N> {
         system.rates(t, y)
     }
 
-    /// All stages of a step of size h from (t, y); the state at its end.
-    fn attempt(&mut self, system: &impl System<N>) -> [f64; N] {
-        let (t, h, start) = (self.t, self.h, self.y);
-        let (end, inner) = self.tableau.stages.split_last().expect("a tableau has stages");
-        // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j); the last stage stands at the end of the step
-        for (i, stage) in (1..).zip(inner) {
-            let y = self.advanced(&start, h, stage.a);
-            self.k[i] = self.evaluate(system, t + stage.c * h, &y);
+    /// All stages of a step of size h from (t, y); the state at its end, and the norm of its error in units of the
+    /// tolerance [1].
+    fn attempt(&mut self, system: &impl System<N>) -> ([f64; N], f64) {
+        if self.tableau == Dop853::TABLEAU {
+            self.attempt_with::<Dop853, _>(system)
+        } else {
+            self.attempt_with::<Dopri5, _>(system)
         }
-        let y = self.ended(&start, h, end.a);
-        self.k[self.tableau.last] = self.evaluate(system, t + h, &y);
-        y
+    }
+
+    /// [`Explicit::attempt`] with the coefficients as constants: every sum is written out by the compiler.
+    #[inline(never)]
+    fn attempt_with<P: Pair, F: System<N>>(&mut self, system: &F) -> ([f64; N], f64) {
+        let (t, h, start) = (self.t, self.h, self.y);
+        let mut newest = self.k[0];
+        // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
+        macro_rules! stages {
+            ($($i:literal)*) => {$(
+                if $i < P::TABLEAU.last {
+                    let stage: &Stage = const { P::TABLEAU.stage($i) };
+                    let y = self.advanced::<F>(&start, h, stage.a, &newest);
+                    newest = self.evaluate(system, t + stage.c * h, &y);
+                    self.k[$i] = newest;
+                }
+            )*};
+        }
+        stages! { 1 2 3 4 5 6 7 8 9 10 11 12 }
+        // The last stage stands at the end of the step.
+        let y = self.ended(&start, h, const { P::TABLEAU.stage(P::TABLEAU.last) }.a);
+        // Where the error does not need that stage, it is begun before it: the next step's size waits for it.
+        let error = const { !P::TABLEAU.error.needs(P::TABLEAU.last) }.then(|| self.error_norm::<P>(&y));
+        self.k[P::TABLEAU.last] = self.evaluate(system, t + h, &y);
+        (y, error.unwrap_or_else(|| self.error_norm::<P>(&y)))
     }
 
     /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
     /// is not 1: a uniform rotation would run away from its angle by 3e-9 rad in 10⁶ turns.
+    #[inline(always)]
     fn ended(&self, y: &[f64; N], h: f64, b: Combination) -> [f64; N] {
-        let first = &self.k[0];
-        let mut sum = [0.0; N];
-        for &(j, coefficient) in &b[1..] {
-            for n in 0..N {
-                sum[n] += coefficient * (self.k[j][n] - first[n]);
+        let mut end = [0.0; N];
+        for p in 0..pairs(N) {
+            let first = pair(&self.k[0], p);
+            let mut sum = both(0.0);
+            for &(j, coefficient) in &b[1..] {
+                sum += both(coefficient) * (pair(&self.k[j], p) - first);
             }
+            put(&mut end, p, pair(y, p) + both(h) * (first + sum));
         }
-        std::array::from_fn(|n| y[n] + h * (first[n] + sum[n]))
+        end
     }
 
-    /// y + h Σ a_j k_j.
-    fn advanced(&self, y: &[f64; N], h: f64, a: Combination) -> [f64; N] {
-        let sum = self.combined(a);
-        std::array::from_fn(|n| y[n] + h * sum[n])
+    /// y + h Σ a_j k_j of what the rates depend on; the last stage of the sum, which is `newest`, comes last, for it is the
+    /// one that is waited for.
+    #[inline(always)]
+    fn advanced<F: System<N>>(&self, y: &[f64; N], h: f64, a: Combination, newest: &[f64; N]) -> [f64; N] {
+        let (&(_, last), older) = a.split_last().expect("a stage depends on those before it");
+        let mut there = *y;
+        for p in 0..pairs(F::DEPENDED_ON) {
+            let mut sum = both(0.0);
+            for &(j, coefficient) in older {
+                sum += both(h * coefficient) * pair(&self.k[j], p);
+            }
+            put(&mut there, p, pair(y, p) + (sum + both(h * last) * pair(newest, p)));
+        }
+        there
     }
 
     /// Σ a_j k_j.
+    #[inline(always)]
     fn combined(&self, a: Combination) -> [f64; N] {
-        let mut sum = [0.0; N];
-        for &(j, coefficient) in a {
-            for (sum, k) in sum.iter_mut().zip(&self.k[j]) {
-                *sum += coefficient * k;
+        let mut combined = [0.0; N];
+        for p in 0..pairs(N) {
+            let mut sum = both(0.0);
+            for &(j, coefficient) in a {
+                sum += both(coefficient) * pair(&self.k[j], p);
             }
+            put(&mut combined, p, sum);
         }
-        sum
+        combined
     }
 
     /// The norm of the error of the step that ends at `y`, in units of the tolerance [1].
-    fn error_norm(&self, y: &[f64; N]) -> f64 {
-        let size: [f64; N] = std::array::from_fn(|n| self.y[n].abs().max(y[n].abs()));
-        let mean_square = |e: Combination| self.mean_square(&self.combined(e), &size);
-        match self.tableau.error {
+    #[inline(always)]
+    fn error_norm<P: Pair>(&self, y: &[f64; N]) -> f64 {
+        let weights = self.weights(&std::array::from_fn(|n| self.y[n].abs().max(y[n].abs())));
+        let mean_square = |e: Combination| self.mean_square(&self.combined(e), &weights);
+        match const { &P::TABLEAU.error } {
             ErrorRule::Single(e) => self.h * mean_square(e).sqrt(),
             ErrorRule::Blend { fine, coarse } => {
                 let (fine, coarse) = (mean_square(fine), mean_square(coarse));
@@ -305,32 +353,51 @@ impl<const N: usize> Explicit<N> {
         }
     }
 
-    /// The mean square of `v` in units of the tolerance at a state of this `size` [1].
-    fn mean_square(&self, v: &[f64; N], size: &[f64; N]) -> f64 {
+    /// What one unit of each component counts in the error norm, at a state of this `size`.
+    #[inline(always)]
+    fn weights(&self, size: &[f64; N]) -> [f64; N] {
         let Tolerance { absolute, relative } = &self.tolerance;
-        // eq. 22: err² = (1/n) Σ (err_i/sc_i)², sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
-        (0..N).map(|n| square(v[n] / (absolute[n] + relative[n] * size[n]))).sum::<f64>() / N as f64
+        let mut weights = [0.0; N];
+        for p in 0..pairs(N) {
+            // eq. 22: sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
+            put(&mut weights, p, both(1.0) / (pair(absolute, p) + pair(relative, p) * pair(size, p)));
+        }
+        weights
+    }
+
+    /// The mean square of `v`, each component by its weight [1].
+    #[inline(always)]
+    fn mean_square(&self, v: &[f64; N], weights: &[f64; N]) -> f64 {
+        let mut squares = both(0.0);
+        for p in 0..pairs(N) {
+            let weighted = pair(v, p) * pair(weights, p);
+            squares += weighted * weighted;
+        }
+        // eq. 22: err² = (1/n) Σ (err_i/sc_i)²
+        sum(squares) * self.share
     }
 
     fn accept(&mut self, end: f64, y: [f64; N], error: f64) {
-        self.segment = Segment { t: self.t, h: self.h, y: self.y, r: self.segment.r, dense: false };
+        let segment = &mut self.segment;
+        (segment.t, segment.h, segment.y, segment.dense) = (self.t, self.h, self.y, false);
+        // The segment ends at y: r_2 holds the difference until the rest is asked for.
+        segment.r[0] = std::array::from_fn(|n| y[n] - self.y[n]);
         self.t = end;
         self.y = y;
         self.cost.steps += 1.0;
         self.cost.error_estimate += error;
         self.h *= self.controller.accepted(error);
-        // The segment ends at y: r_2 holds the difference until the rest is asked for.
-        self.segment.r[0] = std::array::from_fn(|n| y[n] - self.segment.y[n]);
     }
 
     /// Prepares the last step for [`Explicit::dense`], which otherwise does so when first asked.
-    pub fn prepare_dense(&mut self, system: &impl System<N>) {
+    pub fn prepare_dense<F: System<N>>(&mut self, system: &F) {
         if self.segment.dense {
             return;
         }
         let (t, h, start) = (self.segment.t, self.segment.h, self.segment.y);
         for (i, stage) in (self.tableau.last + 1..).zip(self.tableau.dense_stages) {
-            let y = self.advanced(&start, h, stage.a);
+            let newest = self.k[stage.a.last().expect("a stage depends on those before it").0];
+            let y = self.advanced::<F>(&start, h, stage.a, &newest);
             self.k[i] = self.evaluate(system, t + stage.c * h, &y);
         }
         let (first, last) = (self.k[0], self.k[self.tableau.last]);
@@ -347,18 +414,18 @@ impl<const N: usize> Explicit<N> {
     /// A first step from the sizes of y, dy/dt and the change of dy/dt (Hairer, Nørsett and Wanner I, section II.4).
     fn first_step(&mut self, system: &impl System<N>) -> f64 {
         let (t, y, rate) = (self.t, self.y, self.k[self.tableau.last]);
-        let sizes = y.map(f64::abs);
-        let (size, speed) = (self.mean_square(&y, &sizes).sqrt(), self.mean_square(&rate, &sizes).sqrt());
+        let weights = self.weights(&y.map(f64::abs));
+        let (size, speed) = (self.mean_square(&y, &weights).sqrt(), self.mean_square(&rate, &weights).sqrt());
         let trial = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
         let ahead: [f64; N] = std::array::from_fn(|n| y[n] + trial * rate[n]);
         let rate_ahead = self.evaluate(system, t + trial, &ahead);
         let change: [f64; N] = std::array::from_fn(|n| rate_ahead[n] - rate[n]);
-        let curvature = self.mean_square(&change, &sizes).sqrt() / trial;
+        let curvature = self.mean_square(&change, &weights).sqrt() / trial;
         let largest = speed.max(curvature);
         let step = if largest <= 1e-15 {
             (trial * 1e-3).max(1e-6)
         } else {
-            libm::pow(0.01 / largest, 1.0 / self.tableau.error_order)
+            power(0.01 / largest, 1.0 / self.tableau.error_order)
         };
         if step.is_finite() { step.min(100.0 * trial) } else { trial }
     }
@@ -378,8 +445,4 @@ impl Obstacle {
             Obstacle::Refused(reason) => Fault::Refused { t, reason },
         }
     }
-}
-
-fn square(x: f64) -> f64 {
-    x * x
 }

@@ -3,8 +3,8 @@
 mod dop853;
 mod dopri5;
 
-pub use dop853::DOP853;
-pub use dopri5::DOPRI5;
+pub use dop853::{DOP853, Dop853};
+pub use dopri5::{DOPRI5, Dopri5};
 
 use crate::stored::{Damaged, Stored, Walk, choice};
 
@@ -50,6 +50,20 @@ pub struct Tableau {
     pub dense: &'static [Combination],
 }
 
+impl Tableau {
+    /// The stage of this number, counted from 0; the first, which is the rate at the start, is none of the list.
+    pub const fn stage(&self, number: usize) -> &Stage {
+        const NONE: &Stage = &Stage { c: 0.0, a: &[(0, 0.0)] };
+        if 0 < number && number <= self.last { &self.stages[number - 1] } else { NONE }
+    }
+}
+
+/// A tableau as a type, for what is compiled for it.
+pub trait Pair {
+    /// The coefficients.
+    const TABLEAU: &'static Tableau;
+}
+
 /// How the error of a step is estimated.
 #[derive(Debug)]
 pub enum ErrorRule {
@@ -62,6 +76,27 @@ pub enum ErrorRule {
         /// Of order 3.
         coarse: Combination,
     },
+}
+
+impl ErrorRule {
+    /// Whether the estimate needs this stage.
+    pub const fn needs(&self, stage: usize) -> bool {
+        match self {
+            Self::Single(e) => contains(e, stage),
+            Self::Blend { fine, coarse } => contains(fine, stage) || contains(coarse, stage),
+        }
+    }
+}
+
+const fn contains(combination: Combination, stage: usize) -> bool {
+    let mut i = 0;
+    while i < combination.len() {
+        if combination[i].0 == stage {
+            return true;
+        }
+        i += 1;
+    }
+    false
 }
 
 /// The most stages of any tableau, those for dense output included.

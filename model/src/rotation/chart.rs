@@ -58,6 +58,11 @@ impl Chart {
         gamma.norm_squared() > Self::SWITCH * Self::SWITCH
     }
 
+    /// Whether the axis at this γ [rad] is tilted from e by more than π/2.
+    pub fn is_tilted_back(self, gamma: Vector2<f64>) -> bool {
+        (gamma.norm_squared() > FRAC_PI_2 * FRAC_PI_2) == (self == Chart::FromE)
+    }
+
     /// The chart and γ [rad] in which a motion begins, given γ from e.
     pub fn best(gamma: Vector2<f64>) -> (Self, Vector2<f64>) {
         if gamma.norm_squared() <= FRAC_PI_2 * FRAC_PI_2 {

@@ -20,17 +20,16 @@ struct Coefficients<S> {
 
 impl<S: Scalar> Coefficients<S> {
     fn new(theta_squared: S) -> Self {
-        let x = theta_squared * S::constant(0.25);
-        let (c, j) = (series::cosine(x), series::bessel(x));
+        let [c, j_quarter] = series::cosine_and_bessel(theta_squared);
         // eq. 9
-        let s = c + x * j;
-        let quarter = S::constant(0.25);
+        let s = c + theta_squared * j_quarter;
+        let quarter = s * s * S::constant(0.25);
         // eq. 10; 1 − sc = (1 − c²) + c(c − s) = x s² − x j c, and 1 − q = 1 − c/s = x j/s
         Self {
             sinc: s * c,
-            versine: s * s * (quarter + quarter),
-            cubic: (s * s - j * c) * quarter,
-            inverse: j / s * quarter,
+            versine: quarter + quarter,
+            cubic: quarter - j_quarter * c,
+            inverse: j_quarter / s,
         }
     }
 }

@@ -6,48 +6,22 @@
 
 use crate::scalar::Scalar;
 
-/// cos √x.
-const COSINE: [f64; 9] = [
-    1.0,
-    -0.5,
-    0.04166666666666666,
-    -0.0013888888888884767,
-    2.480158729891355e-05,
-    -2.7557318573366175e-07,
-    2.0876681558867395e-09,
-    -1.1466252259718479e-11,
-    4.6464359591124806e-14,
+/// The coefficients of c, and of j/4 beside them, in powers of θ² = 4x: powers of two change no bit.
+const COSINE_AND_BESSEL: [[f64; 2]; 9] = [
+    [1.0, 0.08333333333333333],
+    [-0.125, -0.002083333333333333],
+    [0.002604166666666666, 1.8601190476184376e-05],
+    [-2.170138888888245e-05, -8.611662256506244e-08],
+    [9.688120038638106e-08, 2.4464948993296723e-10],
+    [-2.6911443919302906e-10, -4.704780554900853e-13],
+    [5.09684608370786e-13, 6.531843743988422e-16],
+    [-6.998444982738329e-16, -6.671602766625949e-19],
+    [7.089898619251222e-19, 0.0],
 ];
 
-/// (sin √x / √x − cos √x) / x.
-const BESSEL: [f64; 8] = [
-    0.3333333333333333,
-    -0.033333333333333326,
-    0.0011904761904758,
-    -2.2045855376655984e-05,
-    2.5052107769135844e-07,
-    -1.9270781152873893e-09,
-    1.0701772790150631e-11,
-    -4.372301589135982e-14,
-];
-
-/// c = cos(θ/2), of x = θ²/4 in [0, π²/4].
+/// c = cos(θ/2), and a quarter of j = (sin(θ/2)/(θ/2) − cos(θ/2))/x, x = θ²/4, of θ² in [0, π²]. j is the spherical Bessel
+/// function j₁(θ/2) over θ/2.
 #[inline(always)]
-pub fn cosine<S: Scalar>(x: S) -> S {
-    horner(&COSINE, x)
-}
-
-/// j = (sin(θ/2)/(θ/2) − cos(θ/2))/x, of x = θ²/4 in [0, π²/4]; the spherical Bessel function j₁(θ/2) over θ/2.
-#[inline(always)]
-pub fn bessel<S: Scalar>(x: S) -> S {
-    horner(&BESSEL, x)
-}
-
-#[inline(always)]
-fn horner<S: Scalar, const N: usize>(coefficients: &[f64; N], x: S) -> S {
-    let mut sum = S::constant(coefficients[N - 1]);
-    for i in (0..N - 1).rev() {
-        sum = sum * x + S::constant(coefficients[i]);
-    }
-    sum
+pub fn cosine_and_bessel<S: Scalar>(theta_squared: S) -> [S; 2] {
+    S::polynomials(&COSINE_AND_BESSEL, theta_squared)
 }

@@ -14,34 +14,42 @@ pub struct Tilt<S: Scalar> {
     gamma: Vector2<S>,
     /// The rotor axis t [1].
     pub axis: Vector3<S>,
-    /// θ²/4 [rad²], θ = |γ| in the chart
-    x: S,
-    /// τ = tan(θ/2)/θ [1]
-    tau: S,
-    /// κ = (1 − θ cot θ)/θ² [1]
-    kappa: S,
+    /// θ² [rad²], θ = |γ| in the chart
+    theta_squared: S,
+    /// s²/4 [1]
+    quarter: S,
+    /// (jc + s²)/4 [1]
+    numerator: S,
+    /// θ/sin θ [1]
+    per_sinc: S,
 }
 
 impl<S: Scalar> Tilt<S> {
     /// The tilt of γ = (0, γ_y, γ_z) [rad] in a chart.
     #[inline(always)]
     pub fn new(chart: Chart, gamma: Vector2<S>) -> Self {
-        let x = gamma.dot(&gamma) * S::constant(0.25);
+        let theta_squared = gamma.dot(&gamma);
         // eq. 9: s = sin(θ/2)/(θ/2) = c + x j
-        let (c, j) = (series::cosine(x), series::bessel(x));
-        let s = c + x * j;
-        // eq. 10: cos θ = c² − x s², sin θ/θ = s c, τ = s/(2c), κ = (j c + s²)/(4 s c)
-        let s_squared = s * s;
+        let [c, j_quarter] = series::cosine_and_bessel(theta_squared);
+        let s = c + theta_squared * j_quarter;
+        // eq. 10: cos θ = c² − x s², sin θ/θ = s c, κ = (j c + s²)/4 · θ/sin θ
         let sinc = s * c;
-        let quarter = S::constant(0.25) / sinc;
-        let cos_theta = c * c - x * s_squared;
-        let tau = (s_squared + s_squared) * quarter;
-        let kappa = (j * c + s_squared) * quarter;
+        let quarter = s * s * S::constant(0.25);
+        let cos_theta = c * c - theta_squared * quarter;
+        let numerator = j_quarter * c + quarter;
+        let per_sinc = S::one() / sinc;
         // eq. 2, eq. 29: t = ±(e cos θ + (sin θ/θ) γ×e)
         let sign = S::constant(chart.sign());
         let across = sign * sinc;
         let axis = Vector3::new(sign * cos_theta, across * gamma.y, -(across * gamma.x));
-        Self { chart, gamma, axis, x, tau, kappa }
+        Self { chart, gamma, axis, theta_squared, quarter, numerator, per_sinc }
+    }
+
+    /// τ = tan(θ/2)/θ [1].
+    #[inline(always)]
+    fn tau(&self) -> S {
+        // eq. 10: τ = s/(2c) = 2 s²/4 · θ/sin θ
+        (self.quarter + self.quarter) * self.per_sinc
     }
 
     /// g = γ×e in the chart, whose length is θ [rad].
@@ -54,15 +62,16 @@ impl<S: Scalar> Tilt<S> {
     #[inline(always)]
     pub fn phi_rate(&self, omega: &Vector3<S>) -> S {
         // eq. 6, eq. 29: dφ/dt = ±(e·ω + τ g·ω)
-        S::constant(self.chart.sign()) * (omega.x + self.tau * omega.yz().dot(&self.g()))
+        S::constant(self.chart.sign()) * (omega.x + self.tau() * omega.yz().dot(&self.g()))
     }
 
     /// dγ/dt in the chart [rad/s], its y and z components, of a rotor that turns at ω [rad/s].
     #[inline(always)]
     pub fn gamma_rate(&self, omega: &Vector3<S>) -> Vector2<S> {
-        // eq. 8: dγ/dt = ω_⊥ − (e·ω + κ g·ω) g
         let g = self.g();
-        omega.yz() - g * (omega.x + self.kappa * omega.yz().dot(&g))
+        let across = self.numerator * omega.yz().dot(&g);
+        // eq. 8: dγ/dt = ω_⊥ − (e·ω) g − κ (g·ω) g; the division in κ takes longest, so what it gives is waited for last
+        (omega.yz() - g * omega.x) - g * across * self.per_sinc
     }
 
     /// The axial rate ω_φ = dφ/dt [rad/s], φ from e, of a rotor that turns at ω [rad/s]. At t = −e, where it has no
@@ -72,8 +81,8 @@ impl<S: Scalar> Tilt<S> {
         if self.chart == Chart::FromE {
             return in_chart;
         }
-        // eq. 30: ω_φ = e·ω − cot(θ′/2)/θ′ g′·ω = e·ω − (g′·ω)/(4xτ)
-        let rate = omega.x - omega.yz().dot(&self.g()) / (self.x * self.tau * S::constant(4.0));
+        // eq. 30: ω_φ = e·ω − cot(θ′/2)/θ′ g′·ω = e·ω − (g′·ω)/(θ′²τ)
+        let rate = omega.x - omega.yz().dot(&self.g()) / (self.theta_squared * self.tau());
         if rate.re().is_finite() { rate } else { in_chart }
     }
 
@@ -83,9 +92,9 @@ impl<S: Scalar> Tilt<S> {
         let g = self.g();
         let across = match self.chart {
             // eq. 6: n = e + τ g
-            Chart::FromE => g * self.tau,
-            // eq. 30: n = e − g′/(4xτ)
-            Chart::FromMinusE => -g / (self.x * self.tau * S::constant(4.0)),
+            Chart::FromE => g * self.tau(),
+            // eq. 30: n = e − g′/(θ′²τ)
+            Chart::FromMinusE => -g / (self.theta_squared * self.tau()),
         };
         Vector3::new(S::one(), across.x, across.y)
     }
@@ -95,13 +104,12 @@ impl<S: Scalar> Tilt<S> {
         self.chart
     }
 
-    /// γ from e [rad], |γ| ≤ π.
+    /// γ_y and γ_z from e [rad], |γ| ≤ π.
     #[inline(always)]
-    pub fn gamma(&self) -> Vector3<S> {
-        let gamma = match self.chart {
+    pub fn gamma(&self) -> Vector2<S> {
+        match self.chart {
             Chart::FromE => self.gamma,
             Chart::FromMinusE => crossed(self.gamma),
-        };
-        Vector3::new(S::zero(), gamma.x, gamma.y)
+        }
     }
 }

@@ -6,7 +6,7 @@ use crate::integrate::explicit::Explicit;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::integrate::{Cost, Fault};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
-use crate::rotation::{Angle, Chart, Tilt};
+use crate::rotation::{Angle, Chart};
 use crate::rotor::{self, Rotor};
 use crate::state::{Coordinates, DISSIPATED, GAMMA, Kinematics, PHI, SUPPLIED, WITH_WORK};
 use crate::stored::stored;
@@ -89,7 +89,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             relative_tolerance: setup.solver.relative_tolerance,
             ..Self::blank()
         };
-        drive.watch_tilt(reading.motion.axis().x);
+        drive.watch_tilt(last.gamma);
         drive
     }
 
@@ -117,8 +117,8 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         self.tilted
     }
 
-    fn watch_tilt(&mut self, axis_x: f64) {
-        self.tilted |= axis_x < 0.0 && self.rotor.effects.needs_gamma();
+    fn watch_tilt(&mut self, gamma: Vector2<f64>) {
+        self.tilted |= self.rotor.chart.is_tilted_back(gamma) && self.rotor.effects.needs_gamma();
     }
 
     /// Moves the communication point to time `t` [s], `news` being the effects whose inputs were set. On a fault it stands
@@ -149,7 +149,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         (self.rotor.chart, self.rotor.turns) = (chart, turns);
         self.rotor.effects.hear(effects);
         self.method.go_back(&self.rotor, self.t, y);
-        self.watch_tilt(self.rotor.motion(self.t, &y).axis().x);
+        self.watch_tilt(gamma(&y));
         let reached = self.rotor.reaches(gamma(&y), Chart::REACH);
         reached.map_err(|reason| Fault::Refused { t: self.t, reason })
     }
@@ -157,9 +157,16 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     /// A step that keeps to what the chart and the counting of turns allow.
     fn limit_step(&mut self) {
         let (at, rate) = (gamma(self.method.state()), gamma(self.method.rate()));
-        self.method.limit_step(LONGEST_TURN / self.method.rate()[PHI].abs());
+        // Mostly nothing limits the step, and products tell: divisions and roots would hold up the next step.
+        let (h, turning) = (self.method.next_step(), self.method.rate()[PHI].abs());
+        if h * turning > LONGEST_TURN {
+            self.method.limit_step(LONGEST_TURN / turning);
+        }
         // At its present rate γ stays within reach of its chart.
-        self.method.limit_step((Chart::REACH - at.norm()).min(LONGEST_TILT) / rate.norm());
+        let far = at.norm_squared() < (Chart::REACH - LONGEST_TILT) * (Chart::REACH - LONGEST_TILT);
+        if !far || rate.norm_squared() * h * h >= LONGEST_TILT * LONGEST_TILT {
+            self.method.limit_step((Chart::REACH - at.norm()).min(LONGEST_TILT) / rate.norm());
+        }
         if self.rotor.chart == Chart::FromMinusE {
             // dβ/dt = e·(γ×dγ/dt)/|γ|²
             self.method.limit_step(LONGEST_WHIRL * at.norm_squared() / at.perp(&rate).abs());
@@ -197,7 +204,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     fn settle(&mut self, t: f64) {
         let y = *self.method.state();
         let gamma = gamma(&y);
-        self.watch_tilt(Tilt::new(self.rotor.chart, gamma).axis.x);
+        self.watch_tilt(gamma);
         let turns = self.turns_at(self.method.time(), gamma);
         let chart = self.rotor.chart;
         if chart.is_left_at(gamma) {

@@ -159,12 +159,12 @@ impl<E: Effects> Open<E> {
     /// Where the motion is now.
     fn here(&self) -> Completed {
         let motion = self.rotor.motion(self.t, &self.state);
-        Completed { t: self.t, gamma: motion.at.gamma, rate: motion.tilt.gamma_rate(&motion.omega) }
+        Completed { t: self.t, gamma: motion.at.gamma, rate: motion.gamma_rate() }
     }
 
     fn watch_tilt(&mut self) {
-        let tilted = self.rotor.motion(self.t, &self.state).axis().x < 0.0;
-        self.tilted |= tilted && self.rotor.effects.needs_gamma();
+        let gamma = Coordinates::from_slice(&self.state).gamma;
+        self.tilted |= self.rotor.chart.is_tilted_back(gamma) && self.rotor.effects.needs_gamma();
     }
 }
 

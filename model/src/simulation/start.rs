@@ -31,7 +31,7 @@ impl<E: Effects> Motion<E> {
         };
         let mut state = [0.0; WITH_WORK];
         coordinates.write(&mut state);
-        Self { rotor: Rotor { body, effects: parameters.effects.clone(), chart, turns: phi.turns }, state }
+        Self { rotor: Rotor { body: body.into(), effects: parameters.effects.clone(), chart, turns: phi.turns }, state }
     }
 
     /// φ with all its turns in the state, as a host integrates it.
@@ -57,8 +57,8 @@ pub(super) fn tolerance<const N: usize>(setup: &Setup) -> Tolerance<N> {
     let nominal = nominals(&setup.rotor);
     let absolute = std::array::from_fn(|n| in_nominals * nominal[n]);
     let mut tolerance = Tolerance { absolute, relative: [solver.relative_tolerance; N] };
-    // φ counts with 1 rad, not with its size, which the whole turns would make arbitrary.
-    tolerance.absolute[PHI] += solver.relative_tolerance;
+    // φ is a quadrature.
+    tolerance.absolute[PHI] = f64::INFINITY;
     tolerance.relative[PHI] = 0.0;
     tolerance
 }

@@ -11,9 +11,10 @@ use model::effects::support::Support;
 use model::effects::{Called, Effects, Entry, Info, named};
 use model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use model::integrate::{Tolerance, explicit::Explicit};
-use model::rotor::Rotor;
+use model::rotor::{Rotor, whole_rates};
+use model::scalar::Scalar;
 use model::simulation::Simulation;
-use model::state::{Coordinates, Kinematics};
+use model::state::{COORDINATES, Coordinates, Kinematics};
 use model::variable::{Place, Role};
 use model::variables::{Reading, of_scene};
 use nalgebra::{Vector2, Vector3};
@@ -189,7 +190,13 @@ impl Scene {
             let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
             assert!(effects.set_parameter(variable.place, *value));
         }
-        Rotor { body: self.body, effects, ..Rotor::default() }
+        Rotor { body: self.body.into(), effects, ..Rotor::default() }
+    }
+
+    /// The rates of these coordinates.
+    pub fn rates<S: Scalar>(&self, y: &[S; COORDINATES]) -> [S; COORDINATES] {
+        let rotor = self.rotor();
+        std::array::from_fn(|n| whole_rates(&rotor.effects, &rotor.motion(0.0, y))[n])
     }
 
     /// Its state at the start, in the order of the coordinates.

@@ -2,7 +2,7 @@
 //! order 7. Coefficients: Prince and Dormand 1981; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I,
 //! 2nd ed., section II.5 and the code dop853.
 
-use super::{Combination, ErrorRule, Stage, Tableau};
+use super::{Combination, ErrorRule, Pair, Stage, Tableau};
 
 /// The method.
 pub static DOP853: Tableau = Tableau {
@@ -13,6 +13,13 @@ pub static DOP853: Tableau = Tableau {
     dense_stages: DENSE_STAGES,
     dense: DENSE,
 };
+
+/// The method as a type.
+pub enum Dop853 {}
+
+impl Pair for Dop853 {
+    const TABLEAU: &'static Tableau = &DOP853;
+}
 
 const STAGES: &[Stage] = &[
     Stage { c: 0.05260015195876773, a: &[(0, 0.05260015195876773)] },

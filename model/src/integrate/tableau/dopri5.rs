@@ -1,7 +1,7 @@
 //! `dopri5`: the pair of Dormand and Prince of orders 5 and 4, with a dense output of order 4. Coefficients: Dormand and
 //! Prince 1980; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., sections II.5 and II.6.
 
-use super::{Combination, ErrorRule, Stage, Tableau};
+use super::{Combination, ErrorRule, Pair, Stage, Tableau};
 
 /// The method.
 pub static DOPRI5: Tableau = Tableau {
@@ -12,6 +12,13 @@ pub static DOPRI5: Tableau = Tableau {
     dense_stages: &[],
     dense: DENSE,
 };
+
+/// The method as a type.
+pub enum Dopri5 {}
+
+impl Pair for Dopri5 {
+    const TABLEAU: &'static Tableau = &DOPRI5;
+}
 
 const STAGES: &[Stage] = &[
     Stage { c: 1.0 / 5.0, a: &[(0, 1.0 / 5.0)] },
