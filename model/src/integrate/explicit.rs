@@ -344,13 +344,14 @@ impl<const N: usize> Explicit<N> {
     fn error_norm<P: Pair>(&self, y: &[f64; N]) -> f64 {
         let weights = self.weights(&std::array::from_fn(|n| self.y[n].abs().max(y[n].abs())));
         let mean_square = |e: Combination| self.mean_square(&self.combined(e), &weights);
-        match const { &P::TABLEAU.error } {
-            ErrorRule::Single(e) => self.h * mean_square(e).sqrt(),
+        let estimate = match const { &P::TABLEAU.error } {
+            ErrorRule::Single(e) => mean_square(e).sqrt(),
             ErrorRule::Blend { fine, coarse } => {
                 let (fine, coarse) = (mean_square(fine), mean_square(coarse));
-                if fine == 0.0 { 0.0 } else { self.h * fine / (fine + 0.01 * coarse).sqrt() }
+                if fine == 0.0 { 0.0 } else { fine / (fine + 0.01 * coarse).sqrt() }
             }
-        }
+        };
+        self.h * P::TABLEAU.calibration * estimate
     }
 
     /// What one unit of each component counts in the error norm, at a state of this `size`.

@@ -42,6 +42,9 @@ pub struct Tableau {
     pub last: usize,
     /// How the error is estimated.
     pub error: ErrorRule,
+    /// What the estimate is multiplied by, so that the tolerance means for every method about the same: that the error of a
+    /// smooth run is of its size (measured in `model/tests/exact_honest_tolerance.rs`).
+    pub calibration: f64,
     /// The power of h with which the estimate falls.
     pub error_order: f64,
     /// More stages, which only dense output needs.

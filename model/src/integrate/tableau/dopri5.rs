@@ -8,6 +8,7 @@ pub static DOPRI5: Tableau = Tableau {
     stages: STAGES,
     last: STAGES.len(),
     error: ErrorRule::Single(ERROR),
+    calibration: 1.0,
     error_order: 5.0,
     dense_stages: &[],
     dense: DENSE,
