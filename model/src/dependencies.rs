@@ -83,7 +83,7 @@ fn range(variable: &Variable) -> Option<(f64, f64)> {
     match (variable.meta.kind, variable.meta.role) {
         (Kind::Real, Role::Parameter { bound, .. }) => Some(match bound {
             Bound::Finite => ANY,
-            Bound::Positive | Bound::NotNegative => (1.0, 1.5),
+            Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => (1.0, 1.5),
             Bound::Within(low, high) => (low, high),
         }),
         (Kind::Real, Role::Input { .. }) => Some(ANY),

@@ -218,6 +218,8 @@ pub enum Bound {
     Positive,
     /// ≥ 0
     NotNegative,
+    /// 0, or at least this.
+    ZeroOrFrom(f64),
     /// Within both ends.
     Within(f64, f64),
 }
@@ -230,6 +232,7 @@ impl Bound {
                 Bound::Finite => true,
                 Bound::Positive => value > 0.0,
                 Bound::NotNegative => value >= 0.0,
+                Bound::ZeroOrFrom(least) => value == 0.0 || value >= least,
                 Bound::Within(low, high) => (low..=high).contains(&value),
             }
     }
@@ -240,6 +243,7 @@ impl Bound {
             Bound::Finite => "a finite number".into(),
             Bound::Positive => "a finite number > 0".into(),
             Bound::NotNegative => "a finite number >= 0".into(),
+            Bound::ZeroOrFrom(least) => format!("0 or a finite number >= {least:?}"),
             Bound::Within(low, high) => format!("a number from {low:?} to {high:?}"),
         }
     }
@@ -248,7 +252,7 @@ impl Bound {
     pub fn range(self) -> (Option<f64>, Option<f64>) {
         match self {
             Bound::Finite => (None, None),
-            Bound::Positive | Bound::NotNegative => (Some(0.0), None),
+            Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => (Some(0.0), None),
             Bound::Within(low, high) => (Some(low), Some(high)),
         }
     }

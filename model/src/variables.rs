@@ -145,6 +145,10 @@ pub static METHODS: Enumeration = Enumeration {
 /// What a relative tolerance [1] must be: no tighter than double precision can keep.
 pub const TOLERANCES: Bound = Bound::Within(1e-14, 1e-1);
 
+/// The absolute tolerances that are possible: where a component passes zero nothing else counts, and far below the rounding
+/// of the others steps would shrink without end.
+const LEAST_ABSOLUTE: Bound = Bound::ZeroOrFrom(1e-20);
+
 type AlwaysRow = Row<Setup, Always>;
 
 fn constant<S: Scalar>(value: f64) -> S {
@@ -217,7 +221,7 @@ const SOLVER: &[AlwaysRow] = &[
         solver.absolute_tolerance,
         &ONE,
         Some(0.0),
-        Bound::NotNegative,
+        LEAST_ABSOLUTE,
         "tolerance of a step's error in nominals; 0: the relative tolerance"
     ),
     output!("solver.steps", &ONE, "steps accepted so far", |_, r| constant(r.cost.steps)),

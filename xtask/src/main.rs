@@ -56,7 +56,8 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Measure what the calls of the packaged FMU take: times, and instructions where valgrind is installed
+    /// Measure what calls of the FMU, the right-hand side and the methods' steps take: times, and instructions where
+    /// valgrind is installed
     Bench,
     /// List the scenes and the effects that each calls for
     Scenes,

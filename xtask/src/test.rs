@@ -1,7 +1,7 @@
 //! `test`: everything that must hold, as a list of jobs.
 
 use crate::run::{cargo, run};
-use crate::{c_host, fuzz, memcheck, package, paths, python, sanitize};
+use crate::{bench, c_host, fuzz, memcheck, package, paths, python, sanitize};
 use anyhow::Result;
 use model::scene::Scene;
 
@@ -12,7 +12,7 @@ type Job = fn() -> Result<()>;
 const SHORT: [Job; 4] = [rust_tests, driven_tests, other_builds, packaged_fmus];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 4] = [clients, sanitize::sanitizers, memcheck::valgrind, fuzz::fuzz];
+const LONG: [Job; 5] = [clients, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
 
 /// Runs the short jobs, and the long ones too where they are asked for.
 pub fn test(long: bool) -> Result<()> {
