@@ -1,7 +1,7 @@
 //! Explicit Runge–Kutta pairs with adaptive steps and dense output, for any [`Tableau`]. No allocation.
 
 use super::control::Controller;
-use super::lanes::{both, pair, pairs, put, sum};
+use super::lanes::{both, nothing, pair, pairs, put, sum};
 use super::power::power;
 use super::tableau::{Combination, DOP853, Dop853, Dopri5, ErrorRule, MOST_DENSE, MOST_STAGES, Pair, Stage, Tableau};
 use super::{Cost, Fault, Refusal, System, Tolerance};
@@ -188,7 +188,7 @@ impl<const N: usize> Explicit<N> {
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             self.h = end - self.t;
             self.k[0] = rate;
-            let (y, error) = self.attempt(system);
+            let (y, error) = self.attempt::<true>(system);
             let mut least_factor = 0.0;
             obstacle = if !error.is_finite() {
                 Some(Obstacle::NotFinite)
@@ -217,7 +217,7 @@ impl<const N: usize> Explicit<N> {
     pub fn fixed_step(&mut self, system: &impl System<N>, h: f64) {
         self.h = h;
         self.k[0] = self.k[self.tableau.last];
-        let (y, _) = self.attempt(system);
+        let (y, _) = self.attempt::<false>(system);
         self.accept(self.t + h, y, 0.0);
         self.h = h;
     }
@@ -259,18 +259,18 @@ impl<const N: usize> Explicit<N> {
     }
 
     /// All stages of a step of size h from (t, y); the state at its end, and the norm of its error in units of the
-    /// tolerance [1].
-    fn attempt(&mut self, system: &impl System<N>) -> ([f64; N], f64) {
+    /// tolerance [1], or 0 where it is not asked for.
+    fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> ([f64; N], f64) {
         if self.tableau == Dop853::TABLEAU {
-            self.attempt_with::<Dop853, _>(system)
+            self.attempt_with::<Dop853, _, ERROR>(system)
         } else {
-            self.attempt_with::<Dopri5, _>(system)
+            self.attempt_with::<Dopri5, _, ERROR>(system)
         }
     }
 
     /// [`Explicit::attempt`] with the coefficients as constants: every sum is written out by the compiler.
     #[inline(never)]
-    fn attempt_with<P: Pair, F: System<N>>(&mut self, system: &F) -> ([f64; N], f64) {
+    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> ([f64; N], f64) {
         let (t, h, start) = (self.t, self.h, self.y);
         let mut newest = self.k[0];
         // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
@@ -288,9 +288,14 @@ impl<const N: usize> Explicit<N> {
         // The last stage stands at the end of the step.
         let y = self.ended(&start, h, const { P::TABLEAU.stage(P::TABLEAU.last) }.a);
         // Where the error does not need that stage, it is begun before it: the next step's size waits for it.
-        let error = const { !P::TABLEAU.error.needs(P::TABLEAU.last) }.then(|| self.error_norm::<P>(&y));
+        let early = const { ERROR && !P::TABLEAU.error.needs(P::TABLEAU.last) };
+        let late = const { ERROR && P::TABLEAU.error.needs(P::TABLEAU.last) };
+        let mut error = if early { self.error_norm::<P>(&y) } else { 0.0 };
         self.k[P::TABLEAU.last] = self.evaluate(system, t + h, &y);
-        (y, error.unwrap_or_else(|| self.error_norm::<P>(&y)))
+        if late {
+            error = self.error_norm::<P>(&y);
+        }
+        (y, error)
     }
 
     /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
@@ -300,7 +305,7 @@ impl<const N: usize> Explicit<N> {
         let mut end = [0.0; N];
         for p in 0..pairs(N) {
             let first = pair(&self.k[0], p);
-            let mut sum = both(0.0);
+            let mut sum = nothing();
             for &(j, coefficient) in &b[1..] {
                 sum += both(coefficient) * (pair(&self.k[j], p) - first);
             }
@@ -316,7 +321,7 @@ impl<const N: usize> Explicit<N> {
         let (&(_, last), older) = a.split_last().expect("a stage depends on those before it");
         let mut there = *y;
         for p in 0..pairs(F::DEPENDED_ON) {
-            let mut sum = both(0.0);
+            let mut sum = nothing();
             for &(j, coefficient) in older {
                 sum += both(h * coefficient) * pair(&self.k[j], p);
             }
@@ -330,7 +335,7 @@ impl<const N: usize> Explicit<N> {
     fn combined(&self, a: Combination) -> [f64; N] {
         let mut combined = [0.0; N];
         for p in 0..pairs(N) {
-            let mut sum = both(0.0);
+            let mut sum = nothing();
             for &(j, coefficient) in a {
                 sum += both(coefficient) * pair(&self.k[j], p);
             }
@@ -369,7 +374,7 @@ impl<const N: usize> Explicit<N> {
     /// The mean square of `v`, each component by its weight [1].
     #[inline(always)]
     fn mean_square(&self, v: &[f64; N], weights: &[f64; N]) -> f64 {
-        let mut squares = both(0.0);
+        let mut squares = nothing();
         for p in 0..pairs(N) {
             let weighted = pair(v, p) * pair(weights, p);
             squares += weighted * weighted;

@@ -33,6 +33,12 @@ pub fn both(a: f64) -> f64x2 {
     f64x2::splat(a)
 }
 
+/// Where a sum starts: −0 + x = x, so nothing is added. (+0 + −0 is +0, and the compiler would have to add it.)
+#[inline(always)]
+pub fn nothing() -> f64x2 {
+    f64x2::splat(-0.0)
+}
+
 /// The sum of both.
 #[inline(always)]
 pub fn sum(pair: f64x2) -> f64 {
