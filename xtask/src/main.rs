@@ -1,9 +1,11 @@
 //! `cargo xtask`: the commands of split-rotor. One file a command; `cargo xtask --help` lists them.
 
+mod accuracy;
 mod bench;
 mod c;
 mod c_host;
 mod demo;
+mod fmu;
 mod fuzz;
 mod licences;
 mod memcheck;
@@ -56,6 +58,12 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Measure error against time for every method: table, SVG, CSV and JSON in target/accuracy/<scene>
+    Accuracy {
+        /// The scene
+        #[arg(default_value = "paper")]
+        scene: String,
+    },
     /// Measure what the calls of the packaged FMU take: times, and instructions where valgrind is installed
     Bench,
     /// List the scenes and the effects that each calls for
@@ -83,6 +91,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { long } => test::test(long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
+        Command::Accuracy { scene } => accuracy::accuracy(&scene),
         Command::Bench => bench::bench(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),

@@ -1,0 +1,85 @@
+//! `accuracy`: error against time for every method, for any scene.
+
+mod advice;
+mod files;
+mod machine;
+mod motion;
+mod reference;
+mod repeats;
+mod row;
+mod run;
+mod sweep;
+mod table;
+
+use crate::unpacked::unpack;
+use crate::{package, scenes};
+use anyhow::{Context, Result};
+use indicatif::{ProgressBar, ProgressStyle};
+use model::scene::Scene;
+use reference::Reference;
+use row::{Row, Scale};
+use run::Subject;
+
+/// What was measured of a scene.
+struct Accuracy {
+    reference: Reference,
+    rows: Vec<Row>,
+    scale: Scale,
+    /// Which method to take for which error.
+    sentences: Vec<String>,
+}
+
+/// Communication steps between two that are read, where the cost of short ones is measured.
+const SUBSTEPS: usize = 100;
+
+/// Packages the scene, measures it, and writes target/accuracy/<scene>/.
+pub fn accuracy(scene: &str) -> Result<()> {
+    let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
+    let scene = scenes::find(scene)?;
+    let library = unpack(&fmu)?.library;
+    let subject = Subject::load(&scene, &library)?;
+    let result = measure(&scene, &subject)?;
+    files::write(&scene, &result)
+}
+
+fn measure(scene: &Scene, subject: &Subject) -> Result<Accuracy> {
+    let reference = Reference::of(subject)?;
+    let experiment = &scene.experiment;
+    let scale = Scale {
+        simulated: experiment.stop - experiment.start,
+        energy: reference.energy_scale(),
+        floor: reference.floor().axis,
+    };
+    let settings = sweep::settings();
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
+    let progress = ProgressBar::new(settings.len() as u64).with_style(style);
+    let mut rows = Vec::new();
+    for setting in &settings {
+        progress.set_message(format!("{} at {}", setting.method, table::power(setting.value)));
+        rows.push(sweep::measure(subject, setting, &reference));
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    let mut sentences = advice::sentences(&rows, scale.floor, scale.simulated, experiment.stop);
+    sentences.extend(substeps(subject, &rows, scale)?);
+    Ok(Accuracy { reference, rows, scale, sentences })
+}
+
+/// What short communication steps cost, at the tightest goal that was reached.
+fn substeps(subject: &Subject, rows: &[Row], scale: Scale) -> Result<Option<String>> {
+    let reached = advice::GOALS.iter().rev().find_map(|goal| advice::cheapest(rows, *goal));
+    let Some((row, _)) = reached else { return Ok(None) };
+    let setting = sweep::settings().into_iter().find(|s| s.method == row.method && s.value == row.value);
+    let setting = setting.context("a row of ours has its setting")?;
+    let ratio = sweep::cost_of_substeps(subject, &setting, SUBSTEPS)?;
+    let step = scale.simulated / run::POINTS as f64;
+    Ok(Some(format!(
+        "With communication steps of {} s instead of {} s, outputs read every {} s in both, {} at {} costs {ratio:.2} \
+         times as much.",
+        step / SUBSTEPS as f64,
+        step,
+        step,
+        setting.method,
+        table::power(setting.value),
+    )))
+}
