@@ -4,6 +4,7 @@ mod advice;
 mod files;
 mod machine;
 mod motion;
+mod peers;
 mod reference;
 mod repeats;
 mod row;
@@ -25,7 +26,7 @@ struct Accuracy {
     reference: Reference,
     rows: Vec<Row>,
     scale: Scale,
-    /// Which method to take for which error.
+    /// Which method to take for which error, and what else is to be said.
     sentences: Vec<String>,
 }
 
@@ -33,16 +34,16 @@ struct Accuracy {
 const SUBSTEPS: usize = 100;
 
 /// Packages the scene, measures it, and writes target/accuracy/<scene>/.
-pub fn accuracy(scene: &str) -> Result<()> {
+pub fn accuracy(scene: &str, with_peers: bool) -> Result<()> {
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let scene = scenes::find(scene)?;
     let library = unpack(&fmu)?.library;
     let subject = Subject::load(&scene, &library)?;
-    let result = measure(&scene, &subject)?;
+    let result = measure(&scene, &subject, with_peers)?;
     files::write(&scene, &result)
 }
 
-fn measure(scene: &Scene, subject: &Subject) -> Result<Accuracy> {
+fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accuracy> {
     let reference = Reference::of(subject)?;
     let experiment = &scene.experiment;
     let scale = Scale {
@@ -51,8 +52,7 @@ fn measure(scene: &Scene, subject: &Subject) -> Result<Accuracy> {
         floor: reference.floor().axis,
     };
     let settings = sweep::settings();
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
-    let progress = ProgressBar::new(settings.len() as u64).with_style(style);
+    let progress = bar(settings.len());
     let mut rows = Vec::new();
     for setting in &settings {
         progress.set_message(format!("{} at {}", setting.method, table::power(setting.value)));
@@ -62,7 +62,25 @@ fn measure(scene: &Scene, subject: &Subject) -> Result<Accuracy> {
     progress.finish_and_clear();
     let mut sentences = advice::sentences(&rows, scale.floor, scale.simulated, experiment.stop);
     sentences.extend(substeps(subject, &rows, scale)?);
+    if with_peers {
+        match peers::refusal(scene) {
+            Some(why) => sentences.push(why),
+            None => {
+                let progress = bar(peers::PEERS.len());
+                let (theirs, left_out) = peers::measure(scene, &reference, &progress)?;
+                progress.finish_and_clear();
+                rows.extend(theirs);
+                sentences.extend(left_out);
+            }
+        }
+    }
     Ok(Accuracy { reference, rows, scale, sentences })
+}
+
+/// A bar where a person watches.
+fn bar(length: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
+    ProgressBar::new(length as u64).with_style(style)
 }
 
 /// What short communication steps cost, at the tightest goal that was reached.

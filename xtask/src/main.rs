@@ -63,6 +63,9 @@ enum Command {
         /// The scene
         #[arg(default_value = "paper")]
         scene: String,
+        /// Also what a user would pick instead: heyoka, SciPy, CVODE, Exudyn, MuJoCo, and two Rust crates
+        #[arg(long)]
+        peers: bool,
     },
     /// Measure what the calls of the packaged FMU take: times, and instructions where valgrind is installed
     Bench,
@@ -91,7 +94,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { long } => test::test(long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
-        Command::Accuracy { scene } => accuracy::accuracy(&scene),
+        Command::Accuracy { scene, peers } => accuracy::accuracy(&scene, peers),
         Command::Bench => bench::bench(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),

@@ -13,6 +13,8 @@ pub struct Point {
     pub angle: f64,
     /// What the energy ledger leaves over: zero for an exact solution [J].
     pub residual: f64,
+    /// Kinetic and potential energy [J].
+    pub energy: f64,
     /// Kinetic energy [J].
     pub kinetic: f64,
 }
@@ -80,8 +82,15 @@ fn length(a: [f64; 3]) -> f64 {
 mod tests {
     use super::*;
 
-    const EXACT: Point =
-        Point { r_c: [1.0, 2.0, 3.0], axis: [1.0, 0.0, 0.0], turns: 7.0, angle: 0.25, residual: 0.0, kinetic: 4.0 };
+    const EXACT: Point = Point {
+        r_c: [1.0, 2.0, 3.0],
+        axis: [1.0, 0.0, 0.0],
+        turns: 7.0,
+        angle: 0.25,
+        residual: 0.0,
+        energy: 5.0,
+        kinetic: 4.0,
+    };
 
     #[test]
     fn exact_errors_of_a_known_difference() {

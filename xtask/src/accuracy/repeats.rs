@@ -1,9 +1,10 @@
 //! How often a run is repeated for its time: of all repeats the least counts, for the rest is what else the machine did.
 
 use anyhow::Result;
+use serde_json::{Value, json};
 
 /// At least so many repeats.
-const LEAST: usize = 5;
+const LEAST: usize = 3;
 /// No more than so many, however short they are.
 const MOST: usize = 200;
 /// Enough, once they took so long together [s of CPU time].
@@ -14,6 +15,11 @@ const PATIENCE: f64 = 3.0;
 /// Whether so many repeats are enough that took so long together [s].
 fn are_enough(repeats: usize, spent: f64) -> bool {
     spent >= PATIENCE || repeats >= MOST || (repeats >= LEAST && spent >= ENOUGH)
+}
+
+/// The rule for peers, who repeat their runs themselves.
+pub fn rule() -> Value {
+    json!({ "least": LEAST, "most": MOST, "enough": ENOUGH, "patience": PATIENCE })
 }
 
 /// Repeats a run that tells its CPU time [s]; the least of them, and how many there were.

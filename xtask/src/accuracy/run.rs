@@ -13,8 +13,19 @@ use std::path::Path;
 pub const POINTS: usize = 100;
 
 /// What is read at each of them.
-const OUTPUTS: [&str; 10] =
-    ["r_c.x", "r_c.y", "r_c.z", "axis.x", "axis.y", "axis.z", "turns", "angle", "energy.residual", "energy.kinetic"];
+const OUTPUTS: [&str; 11] = [
+    "r_c.x",
+    "r_c.y",
+    "r_c.z",
+    "axis.x",
+    "axis.y",
+    "axis.z",
+    "turns",
+    "angle",
+    "energy.residual",
+    "energy.total",
+    "energy.kinetic",
+];
 
 /// What is read at the end.
 const COSTS: [&str; 3] = ["solver.steps", "solver.rejected", "solver.evaluations"];
@@ -57,12 +68,11 @@ impl<'s> Subject<'s> {
 
     /// A run with this setting; between two points that are read, `substeps` communication steps.
     pub fn run(&self, setting: &Setting, substeps: usize) -> Result<Run> {
-        let Experiment { start, stop, .. } = self.scene.experiment;
         let mut instance = self.fmu.instantiate()?;
         self.set(&mut instance, setting)?;
-        instance.initialize(start, stop)?;
+        instance.initialize(self.scene.experiment.start, self.scene.experiment.stop)?;
         let steps = POINTS * substeps;
-        let time = |n: usize| if n == steps { stop } else { start + (stop - start) * n as f64 / steps as f64 };
+        let time = |n| time(&self.scene.experiment, n, steps);
         let mut points = Vec::with_capacity(POINTS);
         let began = ThreadTime::now();
         for n in 1..=steps {
@@ -86,6 +96,12 @@ impl<'s> Subject<'s> {
     }
 }
 
+/// The end of the `n`th of so many communication steps [s].
+pub fn time(experiment: &Experiment, n: usize, steps: usize) -> f64 {
+    let Experiment { start, stop, .. } = *experiment;
+    if n == steps { stop } else { start + (stop - start) * n as f64 / steps as f64 }
+}
+
 /// The value references of the scene's variables with these names.
 fn references<const N: usize>(scene: &Scene, names: [&str; N]) -> Result<[Reference; N]> {
     let mut references = [0; N];
@@ -97,6 +113,6 @@ fn references<const N: usize>(scene: &Scene, names: [&str; N]) -> Result<[Refere
 }
 
 fn point(outputs: [f64; OUTPUTS.len()]) -> Point {
-    let [x, y, z, t_x, t_y, t_z, turns, angle, residual, kinetic] = outputs;
-    Point { r_c: [x, y, z], axis: [t_x, t_y, t_z], turns, angle, residual, kinetic }
+    let [x, y, z, t_x, t_y, t_z, turns, angle, residual, energy, kinetic] = outputs;
+    Point { r_c: [x, y, z], axis: [t_x, t_y, t_z], turns, angle, residual, energy, kinetic }
 }
