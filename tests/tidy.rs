@@ -59,7 +59,7 @@ fn files(folder: &str, suffix: &str) -> Vec<PathBuf> {
 }
 
 fn rust_files() -> Vec<PathBuf> {
-    ["src", "model", "tests", "xtask", "fuzz/src"].iter().flat_map(|folder| files(folder, ".rs")).collect()
+    ["src", "model", "tests", "xtask", "fuzz/src", "benches"].iter().flat_map(|folder| files(folder, ".rs")).collect()
 }
 
 fn read(file: &Path) -> String {

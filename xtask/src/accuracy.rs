@@ -26,21 +26,24 @@ struct Accuracy {
     reference: Reference,
     rows: Vec<Row>,
     scale: Scale,
-    /// Which method to take for which error, and what else is to be said.
+    /// Which method to take for which error.
     sentences: Vec<String>,
+    /// Why there are no rows of a peer.
+    left_out: Vec<String>,
 }
 
 /// Communication steps between two that are read, where the cost of short ones is measured.
 const SUBSTEPS: usize = 100;
 
-/// Packages the scene, measures it, and writes target/accuracy/<scene>/.
-pub fn accuracy(scene: &str, with_peers: bool) -> Result<()> {
+/// Packages the scene, measures it, and writes target/accuracy/<scene>/; which peers were left out, and why.
+pub fn accuracy(scene: &str, with_peers: bool) -> Result<Vec<String>> {
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let scene = scenes::find(scene)?;
     let library = unpack(&fmu)?.library;
     let subject = Subject::load(&scene, &library)?;
     let result = measure(&scene, &subject, with_peers)?;
-    files::write(&scene, &result)
+    files::write(&scene, &result)?;
+    Ok(result.left_out)
 }
 
 fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accuracy> {
@@ -62,19 +65,15 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
     progress.finish_and_clear();
     let mut sentences = advice::sentences(&rows, scale.floor, scale.simulated, experiment.stop);
     sentences.extend(substeps(subject, &rows, scale)?);
+    let mut left_out = Vec::new();
     if with_peers {
-        match peers::refusal(scene) {
-            Some(why) => sentences.push(why),
-            None => {
-                let progress = bar(peers::PEERS.len());
-                let (theirs, left_out) = peers::measure(scene, &reference, &progress)?;
-                progress.finish_and_clear();
-                rows.extend(theirs);
-                sentences.extend(left_out);
-            }
-        }
+        let progress = bar(peers::PEERS.len());
+        let theirs = peers::measure(scene, &reference, &progress)?;
+        progress.finish_and_clear();
+        rows.extend(theirs.rows);
+        left_out = theirs.left_out;
     }
-    Ok(Accuracy { reference, rows, scale, sentences })
+    Ok(Accuracy { reference, rows, scale, sentences, left_out })
 }
 
 /// A bar where a person watches.

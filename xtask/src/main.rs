@@ -94,7 +94,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { long } => test::test(long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
-        Command::Accuracy { scene, peers } => accuracy::accuracy(&scene, peers),
+        Command::Accuracy { scene, peers } => accuracy::accuracy(&scene, peers).map(drop),
         Command::Bench => bench::bench(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),

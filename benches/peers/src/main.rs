@@ -10,10 +10,11 @@ use anyhow::{Result, bail};
 use task::Task;
 
 fn main() -> Result<()> {
-    let task = Task::read()?;
-    match std::env::args().nth(1).as_deref() {
-        Some("ode_solvers") => ode_solvers::answer(&task),
-        Some("differential-equations") => differential_equations::answer(&task),
+    let package = std::env::args().nth(1).unwrap_or_default();
+    let task = Task::read(&package)?;
+    match package.as_str() {
+        "ode_solvers" => ode_solvers::answer(&task),
+        "differential-equations" => differential_equations::answer(&task),
         _ => bail!("usage: split-rotor-peers ode_solvers|differential-equations < TASK"),
     }
     Ok(())

@@ -14,6 +14,8 @@ pub struct Task {
     pub times: Vec<f64>,
     tolerances: Vec<f64>,
     repeats: Value,
+    /// The solver's.
+    version: &'static str,
     /// Enough, once a method took so long [s].
     budget: f64,
 }
@@ -34,8 +36,11 @@ pub struct Motion {
 }
 
 impl Task {
-    /// The task on the standard input.
-    pub fn read() -> Result<Self> {
+    /// The task on the standard input, for the solver in this package.
+    pub fn read(package: &str) -> Result<Self> {
+        let locked = include_str!("../Cargo.lock");
+        let after = locked.split_once(&format!("name = \"{package}\"\nversion = \"")).map(|(_, after)| after);
+        let version = after.and_then(|after| after.split('"').next());
         let asked: Value = serde_json::from_reader(std::io::stdin())?;
         let value = |name: &str| asked["values"][name].as_f64().unwrap_or(0.0);
         let vector = |name: &str| ["x", "y", "z"].map(|c| value(&format!("{name}.{c}")));
@@ -66,6 +71,7 @@ impl Task {
             start: rotor.start(start, value("start.phi")),
             times: list("times")?,
             tolerances: list("tolerances")?,
+            version: version.with_context(|| format!("there is no package `{package}`"))?,
             repeats: asked["repeats"].clone(),
             budget: asked["budget"].as_f64().context("the task has no budget")?,
         })
@@ -78,7 +84,8 @@ impl Task {
             if began.elapsed().as_secs_f64() > self.budget {
                 break;
             }
-            let mut line = json!({ "method": method, "parameter": "tolerance", "value": tolerance });
+            let mut line =
+                json!({ "version": self.version, "method": method, "parameter": "tolerance", "value": tolerance });
             let columns = match run(tolerance) {
                 Ok(motion) => self.measured(&motion, || run(tolerance)),
                 Err(failure) => json!({ "failure": failure }),

@@ -72,7 +72,7 @@ def assembled(rotor):
 
 
 def main():
-    asked = task.read()
+    asked = task.read("exudyn")
     times, steps = asked.times, asked.steps()
 
     def prepare(step):

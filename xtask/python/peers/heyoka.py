@@ -41,7 +41,7 @@ def distinct_orders(tolerances):
 
 
 def main():
-    asked = task.read()
+    asked = task.read("heyoka")
     rotor, times = asked.rotor, asked.times
     names = [f"y{n}" for n in range(13)]
     y = heyoka.make_vars(*names)

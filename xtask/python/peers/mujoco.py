@@ -57,7 +57,7 @@ def support(rotor):
 
 
 def main():
-    asked = task.read()
+    asked = task.read("mujoco")
     rotor, times = asked.rotor, asked.times
     model = mujoco.MjModel.from_xml_string(MODEL.format(rotor=rotor, gravity=" ".join(map(repr, rotor.g))))
     data = mujoco.MjData(model)

@@ -6,7 +6,7 @@ from . import equations, task
 
 
 def main():
-    asked = task.read()
+    asked = task.read("scipy")
     rotor, times = asked.rotor, asked.times
     f, begin = equations.in_numbers(rotor), equations.start(rotor)
 

@@ -5,6 +5,7 @@ import math
 import os
 import sys
 from dataclasses import dataclass
+from importlib.metadata import version
 from time import perf_counter, process_time
 from typing import Any, Callable
 
@@ -78,8 +79,9 @@ class Attempt:
 class Task:
     """The scene, when it is looked at, and which settings are wanted."""
 
-    def __init__(self, text):
+    def __init__(self, text, package):
         asked = json.loads(text)
+        self._version = version(package)
         self.rotor = Rotor(asked["values"])
         self.times = np.array(asked["times"])
         """The start, then the communication points [s]."""
@@ -102,7 +104,7 @@ class Task:
         for value in values:
             if perf_counter() - began > self._budget:
                 break
-            line = {"method": method, "parameter": parameter, "value": value}
+            line = {"version": self._version, "method": method, "parameter": parameter, "value": value}
             try:
                 line |= self._measured(prepare(value))
             except Exception as failure:  # whatever a peer raises is its answer
@@ -144,6 +146,6 @@ class Task:
         return least, repeats
 
 
-def read():
-    """The task on the standard input."""
-    return Task(sys.stdin.read())
+def read(package):
+    """The task on the standard input, for the package of this name."""
+    return Task(sys.stdin.read(), package)

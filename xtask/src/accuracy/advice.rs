@@ -48,7 +48,7 @@ pub fn sentences(rows: &[Row], floor: f64, simulated: f64, stop: f64) -> Vec<Str
 
 /// An error, or that it is too small to be told.
 pub fn at_least(error: f64, floor: f64) -> String {
-    if error <= floor { format!("< {}", short(floor)) } else { short(error) }
+    if error <= floor && floor > 0.0 { format!("< {}", short(floor)) } else { short(error) }
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ pub fn write(scene: &Scene, result: &Accuracy) -> Result<()> {
 }
 
 fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
-    let Accuracy { reference, rows, scale, sentences } = result;
+    let Accuracy { reference, rows, scale, sentences, left_out } = result;
     let row = |row: &super::Row| -> Map<String, Value> {
         row.columns(*scale).into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     };
@@ -47,6 +47,7 @@ fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
             "agreement_at_worst": worst,
         },
         "sentences": sentences,
+        "left_out": left_out,
         "rows": rows.iter().map(row).collect::<Vec<_>>(),
     }))
 }

@@ -17,7 +17,6 @@ pub fn described() -> Result<Value> {
         "cpu": cpu,
         "cores": std::thread::available_parallelism()?.get(),
         "system": System::long_os_version().unwrap_or(std::env::consts::OS.into()),
-        "version": env!("CARGO_PKG_VERSION"),
         "rustc": rustc.split(' ').nth(1),
         "measured_at": SystemTime::now().duration_since(UNIX_EPOCH)?.as_secs(),
     }))

@@ -19,7 +19,7 @@ use std::process::Command;
 const EFFECTS: [&str; 3] = ["gravity", "support", "shaft"];
 
 /// A method of a peer begins no further setting once it took so long [s].
-const BUDGET: f64 = 20.0;
+const BUDGET: f64 = 15.0;
 
 /// Between two points of the reference the axis may lean further than at both.
 const TILT_MARGIN: f64 = 1.2;
@@ -72,31 +72,47 @@ impl Program {
     }
 }
 
+/// What peers measured.
+pub struct Peers {
+    /// Their rows.
+    pub rows: Vec<Row>,
+    /// Why there are none of some.
+    pub left_out: Vec<String>,
+}
+
 /// Why no peer can run this scene, if so.
-pub fn refusal(scene: &Scene) -> Option<String> {
+fn refusal(scene: &Scene) -> Option<String> {
     let unknown: Vec<_> =
         scene.effects.iter().map(|(info, _)| info.name).filter(|name| !EFFECTS.contains(name)).collect();
     let (known, unknown_names) = (EFFECTS.join(", "), unknown.join(", "));
     (!unknown.is_empty()).then(|| format!("Peers are left out: they know {known}, not {unknown_names}."))
 }
 
-/// The rows of all peers, and why some are left out.
-pub fn measure(scene: &Scene, reference: &Reference, progress: &ProgressBar) -> Result<(Vec<Row>, Vec<String>)> {
+/// Runs them all.
+pub fn measure(scene: &Scene, reference: &Reference, progress: &ProgressBar) -> Result<Peers> {
+    if let Some(why) = refusal(scene) {
+        return Ok(Peers { rows: Vec::new(), left_out: vec![why] });
+    }
     let task = task(scene, reference).to_string();
     let (mut rows, mut left_out) = (Vec::new(), Vec::new());
     for (name, program) in PEERS {
         progress.set_message(name);
         match program.command().and_then(|mut command| fed(&mut command, &task)) {
             Ok(lines) => {
-                for line in lines.lines() {
-                    rows.push(row(name, line, reference).with_context(|| format!("{name} printed `{line}`"))?);
+                let read = |line| row(name, line, reference).with_context(|| format!("{name} printed `{line}`"));
+                let its_rows = lines.lines().map(read).collect::<Result<Vec<_>>>()?;
+                if its_rows.iter().all(|row| row.outcome.is_err()) {
+                    let first = its_rows.first().and_then(|row| row.outcome.as_ref().err());
+                    let why = first.map_or("it printed nothing", |why| why);
+                    left_out.push(format!("{name} ran with no setting: {why}."));
                 }
+                rows.extend(its_rows);
             }
             Err(error) => left_out.push(format!("{name} is left out: {error:#}.")),
         }
         progress.inc(1);
     }
-    Ok((rows, left_out))
+    Ok(Peers { rows, left_out })
 }
 
 /// What every peer reads.
@@ -125,7 +141,8 @@ fn row(tool: &str, line: &str, reference: &Reference) -> Result<Row> {
         None => Ok(measured(&line, reference)?),
     };
     let value = line["value"].as_f64().context("it lacks value")?;
-    Ok(Row { tool: tool.into(), method: text("method")?, parameter: text("parameter")?, value, outcome })
+    let [version, method, parameter] = [text("version")?, text("method")?, text("parameter")?];
+    Ok(Row { tool: tool.into(), version, method, parameter, value, outcome })
 }
 
 fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
@@ -181,7 +198,7 @@ mod tests {
     fn exact_a_line_of_a_peer_becomes_a_row() {
         let phi = std::f64::consts::TAU + 0.5 + 1e-6;
         let line = json!({
-            "method": "RK", "parameter": "step", "value": 0.01, "cpu_time": 0.2, "repeats": 4,
+            "version": "1.0", "method": "RK", "parameter": "step", "value": 0.01, "cpu_time": 0.2, "repeats": 4,
             "steps": 7, "evaluations": null,
             "r_c": [[null, null, null], [1.0, 1e-3, 0.0]], "axis": [[1.0, 0.0, 0.0], [1.0, 0.0, 1e-5]],
             "phi": [phi, phi], "energy": [3.0, 3.5],
@@ -197,7 +214,7 @@ mod tests {
 
     #[test]
     fn exact_a_failure_of_a_peer_is_a_row_that_says_why() {
-        let line = r#"{"method": "RK", "parameter": "step", "value": 1.0, "failure": "it fell"}"#;
+        let line = r#"{"version": "1.0", "method": "RK", "parameter": "step", "value": 1.0, "failure": "it fell"}"#;
         assert_eq!(row("peer", line, &reference()).unwrap().outcome.unwrap_err(), "it fell");
         assert!(row("peer", "{}", &reference()).is_err());
     }

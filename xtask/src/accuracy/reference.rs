@@ -50,7 +50,10 @@ impl Reference {
 fn tightest(subject: &Subject, method: &'static str) -> (Setting, Result<Run>) {
     let mut runs = sweep::tolerances().into_iter().rev().map(|tolerance| {
         let setting = sweep::with_tolerance(method, tolerance);
-        (setting, subject.run(&setting, 1).context("no method can run this scene to its end"))
+        (
+            setting,
+            subject.run(&setting, 1).with_context(|| format!("no method can run {} to its end", subject.scene.name)),
+        )
     });
     let mut last = runs.next().expect("there are tolerances");
     while last.1.is_err()

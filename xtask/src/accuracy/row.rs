@@ -12,6 +12,8 @@ pub const OURS: &str = "split-rotor";
 pub struct Row {
     /// Whose method: ours, or a peer's.
     pub tool: String,
+    /// The tool's version.
+    pub version: String,
     /// The method.
     pub method: String,
     /// What chooses the accuracy.
@@ -58,6 +60,7 @@ impl Row {
         let optional = |get: &dyn Fn(&Measured) -> Option<f64>| json!(measured.and_then(get));
         vec![
             ("tool", json!(self.tool)),
+            ("version", json!(self.version)),
             ("method", json!(self.method)),
             ("parameter", json!(self.parameter)),
             ("value", json!(self.value)),
@@ -107,8 +110,8 @@ pub mod tests {
         let errors = Errors { r_c: 0.01 * axis, axis, phi: f64::NAN, energy: axis };
         let measured =
             Measured { end: errors, worst: errors, cpu_time, repeats: 5, steps: Some(7.0), evaluations: None };
-        let (tool, method, parameter) = (tool.into(), method.into(), "tolerance".into());
-        Row { tool, method, parameter, value, outcome: Ok(measured) }
+        let (tool, version, method, parameter) = (tool.into(), "1.0".into(), method.into(), "tolerance".into());
+        Row { tool, version, method, parameter, value, outcome: Ok(measured) }
     }
 
     #[test]
@@ -118,10 +121,10 @@ pub mod tests {
         let text = csv(&[row("split-rotor", "m", 1e-3, 1e-6, 0.5), failed], scale);
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[0].starts_with("tool,method,parameter,value,axis_error_rad,axis_error_told,"));
+        assert!(lines[0].starts_with("tool,version,method,parameter,value,axis_error_rad,axis_error_told,"));
         let ours: Vec<_> = lines[1].split(',').collect();
         assert_eq!(ours.len(), lines[0].split(',').count());
-        assert_eq!(ours[..6], ["split-rotor", "m", "tolerance", "0.001", "1e-6", "true"]);
+        assert_eq!(ours[..7], ["split-rotor", "1.0", "m", "tolerance", "0.001", "1e-6", "true"]);
         let column = |name| ours[lines[0].split(',').position(|column| column == name).unwrap()];
         assert_eq!(column("phi_error_rad"), "");
         assert_eq!(column("energy_drift_relative"), "5e-7");

@@ -44,7 +44,8 @@ pub struct Setting {
 /// A scene's FMU, ready to run.
 pub struct Subject<'s> {
     fmu: Fmu,
-    scene: &'s Scene,
+    /// The scene.
+    pub scene: &'s Scene,
     outputs: [Reference; OUTPUTS.len()],
     costs: [Reference; COSTS.len()],
 }

@@ -41,6 +41,7 @@ pub fn measure(subject: &Subject, setting: &Setting, reference: &Reference) -> R
     let outcome = try_measure(subject, setting, reference).map_err(|error| format!("{error:#}"));
     Row {
         tool: OURS.into(),
+        version: env!("CARGO_PKG_VERSION").into(),
         method: setting.method.into(),
         parameter: setting.parameter.into(),
         value: setting.value,

@@ -22,7 +22,9 @@ pub fn report(result: &Accuracy) -> String {
         short(worst.r_c),
         short(worst.phi),
     );
-    for part in [overview(rows, *scale), decades(result), result.sentences.join("\n")] {
+    // In Markdown, each sentence is an item.
+    let sentences = result.sentences.iter().chain(&result.left_out).map(|sentence| format!("- {sentence}\n"));
+    for part in [overview(rows, *scale), sentences.collect(), decades(result)] {
         write!(text, "\n{}\n", part.trim_end()).expect("a String can be written to");
     }
     text
@@ -41,7 +43,7 @@ fn overview(rows: &[Row], scale: Scale) -> String {
         };
         writeln!(text, "| {tool} {method}{} |", GOALS.map(cell).concat()).expect("a String can be written to");
     }
-    text + "\nIn brackets the loosest setting that reached it: a relative tolerance, or a step [s] where a peer takes one.\n"
+    text + "\nIn brackets the setting: a tolerance, or a step [s] where a method has a fixed one.\n"
 }
 
 /// Tools and methods in the order of the rows.
