@@ -54,14 +54,14 @@ fn vectors(y: &State) -> [[f64; 3]; 4] {
 impl Rotor {
     /// ω [rad/s].
     fn omega(&self, k: [f64; 3], t: [f64; 3]) -> [f64; 3] {
-        // eq. 11
+        // eq. 11: ω = K/Jt + (1/Ja − 1/Jt)(K·t) t
         let spin = (1.0 / self.ja - 1.0 / self.jt) * dot(k, t);
         std::array::from_fn(|i| k[i] / self.jt + spin * t[i])
     }
 
     /// y from what a scene gives.
     pub fn start(&self, [r_c, v_c, omega, t]: [[f64; 3]; 4], phi: f64) -> State {
-        // eq. 11
+        // eq. 11: K = Jt ω + (Ja − Jt)(ω·t) t
         let spin = (self.ja - self.jt) * dot(omega, t);
         let k: [f64; 3] = std::array::from_fn(|i| self.jt * omega[i] + spin * t[i]);
         let mut y = [phi; 13];
@@ -86,12 +86,13 @@ impl Rotor {
         let [r_c, v_c, k, t] = vectors(y);
         let w = self.omega(k, t);
         let dt = cross(w, t);
-        // eq. 6
+        // eq. 6: ω_φ = ω·n, n = (e + t)/(1 + e·t)
         let n = [1.0, t[1] / (1.0 + t[0]), t[2] / (1.0 + t[0])];
-        // eq. 14
+        // eq. 14: F = −c1 r_a − d1 v_a, M_c = −l t×F − c2 γ − d2 t×(dt/dt)
         let f: [f64; 3] = std::array::from_fn(|i| -c1 * (r_c[i] - l * t[i]) - d1 * (v_c[i] - l * dt[i]));
         let at_a = cross(f, t);
         let along = dot(w, t);
+        // eq. 2: t = e cosθ + (sinθ/θ) γ×e, so γ = (θ/sinθ) e×t
         let c2 = c2 * stretch(t);
         let gamma = [0.0, -t[2], t[1]];
         for i in 0..3 {

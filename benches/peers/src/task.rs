@@ -63,7 +63,7 @@ impl Task {
         let [y, z] = ["start.gamma.y", "start.gamma.z"].map(value);
         let theta = y.hypot(z);
         let s = if theta > 0.0 { theta.sin() / theta } else { 1.0 };
-        // eq. 2
+        // eq. 2: t = e cosθ + (sinθ/θ) γ×e
         let axis = [theta.cos(), s * z, -s * y];
         let start = [vector("start.r_c"), vector("start.v_c"), vector("start.omega"), axis];
         Ok(Self {

@@ -31,7 +31,7 @@ def support(rotor):
         t_y, t_z = cos_a * across - sin_a * up, sin_a * across + cos_a * up
         sine = math.hypot(t_y, t_z)
         f = c2 * (math.atan2(sine, t_x) / sine if sine else 1.0)
-        # eq. 14, and the joint of the shaft
+        # eq. 14: F = −c1 r_a − d1 v_a, M = −c2 γ − d2 t×(dt/dt); eq. 32: M = τ n
         along, shaft = d2 * (w_x * t_x + w_y * t_y + w_z * t_z), tau / (1.0 + t_x)
         return [
             c1 * x + d1 * v_x,

@@ -34,7 +34,7 @@ def support(rotor):
         k_x, k_y, k_z = k * (b * d + a * c), k * (c * d - a * b), 1.0 - k * (b * b + c * c)
         # The rate of the axis; q and r are the transverse rates in the body's frame.
         dt_x, dt_y, dt_z = r * j_x - q * k_x, r * j_y - q * k_y, r * j_z - q * k_z
-        # eq. 14
+        # eq. 14: F = −c1 r_a − d1 v_a, M_c = −l t×F − c2 γ − d2 t×(dt/dt); eq. 32: M = τ n
         F_x = -c1 * (x - l * t_x) - d1 * (v_x - l * dt_x)
         F_y = -c1 * (y - l * t_y) - d1 * (v_y - l * dt_y)
         F_z = -c1 * (z - l * t_z) - d1 * (v_z - l * dt_z)

@@ -39,7 +39,8 @@ class Rotor:
         self.r_c, self.v_c, self.omega = vector("start.r_c"), vector("start.v_c"), vector("start.omega")
         self.phi = values["start.phi"]
         self.gamma = [0.0, values["start.gamma.y"], values["start.gamma.z"]]
-        self.attitude = rotation(self.gamma) @ rotation([self.phi, 0.0, 0.0])  # eq. 1
+        # eq. 1: L = L(γ) L(φ e)
+        self.attitude = rotation(self.gamma) @ rotation([self.phi, 0.0, 0.0])
         self.axis = self.attitude[:, 0].tolist()
 
     def energy(self, r_c, v_c, omega, axis):
