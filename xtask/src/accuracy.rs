@@ -58,7 +58,9 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
     let progress = bar(settings.len());
     let mut rows = Vec::new();
     for setting in &settings {
-        progress.set_message(format!("{} at {}", setting.method, table::power(setting.value)));
+        if rows.last().is_none_or(|last: &Row| last.method != setting.method) {
+            tell(&progress, setting.method);
+        }
         rows.push(sweep::measure(subject, setting, &reference));
         progress.inc(1);
     }
@@ -80,6 +82,14 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
 fn bar(length: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
     ProgressBar::new(length as u64).with_style(style)
+}
+
+/// Says what is measured now: on the bar, or as a line where there is none.
+fn tell(progress: &ProgressBar, what: &'static str) {
+    progress.set_message(what);
+    if progress.is_hidden() {
+        println!("measuring {what}");
+    }
 }
 
 /// What short communication steps cost, at the tightest goal that was reached.

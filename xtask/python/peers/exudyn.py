@@ -24,9 +24,9 @@ def support(rotor):
         x, y, z = displacement
         v_x, v_y, v_z = velocity
         w_x, w_y, w_z = omega
-        _, b, c = rotation
         # Tait and Bryan's angles, turned about x, then y, then z.
-        cos_a, sin_a, cos_b = math.cos(rotation[0]), math.sin(rotation[0]), math.cos(b)
+        a, b, c = rotation
+        cos_a, sin_a, cos_b = math.cos(a), math.sin(a), math.cos(b)
         t_x, across, up = cos_b * math.cos(c), math.sin(c), -math.sin(b) * math.cos(c)
         t_y, t_z = cos_a * across - sin_a * up, sin_a * across + cos_a * up
         sine = math.hypot(t_y, t_z)

@@ -96,7 +96,7 @@ pub fn measure(scene: &Scene, reference: &Reference, progress: &ProgressBar) -> 
     let task = task(scene, reference).to_string();
     let (mut rows, mut left_out) = (Vec::new(), Vec::new());
     for (name, program) in PEERS {
-        progress.set_message(name);
+        super::tell(progress, name);
         match program.command().and_then(|mut command| fed(&mut command, &task)) {
             Ok(lines) => {
                 let read = |line| row(name, line, reference).with_context(|| format!("{name} printed `{line}`"));
