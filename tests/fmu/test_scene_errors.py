@@ -107,7 +107,7 @@ def test_exact_message_of_a_scene_that_cannot_be(xtask, tmp_path, case):
     assert described.stderr == f"error: {scene}{message}\n"
 
 
-@pytest.mark.parametrize("command", ["describe", "package", "demo"])
+@pytest.mark.parametrize("command", ["describe", "package", "demo", "accuracy"])
 def test_exact_every_command_refuses_a_bad_scene(xtask, tmp_path, command):
     """Before anything is built."""
     scene = tmp_path / "bad.toml"

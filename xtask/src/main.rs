@@ -1,9 +1,11 @@
 //! `cargo xtask`: the commands of split-rotor. One file a command; `cargo xtask --help` lists them.
 
+mod accuracy;
 mod bench;
 mod c;
 mod c_host;
 mod demo;
+mod fmu;
 mod fuzz;
 mod licences;
 mod memcheck;
@@ -56,6 +58,15 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Measure error against time for every method: table, SVG, CSV and JSON in target/accuracy/<scene>
+    Accuracy {
+        /// The scene
+        #[arg(default_value = "paper")]
+        scene: String,
+        /// Also what a user would pick instead: heyoka, SciPy, CVODE, Exudyn, MuJoCo, and two Rust crates
+        #[arg(long)]
+        peers: bool,
+    },
     /// Measure what calls of the FMU, the right-hand side and the methods' steps take: times, and instructions where
     /// valgrind is installed
     Bench,
@@ -84,6 +95,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { long } => test::test(long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
+        Command::Accuracy { scene, peers } => accuracy::accuracy(&scene, peers).map(drop),
         Command::Bench => bench::bench(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),

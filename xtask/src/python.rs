@@ -8,20 +8,21 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// An environment, before it is made.
-struct Environment {
+struct Environment<'a> {
     /// Its folder in target/.
-    folder: &'static str,
+    folder: &'a str,
     /// Its requirements in xtask/python/.
-    requirements: &'static str,
+    requirements: &'a str,
     /// The versions of Python 3 for which they were resolved.
     minors: RangeInclusive<u32>,
 }
 
 /// fmpy, pytest and what draws the report.
-const MAIN: Environment = Environment { folder: "venv", requirements: "requirements.txt", minors: 10..=u32::MAX };
+const MAIN: Environment<'static> =
+    Environment { folder: "venv", requirements: "requirements.txt", minors: 10..=u32::MAX };
 
 /// The other simulators. They do not fit beside fmpy of today: CoFMPy holds on to an old one.
-const CLIENTS: Environment =
+const CLIENTS: Environment<'static> =
     Environment { folder: "venv-clients", requirements: "requirements-clients.txt", minors: 11..=14 };
 
 /// A command of the Python that has fmpy and pytest; its environment is made first where it is missing or out of date.
@@ -37,7 +38,14 @@ pub fn clients() -> Result<()> {
     )
 }
 
-impl Environment {
+/// A command of the Python that has this peer of xtask/python/peers; each has its own, so that one that cannot be installed
+/// keeps no other from it.
+pub fn peer(name: &str) -> Result<Command> {
+    let (folder, requirements) = (format!("venv-peers/{name}"), format!("peers/requirements/{name}.txt"));
+    Environment { folder: &folder, requirements: &requirements, minors: 11..=14 }.python()
+}
+
+impl Environment<'_> {
     fn python(&self) -> Result<Command> {
         let folder = paths::target().join(self.folder);
         let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });

@@ -1,8 +1,8 @@
 //! `test`: everything that must hold, as a list of jobs.
 
 use crate::run::{cargo, run};
-use crate::{bench, c_host, fuzz, memcheck, package, paths, python, sanitize};
-use anyhow::Result;
+use crate::{accuracy, bench, c_host, fuzz, memcheck, package, paths, python, sanitize};
+use anyhow::{Result, bail};
 use model::scene::Scene;
 
 /// Runs what its name says; where it cannot, that is an error, which names what is to be installed.
@@ -12,7 +12,8 @@ type Job = fn() -> Result<()>;
 const SHORT: [Job; 4] = [rust_tests, driven_tests, other_builds, packaged_fmus];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 5] = [clients, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
+const LONG: [Job; 6] =
+    [clients, peers, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
 
 /// Runs the short jobs, and the long ones too where they are asked for.
 pub fn test(long: bool) -> Result<()> {
@@ -55,6 +56,15 @@ fn packaged_fmus() -> Result<()> {
 fn clients() -> Result<()> {
     python::clients()?;
     pytest(&["--long", "-m", "long", "tests/fmu", "tests/clients"])
+}
+
+/// What a user would pick instead of us still runs, all of it.
+fn peers() -> Result<()> {
+    let left_out = accuracy::accuracy("paper", true)?;
+    if !left_out.is_empty() {
+        bail!("{}", left_out.join(" "));
+    }
+    Ok(())
 }
 
 fn pytest(arguments: &[&str]) -> Result<()> {

@@ -1,0 +1,109 @@
+"""`cargo xtask accuracy` on a scene of the user's own: what it leaves behind, and that its errors are the true ones."""
+
+import csv
+import json
+from xml.etree import ElementTree
+
+import numpy as np
+import project
+import pytest
+
+NAME = "accuracy_of_a_second"
+STOP = 1.0  # [s]; the reference of the tests has a row there
+STEP = STOP / 100.0  # [s], as the command has it
+SWEPT = 31  # tolerances
+SAME = 1e-4  # relative, measured 3.2e-5: the reference is right to 2e-13 rad in phi
+FILES = {"accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg"}
+
+
+@pytest.fixture(scope="module")
+def measured(xtask, tmp_path_factory):
+    """The folder with the result, and what was printed."""
+    paper = (project.ROOT / "scenes" / "paper.toml").read_text(encoding="utf-8")
+    scene = tmp_path_factory.mktemp("scene") / f"{NAME}.toml"
+    scene.write_text(paper.replace("stop = 10.0", f"stop = {STOP}"), encoding="utf-8")
+    done = xtask("accuracy", scene)
+    assert (done.returncode, done.stderr) == (0, "")
+    return project.ROOT / "target" / "accuracy" / NAME, done.stdout
+
+
+@pytest.fixture(scope="module")
+def found(measured):
+    return json.loads((measured[0] / "accuracy.json").read_text(encoding="utf-8"))
+
+
+def test_exact_files_are_there_and_tell_the_same(measured, found):
+    folder, printed = measured
+    assert {path.name for path in folder.iterdir()} == FILES
+    assert (folder / "accuracy.md").read_text(encoding="utf-8") in printed
+    with (folder / "accuracy.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(found["rows"])
+    for row, same in zip(rows, found["rows"]):
+        assert row.keys() == same.keys()
+        assert float(row["axis_error_rad"]) == same["axis_error_rad"]
+
+
+def test_exact_errors_fall_with_the_tolerance(found):
+    methods = {row["method"] for row in found["rows"]}
+    assert methods == {"dopri5", "dop853"}
+    for method in methods:
+        rows = {row["value"]: row for row in found["rows"] if row["method"] == method}
+        assert len(rows) == SWEPT
+        for kind in ("axis_error_rad", "r_c_error_m", "worst_axis_error_rad"):
+            loose, middle, tight = (rows[value][kind] for value in (1e-4, 1e-8, 1e-12))
+            assert loose > 100.0 * middle > 1e4 * tight, (method, kind)
+        costs = [rows[value]["evaluations"] for value in (1e-4, 1e-8, 1e-12)]
+        assert costs == sorted(costs)
+        assert all(row["worst_axis_error_rad"] >= row["axis_error_rad"] for row in rows.values())
+
+
+def test_exact_relations_of_the_columns(found):
+    assert found["experiment"] == {"start_s": 0.0, "stop_s": STOP, "points": 100}
+    floor = found["reference"]["agreement_at_worst"]["axis_rad"]
+    assert 0.0 < floor < 1e-12  # measured 6.9e-14
+    for row in found["rows"]:
+        assert row["failure"] is None
+        assert row["real_time_factor"] == pytest.approx(STOP / row["cpu_time_s"])
+        assert row["axis_error_told"] == (row["axis_error_rad"] > floor)
+
+
+@pytest.mark.parametrize("method, number, tolerance", [("dopri5", 2, 1e-6), ("dop853", 3, 1e-7)])
+def test_literature_error_is_the_true_one(paper, found, reference, method, number, tolerance):
+    """Against quadruple precision instead of the command's own reference, with fmpy instead of the command's own calls."""
+    start = {"solver.method": number, "solver.relative_tolerance": tolerance}
+    result = paper.simulate(stop_time=STOP, output_interval=STEP, start_values=start)[-1]
+    exact = reference[np.isclose(reference["t"], STOP)][0]
+    theta = np.hypot(exact["gy"], exact["gz"])
+    axis = np.array([np.cos(theta), np.sinc(theta / np.pi) * exact["gz"], -np.sinc(theta / np.pi) * exact["gy"]])
+    off = np.linalg.norm(np.cross([result[f"axis.{c}"] for c in "xyz"], axis))
+    row = next(row for row in found["rows"] if (row["method"], row["value"]) == (method, tolerance))
+    assert row["axis_error_rad"] == pytest.approx(off, rel=SAME)
+    assert row["phi_error_rad"] == pytest.approx(abs(result["phi"] - exact["phi"]), rel=SAME)
+
+
+def test_exact_advice_is_the_cheapest_row_that_suffices(measured):
+    printed = measured[1]
+    for goal in ("1e-3", "1e-6", "1e-9"):
+        assert f"For an axis error of at most {goal} rad at t = 1 s take dop" in printed
+
+
+def test_exact_picture_has_a_curve_a_method_and_its_words(measured):
+    svg = ElementTree.parse(measured[0] / "accuracy.svg")
+    words = " ".join("".join(text.itertext()) for text in svg.iter("{http://www.w3.org/2000/svg}text"))
+    for wanted in ("split-rotor dopri5", "split-rotor dop853", "[ms]", "[rad]", "CPU", "rustc"):
+        assert wanted in words
+
+
+def test_exact_message_where_no_method_reaches_the_end(xtask, tmp_path):
+    """A rotor that tumbles to where the law of its spring ends."""
+    scene = tmp_path / "accuracy_of_nothing.toml"
+    scene.write_text(
+        "[rotor]\nm = 1.0\nJa = 1.0\nJt = 1.0\nl = 0.5\n[start]\nomega = { y = 5.0 }\n"
+        "[effects.support]\nc2 = 1e-300\n[experiment]\nstop = 1.0\n",
+        encoding="utf-8",
+    )
+    refused = xtask("accuracy", scene)
+    assert refused.returncode == 1
+    assert refused.stderr.startswith("error: no method can run accuracy_of_nothing to its end: fmi2DoStep: ")
+    assert "the tilt |gamma| reaches 3.1 rad" in refused.stderr

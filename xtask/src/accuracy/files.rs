@@ -1,0 +1,53 @@
+//! What the command leaves behind in target/accuracy/<scene>/: accuracy.md, .csv, .json and .svg.
+
+use super::row::csv;
+use super::run::{POINTS, Setting};
+use super::{Accuracy, machine, table};
+use crate::run::run;
+use crate::{paths, python};
+use anyhow::{Context, Result};
+use model::scene::Scene;
+use serde_json::{Map, Value, json};
+
+/// Writes the files, and shows the tables.
+pub fn write(scene: &Scene, result: &Accuracy) -> Result<()> {
+    let folder = paths::target().join("accuracy").join(&scene.name);
+    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let report = table::report(result);
+    let json = serde_json::to_string_pretty(&json(scene, result)?)? + "\n";
+    for (name, text) in
+        [("accuracy.md", &report), ("accuracy.csv", &csv(&result.rows, result.scale)), ("accuracy.json", &json)]
+    {
+        std::fs::write(folder.join(name), text)?;
+    }
+    run(python::python()?.arg("xtask/python/accuracy.py").arg(&folder))?;
+    println!("\n{}: {}\n\n{report}", scene.name, scene.title);
+    println!("{}", folder.join("accuracy.svg").display());
+    Ok(())
+}
+
+fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
+    let Accuracy { reference, rows, scale, sentences, left_out } = result;
+    let row = |row: &super::Row| -> Map<String, Value> {
+        row.columns(*scale).into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    };
+    let setting = |setting: &Setting| json!({ "method": setting.method, setting.parameter: setting.value });
+    let [end, worst] = reference
+        .agreement
+        .map(|errors| json!({ "axis_rad": errors.axis, "r_c_m": errors.r_c, "phi_rad": errors.phi }));
+    Ok(json!({
+        "scene": scene.name,
+        "title": scene.title,
+        "machine": machine::described()?,
+        "experiment": { "start_s": scene.experiment.start, "stop_s": scene.experiment.stop, "points": POINTS },
+        "reference": {
+            "by": setting(&reference.setting),
+            "checked_by": setting(&reference.check),
+            "agreement_at_end": end,
+            "agreement_at_worst": worst,
+        },
+        "sentences": sentences,
+        "left_out": left_out,
+        "rows": rows.iter().map(row).collect::<Vec<_>>(),
+    }))
+}

@@ -1,0 +1,228 @@
+//! What a user would pick instead, measured in the same run: libraries from PyPI, each in an environment of its own, and
+//! two Rust crates. What cannot be installed is named and left out.
+
+use super::motion::{Errors, Point};
+use super::reference::Reference;
+use super::repeats;
+use super::row::{Measured, Row};
+use super::run::{self, POINTS};
+use super::sweep;
+use crate::run::{cargo, fed, run};
+use crate::{paths, python};
+use anyhow::{Context, Result};
+use indicatif::ProgressBar;
+use model::scene::Scene;
+use serde_json::{Map, Value, json};
+use std::process::Command;
+
+/// The effects whose laws stand in the peers' equations.
+const EFFECTS: [&str; 3] = ["gravity", "support", "shaft"];
+
+/// A method of a peer begins no further setting once it took so long [s].
+const BUDGET: f64 = 15.0;
+
+/// Between two points of the reference the axis may lean further than at both.
+const TILT_MARGIN: f64 = 1.2;
+
+/// A peer's name, and what runs it.
+pub const PEERS: [(&str, Program); 7] = [
+    ("heyoka", Program::Python("heyoka")),
+    ("SciPy", Program::Python("scipy")),
+    ("scikit-sundae", Program::Python("sundae")),
+    ("Exudyn", Program::Python("exudyn")),
+    ("MuJoCo", Program::Python("mujoco")),
+    ("ode_solvers", Program::Rust("ode_solvers")),
+    ("differential-equations", Program::Rust("differential-equations")),
+];
+
+/// What runs a peer.
+#[derive(Clone, Copy)]
+pub enum Program {
+    /// A module of xtask/python/peers, and its requirements there.
+    Python(&'static str),
+    /// An argument of the program of benches/peers.
+    Rust(&'static str),
+}
+
+impl Program {
+    /// Its command; what it needs is installed or built first.
+    fn command(self) -> Result<Command> {
+        match self {
+            Program::Python(module) => {
+                let mut command = python::peer(module)?;
+                command.current_dir(paths::root().join("xtask/python")).args(["-m", &format!("peers.{module}")]);
+                // Threads of their linear algebra would count as time of the run.
+                command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
+                Ok(command)
+            }
+            Program::Rust(argument) => {
+                let target = paths::target().join("peers");
+                let manifest = paths::root().join("benches/peers/Cargo.toml");
+                run(cargo()
+                    .args(["build", "--quiet", "--release", "--locked"])
+                    .arg("--manifest-path")
+                    .arg(manifest)
+                    .arg("--target-dir")
+                    .arg(&target))?;
+                let mut command = Command::new(target.join("release/split-rotor-peers"));
+                command.arg(argument);
+                Ok(command)
+            }
+        }
+    }
+}
+
+/// What peers measured.
+pub struct Peers {
+    /// Their rows.
+    pub rows: Vec<Row>,
+    /// Why there are none of some.
+    pub left_out: Vec<String>,
+}
+
+/// Why no peer can run this scene, if so.
+fn refusal(scene: &Scene) -> Option<String> {
+    let unknown: Vec<_> =
+        scene.effects.iter().map(|(info, _)| info.name).filter(|name| !EFFECTS.contains(name)).collect();
+    let (known, unknown_names) = (EFFECTS.join(", "), unknown.join(", "));
+    (!unknown.is_empty()).then(|| format!("Peers are left out: they know {known}, not {unknown_names}."))
+}
+
+/// Runs them all.
+pub fn measure(scene: &Scene, reference: &Reference, progress: &ProgressBar) -> Result<Peers> {
+    if let Some(why) = refusal(scene) {
+        return Ok(Peers { rows: Vec::new(), left_out: vec![why] });
+    }
+    let task = task(scene, reference).to_string();
+    let (mut rows, mut left_out) = (Vec::new(), Vec::new());
+    for (name, program) in PEERS {
+        super::tell(progress, name);
+        match program.command().and_then(|mut command| fed(&mut command, &task)) {
+            Ok(lines) => {
+                let read = |line| row(name, line, reference).with_context(|| format!("{name} printed `{line}`"));
+                let its_rows = lines.lines().map(read).collect::<Result<Vec<_>>>()?;
+                if its_rows.iter().all(|row| row.outcome.is_err()) {
+                    let first = its_rows.first().and_then(|row| row.outcome.as_ref().err());
+                    let why = first.map_or("it printed nothing", |why| why);
+                    left_out.push(format!("{name} ran with no setting: {why}."));
+                }
+                rows.extend(its_rows);
+            }
+            Err(error) => left_out.push(format!("{name} is left out: {error:#}.")),
+        }
+        progress.inc(1);
+    }
+    Ok(Peers { rows, left_out })
+}
+
+/// What every peer reads.
+fn task(scene: &Scene, reference: &Reference) -> Value {
+    let named = scene.variables.iter().filter_map(|variable| {
+        let start = scene.starts.get(&variable.place.value_reference())?;
+        Some((variable.name.clone(), json!(start)))
+    });
+    let times: Vec<_> = (0..=POINTS).map(|n| run::time(&scene.experiment, n, POINTS)).collect();
+    json!({
+        "values": named.collect::<Map<_, _>>(),
+        "times": times,
+        "largest_tilt": TILT_MARGIN * reference.largest_tilt(),
+        "tolerances": sweep::swept_tolerances(),
+        "repeats": repeats::rule(),
+        "budget": BUDGET,
+    })
+}
+
+/// A row from the line that a peer printed.
+fn row(tool: &str, line: &str, reference: &Reference) -> Result<Row> {
+    let line: Value = serde_json::from_str(line)?;
+    let text = |key: &str| line[key].as_str().map(str::to_owned).with_context(|| format!("it lacks {key}"));
+    let outcome = match line["failure"].as_str() {
+        Some(why) => Err(why.to_owned()),
+        None => Ok(measured(&line, reference)?),
+    };
+    let value = line["value"].as_f64().context("it lacks value")?;
+    let [version, method, parameter] = [text("version")?, text("method")?, text("parameter")?];
+    Ok(Row { tool: tool.into(), version, method, parameter, value, outcome })
+}
+
+fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
+    let points = reference.points.iter().enumerate().map(|(n, exact)| {
+        // What is null is not known.
+        let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+        let vector = |key: &str| std::array::from_fn(|i| number(&line[key][n][i]));
+        let energy = number(&line["energy"][n]);
+        Point {
+            r_c: vector("r_c"),
+            axis: vector("axis"),
+            turns: 0.0,
+            angle: number(&line["phi"][n]),
+            // No peer keeps a ledger: the reference tells what the energy should be.
+            residual: energy - exact.energy,
+            energy,
+            kinetic: f64::NAN,
+        }
+    });
+    let [end, worst] = Errors::of(&points.collect::<Vec<_>>(), &reference.points);
+    Ok(Measured {
+        end,
+        worst,
+        cpu_time: line["cpu_time"].as_f64().context("it lacks cpu_time")?,
+        repeats: line["repeats"].as_u64().context("it lacks repeats")? as usize,
+        steps: line["steps"].as_f64(),
+        evaluations: line["evaluations"].as_f64(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accuracy::sweep::with_tolerance;
+    use crate::scenes;
+
+    fn reference() -> Reference {
+        let point = Point {
+            r_c: [1.0, 0.0, 0.0],
+            axis: [1.0, 0.0, 0.0],
+            turns: 1.0,
+            angle: 0.5,
+            residual: 0.0,
+            energy: 3.0,
+            kinetic: 2.0,
+        };
+        let errors = Errors { r_c: 0.0, axis: 0.0, phi: 0.0, energy: 0.0 };
+        let [setting, check] = ["dop853", "dopri5"].map(|method| with_tolerance(method, 1e-14));
+        Reference { setting, check, points: vec![point; 2], agreement: [errors; 2] }
+    }
+
+    #[test]
+    fn exact_a_line_of_a_peer_becomes_a_row() {
+        let phi = std::f64::consts::TAU + 0.5 + 1e-6;
+        let line = json!({
+            "version": "1.0", "method": "RK", "parameter": "step", "value": 0.01, "cpu_time": 0.2, "repeats": 4,
+            "steps": 7, "evaluations": null,
+            "r_c": [[null, null, null], [1.0, 1e-3, 0.0]], "axis": [[1.0, 0.0, 0.0], [1.0, 0.0, 1e-5]],
+            "phi": [phi, phi], "energy": [3.0, 3.5],
+        });
+        let row = row("peer", &line.to_string(), &reference()).unwrap();
+        assert_eq!((row.tool.as_str(), row.method.as_str(), row.value), ("peer", "RK", 0.01));
+        let m = row.outcome.unwrap();
+        assert_eq!((m.end.r_c, m.end.energy, m.cpu_time, m.repeats), (1e-3, 0.5, 0.2, 4));
+        assert!((m.end.axis - 1e-5).abs() < 1e-14 && (m.end.phi - 1e-6).abs() < 1e-14, "{m:?}");
+        assert!(m.worst.r_c.is_nan());
+        assert_eq!((m.steps, m.evaluations), (Some(7.0), None));
+    }
+
+    #[test]
+    fn exact_a_failure_of_a_peer_is_a_row_that_says_why() {
+        let line = r#"{"version": "1.0", "method": "RK", "parameter": "step", "value": 1.0, "failure": "it fell"}"#;
+        assert_eq!(row("peer", line, &reference()).unwrap().outcome.unwrap_err(), "it fell");
+        assert!(row("peer", "{}", &reference()).is_err());
+    }
+
+    #[test]
+    fn exact_peers_know_the_effects_of_the_scenes() {
+        for name in ["paper", "tumbling", "driven"] {
+            assert_eq!(refusal(&scenes::find(name).unwrap()), None);
+        }
+    }
+}

@@ -1,0 +1,65 @@
+//! The motion that counts as exact: the most accurate method at its limit, cross-checked by a second one.
+
+use super::motion::{Errors, Point};
+use super::run::{Run, Setting, Subject};
+use super::sweep;
+use anyhow::{Context, Result};
+
+/// The most accurate method, and the one that checks it: of another order, with other coefficients.
+const METHODS: [&str; 2] = ["dop853", "dopri5"];
+
+/// The motion that counts as exact, as far as two methods agree on it.
+pub struct Reference {
+    /// By whom.
+    pub setting: Setting,
+    /// By whom it was checked.
+    pub check: Setting,
+    /// The motion.
+    pub points: Vec<Point>,
+    /// How far the two are apart at the end and at worst.
+    pub agreement: [Errors; 2],
+}
+
+impl Reference {
+    /// Both runs, and what they make of each other.
+    pub fn of(subject: &Subject) -> Result<Self> {
+        let [(setting, exact), (check, second)] = METHODS.map(|method| tightest(subject, method));
+        let (exact, second) = (exact?, second?);
+        let agreement = Errors::of(&second.points, &exact.points);
+        Ok(Self { setting, check, points: exact.points, agreement })
+    }
+
+    /// No smaller error can be told: how far the two are apart at worst.
+    pub fn floor(&self) -> Errors {
+        self.agreement[1]
+    }
+
+    /// The largest angle of the axis with e at a communication point [rad].
+    pub fn largest_tilt(&self) -> f64 {
+        let tilt = |point: &Point| point.axis[1].hypot(point.axis[2]).atan2(point.axis[0]);
+        self.points.iter().map(tilt).fold(0.0, f64::max)
+    }
+
+    /// The largest kinetic energy [J], to which an energy drift compares.
+    pub fn energy_scale(&self) -> f64 {
+        self.points.iter().map(|point| point.kinetic).fold(0.0, f64::max)
+    }
+}
+
+/// A run of this method with the tightest tolerance that it accepts; where it accepts none, its word on the last.
+fn tightest(subject: &Subject, method: &'static str) -> (Setting, Result<Run>) {
+    let mut runs = sweep::tolerances().into_iter().rev().map(|tolerance| {
+        let setting = sweep::with_tolerance(method, tolerance);
+        (
+            setting,
+            subject.run(&setting, 1).with_context(|| format!("no method can run {} to its end", subject.scene.name)),
+        )
+    });
+    let mut last = runs.next().expect("there are tolerances");
+    while last.1.is_err()
+        && let Some(next) = runs.next()
+    {
+        last = next;
+    }
+    last
+}

@@ -1,0 +1,134 @@
+//! One row of the result: who ran with which setting, and what came of it. Its columns are those of the CSV and the keys
+//! of the JSON.
+
+use super::motion::Errors;
+use serde_json::{Value, json};
+
+/// The tool's name in our own rows.
+pub const OURS: &str = "split-rotor";
+
+/// A tool, a method and a setting, with what it measured or why it could not.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Whose method: ours, or a peer's.
+    pub tool: String,
+    /// The tool's version.
+    pub version: String,
+    /// The method.
+    pub method: String,
+    /// What chooses the accuracy.
+    pub parameter: String,
+    /// Its value.
+    pub value: f64,
+    /// What was measured, or why nothing was.
+    pub outcome: Result<Measured, String>,
+}
+
+/// What a row measured.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Errors at the last communication point.
+    pub end: Errors,
+    /// The worst over all communication points.
+    pub worst: Errors,
+    /// The least of all repeats [s].
+    pub cpu_time: f64,
+    /// How many repeats.
+    pub repeats: usize,
+    /// Accepted steps, where they are told.
+    pub steps: Option<f64>,
+    /// Evaluations of the right-hand side, where they are told.
+    pub evaluations: Option<f64>,
+}
+
+/// What the numbers of a row compare with.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale {
+    /// Simulated time [s].
+    pub simulated: f64,
+    /// For the relative energy drift [J].
+    pub energy: f64,
+    /// No smaller axis error at the end can be told [rad].
+    pub floor: f64,
+}
+
+impl Row {
+    /// Each column's name with its unit, and the value, null where there is none.
+    pub fn columns(&self, scale: Scale) -> Vec<(&'static str, Value)> {
+        let measured = self.outcome.as_ref().ok();
+        let number = |get: &dyn Fn(&Measured) -> f64| json!(measured.map(get));
+        let optional = |get: &dyn Fn(&Measured) -> Option<f64>| json!(measured.and_then(get));
+        vec![
+            ("tool", json!(self.tool)),
+            ("version", json!(self.version)),
+            ("method", json!(self.method)),
+            ("parameter", json!(self.parameter)),
+            ("value", json!(self.value)),
+            ("axis_error_rad", number(&|m| m.end.axis)),
+            ("axis_error_told", json!(measured.map(|m| m.end.axis > scale.floor))),
+            ("r_c_error_m", number(&|m| m.end.r_c)),
+            ("phi_error_rad", number(&|m| m.end.phi)),
+            ("energy_drift_J", number(&|m| m.end.energy)),
+            ("energy_drift_relative", number(&|m| m.end.energy / scale.energy)),
+            ("worst_axis_error_rad", number(&|m| m.worst.axis)),
+            ("worst_r_c_error_m", number(&|m| m.worst.r_c)),
+            ("worst_phi_error_rad", number(&|m| m.worst.phi)),
+            ("worst_energy_drift_J", number(&|m| m.worst.energy)),
+            ("cpu_time_s", number(&|m| m.cpu_time)),
+            ("repeats", json!(measured.map(|m| m.repeats))),
+            ("real_time_factor", number(&|m| scale.simulated / m.cpu_time)),
+            ("evaluations", optional(&|m| m.evaluations)),
+            ("steps", optional(&|m| m.steps)),
+            ("failure", json!(self.outcome.as_ref().err())),
+        ]
+    }
+}
+
+/// The rows as comma-separated values, with a header.
+pub fn csv(rows: &[Row], scale: Scale) -> String {
+    let rows: Vec<_> = rows.iter().map(|row| row.columns(scale)).collect();
+    let header = rows.first().into_iter().map(|row| line(row.iter().map(|(name, _)| json!(name))));
+    header.chain(rows.iter().map(|row| line(row.iter().map(|(_, value)| value.clone())))).collect()
+}
+
+fn line(fields: impl Iterator<Item = Value>) -> String {
+    let field = |value| match value {
+        Value::Null => String::new(),
+        Value::String(text) if text.contains([',', '"', '\n']) => format!("\"{}\"", text.replace('"', "\"\"")),
+        Value::String(text) => text,
+        value => value.to_string(),
+    };
+    fields.map(field).collect::<Vec<_>>().join(",") + "\n"
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+
+    /// A row of ours, or of a peer, with this axis error [rad] and time [s].
+    pub fn row(tool: &str, method: &str, value: f64, axis: f64, cpu_time: f64) -> Row {
+        let errors = Errors { r_c: 0.01 * axis, axis, phi: f64::NAN, energy: axis };
+        let measured =
+            Measured { end: errors, worst: errors, cpu_time, repeats: 5, steps: Some(7.0), evaluations: None };
+        let (tool, version, method, parameter) = (tool.into(), "1.0".into(), method.into(), "tolerance".into());
+        Row { tool, version, method, parameter, value, outcome: Ok(measured) }
+    }
+
+    #[test]
+    fn exact_what_is_not_known_stays_empty_and_text_is_quoted() {
+        let failed = Row { outcome: Err("a \"word\", and more".into()), ..row("peer", "m", 1e-3, 1.0, 1.0) };
+        let scale = Scale { simulated: 10.0, energy: 2.0, floor: 1e-9 };
+        let text = csv(&[row("split-rotor", "m", 1e-3, 1e-6, 0.5), failed], scale);
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines.len(), 3);
+        assert!(lines[0].starts_with("tool,version,method,parameter,value,axis_error_rad,axis_error_told,"));
+        let ours: Vec<_> = lines[1].split(',').collect();
+        assert_eq!(ours.len(), lines[0].split(',').count());
+        assert_eq!(ours[..7], ["split-rotor", "1.0", "m", "tolerance", "0.001", "1e-6", "true"]);
+        let column = |name| ours[lines[0].split(',').position(|column| column == name).unwrap()];
+        assert_eq!(column("phi_error_rad"), "");
+        assert_eq!(column("energy_drift_relative"), "5e-7");
+        assert_eq!(column("real_time_factor"), "20.0");
+        assert!(lines[2].ends_with(",,,\"a \"\"word\"\", and more\""), "{}", lines[2]);
+    }
+}

@@ -1,0 +1,119 @@
+//! One timed run of a scene's FMU, from its start to the stop of its experiment.
+
+use super::motion::Point;
+use crate::fmu::{Fmu, Instance, Reference};
+use anyhow::{Context, Result};
+use cpu_time::ThreadTime;
+use model::scene::{Experiment, Scene};
+use model::variables::METHODS;
+use model::xml;
+use std::path::Path;
+
+/// Outputs are read at so many communication points, evenly apart; the start is not one of them.
+pub const POINTS: usize = 100;
+
+/// What is read at each of them.
+const OUTPUTS: [&str; 11] = [
+    "r_c.x",
+    "r_c.y",
+    "r_c.z",
+    "axis.x",
+    "axis.y",
+    "axis.z",
+    "turns",
+    "angle",
+    "energy.residual",
+    "energy.total",
+    "energy.kinetic",
+];
+
+/// What is read at the end.
+const COSTS: [&str; 3] = ["solver.steps", "solver.rejected", "solver.evaluations"];
+
+/// A method and the one number by which its accuracy is chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// The method's name.
+    pub method: &'static str,
+    /// The parameter's name.
+    pub parameter: &'static str,
+    /// The parameter's value.
+    pub value: f64,
+}
+
+/// A scene's FMU, ready to run.
+pub struct Subject<'s> {
+    fmu: Fmu,
+    /// The scene.
+    pub scene: &'s Scene,
+    outputs: [Reference; OUTPUTS.len()],
+    costs: [Reference; COSTS.len()],
+}
+
+/// What a run showed and cost.
+pub struct Run {
+    /// The communication points.
+    pub points: Vec<Point>,
+    /// From after initialization to the last output read [s of CPU time].
+    pub cpu_time: f64,
+    /// Accepted steps, rejected steps, evaluations.
+    pub costs: [f64; COSTS.len()],
+}
+
+impl<'s> Subject<'s> {
+    /// The FMU of this scene, whose library lies here.
+    pub fn load(scene: &'s Scene, library: &Path) -> Result<Self> {
+        let fmu = Fmu::load(library, &xml::guid(scene))?;
+        Ok(Self { fmu, scene, outputs: references(scene, OUTPUTS)?, costs: references(scene, COSTS)? })
+    }
+
+    /// A run with this setting; between two points that are read, `substeps` communication steps.
+    pub fn run(&self, setting: &Setting, substeps: usize) -> Result<Run> {
+        let mut instance = self.fmu.instantiate()?;
+        self.set(&mut instance, setting)?;
+        instance.initialize(self.scene.experiment.start, self.scene.experiment.stop)?;
+        let steps = POINTS * substeps;
+        let time = |n| time(&self.scene.experiment, n, steps);
+        let mut points = Vec::with_capacity(POINTS);
+        let began = ThreadTime::now();
+        for n in 1..=steps {
+            instance.do_step(time(n - 1), time(n) - time(n - 1))?;
+            if n % substeps == 0 {
+                points.push(point(instance.get_real(&self.outputs)?));
+            }
+        }
+        let cpu_time = began.elapsed().as_secs_f64();
+        Ok(Run { points, cpu_time, costs: instance.get_real(&self.costs)? })
+    }
+
+    fn set(&self, instance: &mut Instance, setting: &Setting) -> Result<()> {
+        let [method, absolute, parameter] =
+            references(self.scene, ["solver.method", "solver.absolute_tolerance", setting.parameter])?;
+        let chosen = METHODS.items.iter().find(|item| item.1 == setting.method);
+        instance.set_integer(method, chosen.context("a method of the list")?.0)?;
+        // A positive one would stand in for the relative tolerance, and all runs would be alike.
+        instance.set_real(absolute, 0.0)?;
+        instance.set_real(parameter, setting.value)
+    }
+}
+
+/// The end of the `n`th of so many communication steps [s].
+pub fn time(experiment: &Experiment, n: usize, steps: usize) -> f64 {
+    let Experiment { start, stop, .. } = *experiment;
+    if n == steps { stop } else { start + (stop - start) * n as f64 / steps as f64 }
+}
+
+/// The value references of the scene's variables with these names.
+fn references<const N: usize>(scene: &Scene, names: [&str; N]) -> Result<[Reference; N]> {
+    let mut references = [0; N];
+    for (reference, name) in references.iter_mut().zip(names) {
+        let found = scene.variables.iter().find(|variable| variable.name == name);
+        *reference = found.with_context(|| format!("the scene has no variable {name}"))?.place.value_reference();
+    }
+    Ok(references)
+}
+
+fn point(outputs: [f64; OUTPUTS.len()]) -> Point {
+    let [x, y, z, t_x, t_y, t_z, turns, angle, residual, energy, kinetic] = outputs;
+    Point { r_c: [x, y, z], axis: [t_x, t_y, t_z], turns, angle, residual, energy, kinetic }
+}

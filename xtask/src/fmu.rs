@@ -1,0 +1,185 @@
+//! A packaged FMU in this process, called as a host calls it: the only `unsafe` of xtask. Safe to use as long as the
+//! library is an FMU that keeps to FMI 2.0.
+#![allow(unsafe_code, reason = "the FMU is reached through the C functions of FMI 2.0")]
+
+use anyhow::{Context, Result, bail};
+use libloading::Library;
+use std::cell::RefCell;
+use std::ffi::{CStr, CString, c_char, c_double, c_int, c_uint, c_void};
+use std::path::Path;
+use std::ptr::{NonNull, null};
+
+/// fmi2ValueReference
+pub type Reference = c_uint;
+
+type Text = *const c_char;
+type Status = c_int;
+type Component = *mut c_void;
+
+/// fmi2OK and fmi2Warning: what was asked is done.
+const DONE: [Status; 2] = [0, 1];
+/// fmi2CoSimulation
+const CO_SIMULATION: c_int = 1;
+const FALSE: c_int = 0;
+const TRUE: c_int = 1;
+
+/// fmi2CallbackLogger; what follows the message is not declared, since the FMU sends messages ready-made.
+type Logger = extern "C" fn(environment: *mut c_void, instance: Text, Status, category: Text, message: Text);
+
+/// fmi2CallbackFunctions
+#[repr(C)]
+struct Callbacks {
+    logger: Logger,
+    allocate_memory: Option<extern "C" fn()>,
+    free_memory: Option<extern "C" fn()>,
+    step_finished: Option<extern "C" fn()>,
+    environment: *mut c_void,
+}
+
+/// The functions of an FMU that xtask calls; they stay valid as long as the library is loaded.
+pub struct Fmu {
+    guid: CString,
+    instantiate: unsafe extern "C" fn(Text, c_int, Text, Text, *const Callbacks, c_int, c_int) -> Component,
+    free_instance: unsafe extern "C" fn(Component),
+    setup_experiment: unsafe extern "C" fn(Component, c_int, c_double, c_double, c_int, c_double) -> Status,
+    enter_initialization: unsafe extern "C" fn(Component) -> Status,
+    exit_initialization: unsafe extern "C" fn(Component) -> Status,
+    set_real: unsafe extern "C" fn(Component, *const Reference, usize, *const c_double) -> Status,
+    set_integer: unsafe extern "C" fn(Component, *const Reference, usize, *const c_int) -> Status,
+    get_real: unsafe extern "C" fn(Component, *const Reference, usize, *mut c_double) -> Status,
+    do_step: unsafe extern "C" fn(Component, c_double, c_double, c_int) -> Status,
+    _library: Library,
+}
+
+impl Fmu {
+    /// Loads the library of an FMU with this GUID.
+    pub fn load(library: &Path, guid: &str) -> Result<Self> {
+        // SAFETY: the library of an FMU of ours does nothing when it is loaded or unloaded.
+        let library = unsafe { Library::new(library) }.with_context(|| format!("cannot load {}", library.display()))?;
+        macro_rules! function {
+            ($name:literal) => {
+                // SAFETY: the standard gives the function under this name the type of the field that it goes to.
+                *unsafe { library.get($name) }.context("the library lacks a function of FMI 2.0")?
+            };
+        }
+        Ok(Self {
+            guid: CString::new(guid)?,
+            instantiate: function!("fmi2Instantiate"),
+            free_instance: function!("fmi2FreeInstance"),
+            setup_experiment: function!("fmi2SetupExperiment"),
+            enter_initialization: function!("fmi2EnterInitializationMode"),
+            exit_initialization: function!("fmi2ExitInitializationMode"),
+            set_real: function!("fmi2SetReal"),
+            set_integer: function!("fmi2SetInteger"),
+            get_real: function!("fmi2GetReal"),
+            do_step: function!("fmi2DoStep"),
+            _library: library,
+        })
+    }
+
+    /// A new instance for co-simulation.
+    pub fn instantiate(&self) -> Result<Instance<'_>> {
+        let journal = Box::<Journal>::default();
+        let callbacks = Callbacks {
+            logger: listen,
+            allocate_memory: None,
+            free_memory: None,
+            step_finished: None,
+            environment: (&raw const *journal).cast_mut().cast(),
+        };
+        let (name, guid) = (c"xtask".as_ptr(), self.guid.as_ptr());
+        // SAFETY: strings and a struct of callbacks that live during the call; the FMU keeps copies. Its journal is boxed
+        // and outlives the instance.
+        let component =
+            unsafe { (self.instantiate)(name, CO_SIMULATION, guid, null(), &raw const callbacks, FALSE, FALSE) };
+        match NonNull::new(component) {
+            Some(component) => Ok(Instance { fmu: self, component, journal }),
+            None => bail!("fmi2Instantiate: {}", journal.take()),
+        }
+    }
+}
+
+/// What an instance logged. It logs only from within calls, so nobody else looks at the same time.
+#[derive(Default)]
+struct Journal(RefCell<Vec<String>>);
+
+impl Journal {
+    fn take(&self) -> String {
+        self.0.take().join("; ")
+    }
+}
+
+/// The logger of each instance. What is variadic in C travels as here where no arguments follow the message.
+extern "C" fn listen(environment: *mut c_void, _instance: Text, _status: Status, _category: Text, message: Text) {
+    // SAFETY: the FMU hands back the pointer that it was given, and a string.
+    let (journal, message) = unsafe { (&*environment.cast::<Journal>(), CStr::from_ptr(message)) };
+    // The message is a format without conversions.
+    journal.0.borrow_mut().push(message.to_string_lossy().replace("%%", "%"));
+}
+
+/// An instance; errors tell the function and what was logged.
+pub struct Instance<'f> {
+    fmu: &'f Fmu,
+    component: NonNull<c_void>,
+    journal: Box<Journal>,
+}
+
+impl Drop for Instance<'_> {
+    fn drop(&mut self) {
+        // SAFETY: it came from fmi2Instantiate and is freed once.
+        unsafe { (self.fmu.free_instance)(self.component.as_ptr()) }
+    }
+}
+
+impl Instance<'_> {
+    /// Sets Real variables.
+    pub fn set_real(&mut self, reference: Reference, value: f64) -> Result<()> {
+        // SAFETY: a live instance; one reference and one value.
+        self.done("fmi2SetReal", |component| unsafe {
+            (self.fmu.set_real)(component, &raw const reference, 1, &raw const value)
+        })
+    }
+
+    /// Sets an Integer or an enumeration.
+    pub fn set_integer(&mut self, reference: Reference, value: i32) -> Result<()> {
+        // SAFETY: a live instance; one reference and one value.
+        self.done("fmi2SetInteger", |component| unsafe {
+            (self.fmu.set_integer)(component, &raw const reference, 1, &raw const value)
+        })
+    }
+
+    /// Leads it through initialization, for a run between these times [s].
+    pub fn initialize(&mut self, start: f64, stop: f64) -> Result<()> {
+        // SAFETY: a live instance, here and below.
+        self.done("fmi2SetupExperiment", |component| unsafe {
+            (self.fmu.setup_experiment)(component, FALSE, 0.0, start, TRUE, stop)
+        })?;
+        // SAFETY: as above.
+        self.done("fmi2EnterInitializationMode", |component| unsafe { (self.fmu.enter_initialization)(component) })?;
+        // SAFETY: as above.
+        self.done("fmi2ExitInitializationMode", |component| unsafe { (self.fmu.exit_initialization)(component) })
+    }
+
+    /// A communication step from time `from` of length `step` [s], never to be taken back.
+    pub fn do_step(&mut self, from: f64, step: f64) -> Result<()> {
+        // SAFETY: a live instance.
+        self.done("fmi2DoStep", |component| unsafe { (self.fmu.do_step)(component, from, step, TRUE) })
+    }
+
+    /// Reads Real variables, in the order of their references.
+    pub fn get_real<const N: usize>(&self, references: &[Reference; N]) -> Result<[f64; N]> {
+        let mut values = [0.0; N];
+        // SAFETY: a live instance; as many values as references.
+        self.done("fmi2GetReal", |component| unsafe {
+            (self.fmu.get_real)(component, references.as_ptr(), N, values.as_mut_ptr())
+        })?;
+        Ok(values)
+    }
+
+    fn done(&self, function: &str, call: impl FnOnce(Component) -> Status) -> Result<()> {
+        if !DONE.contains(&call(self.component.as_ptr())) {
+            bail!("{function}: {}", self.journal.take());
+        }
+        Ok(())
+    }
+}
