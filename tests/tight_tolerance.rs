@@ -71,7 +71,9 @@ fn run(method: i32, relative: f64, absolute: f64) -> Result<(), String> {
 fn fmi_an_absolute_tolerance_below_rounding_ends_soon_and_is_named() {
     let mut wrong = Vec::new();
     for method in METHODS {
-        for (relative, absolute) in [(1e-14, 0.0), (1e-14, 1e-16), (1e-14, 1e-20), (1e-10, 1e-30), (1e-14, 1e-30), (1e-10, 1e-300)] {
+        for (relative, absolute) in
+            [(1e-14, 0.0), (1e-14, 1e-16), (1e-14, 1e-20), (1e-10, 1e-30), (1e-14, 1e-30), (1e-10, 1e-300)]
+        {
             let (tell, told) = channel();
             // A thread of its own, which can be left alone where it hangs.
             thread::spawn(move || tell.send(run(method, relative, absolute)));

@@ -75,7 +75,13 @@ fn flags() -> Result<String> {
     let cargo_home = std::env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);
     let hidden = [(paths::root(), "split-rotor"), (&cargo_home, "cargo")];
     let hide = hidden.map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()));
-    Ok(own.into_iter().chain([UNPACKED.to_owned()]).chain(hide).filter(|flag| !flag.is_empty()).collect::<Vec<_>>().join("\x1f"))
+    Ok(own
+        .into_iter()
+        .chain([UNPACKED.to_owned()])
+        .chain(hide)
+        .filter(|flag| !flag.is_empty())
+        .collect::<Vec<_>>()
+        .join("\x1f"))
 }
 
 fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {

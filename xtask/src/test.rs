@@ -12,8 +12,7 @@ type Job = fn() -> Result<()>;
 const SHORT: [Job; 4] = [rust_tests, driven_tests, other_builds, packaged_fmus];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 6] =
-    [clients, peers, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
+const LONG: [Job; 6] = [clients, peers, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
 
 /// Runs the short jobs, and the long ones too where they are asked for.
 pub fn test(long: bool) -> Result<()> {

@@ -49,10 +49,6 @@ impl Controller {
     /// The factor to the next attempt after a step of error norm `error` > 1, or one that cannot be measured, was rejected.
     pub fn rejected(&mut self, error: f64) -> f64 {
         self.rejected = true;
-        if error.is_finite() {
-            (SAFETY * power(error, -self.alpha)).clamp(LEAST_FACTOR, SAFETY)
-        } else {
-            LEAST_FACTOR
-        }
+        if error.is_finite() { (SAFETY * power(error, -self.alpha)).clamp(LEAST_FACTOR, SAFETY) } else { LEAST_FACTOR }
     }
 }

@@ -273,13 +273,10 @@ impl<const N: usize> Explicit<N> {
     fn attempt_with<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> ([f64; N], f64) {
         let (t, h, start) = (self.t, self.h, self.y);
         let mut newest = self.k[0];
-        // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
         macro_rules! stages {
             ($($i:literal)*) => {$(
                 if $i < P::TABLEAU.last {
-                    let stage: &Stage = const { P::TABLEAU.stage($i) };
-                    let y = self.advanced::<F>(&start, h, stage.a, &newest);
-                    newest = self.evaluate(system, t + stage.c * h, &y);
+                    newest = self.stage(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
                     self.k[$i] = newest;
                 }
             )*};
@@ -296,6 +293,20 @@ impl<const N: usize> Explicit<N> {
             error = self.error_norm::<P>(&y);
         }
         (y, error)
+    }
+
+    /// A stage of a step of size h from (t, y), of those before it; `newest` is the last of them.
+    #[inline(always)]
+    fn stage<F: System<N>>(
+        &mut self,
+        system: &F,
+        (t, h, y): (f64, f64, &[f64; N]),
+        stage: &Stage,
+        newest: &[f64; N],
+    ) -> [f64; N] {
+        let there = self.advanced::<F>(y, h, stage.a, newest);
+        // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
+        self.evaluate(system, t + stage.c * h, &there)
     }
 
     /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
@@ -396,25 +407,45 @@ impl<const N: usize> Explicit<N> {
     }
 
     /// Prepares the last step for [`Explicit::dense`], which otherwise does so when first asked.
-    pub fn prepare_dense<F: System<N>>(&mut self, system: &F) {
+    pub fn prepare_dense(&mut self, system: &impl System<N>) {
         if self.segment.dense {
             return;
         }
-        let (t, h, start) = (self.segment.t, self.segment.h, self.segment.y);
-        for (i, stage) in (self.tableau.last + 1..).zip(self.tableau.dense_stages) {
-            let newest = self.k[stage.a.last().expect("a stage depends on those before it").0];
-            let y = self.advanced::<F>(&start, h, stage.a, &newest);
-            self.k[i] = self.evaluate(system, t + stage.c * h, &y);
+        if self.tableau == Dop853::TABLEAU {
+            self.prepare_dense_with::<Dop853, _>(system);
+        } else {
+            self.prepare_dense_with::<Dopri5, _>(system);
         }
-        let (first, last) = (self.k[0], self.k[self.tableau.last]);
+        self.segment.dense = true;
+    }
+
+    /// [`Explicit::prepare_dense`] with the coefficients as constants.
+    #[inline(never)]
+    fn prepare_dense_with<P: Pair, F: System<N>>(&mut self, system: &F) {
+        let (t, h, start) = (self.segment.t, self.segment.h, self.segment.y);
+        let mut newest = self.k[P::TABLEAU.last];
+        macro_rules! stages {
+            ($($i:literal)*) => {$(
+                if P::TABLEAU.last < $i && $i < const { P::TABLEAU.count() } {
+                    newest = self.stage(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
+                    self.k[$i] = newest;
+                }
+            )*};
+        }
+        stages! { 13 14 15 }
+        let (first, last) = (self.k[0], self.k[P::TABLEAU.last]);
         let difference = self.segment.r[0];
         // eq. 24: r₃ = h k₁ − Δy, r₄ = 2Δy − h(k₁ + k_last)
         self.segment.r[1] = std::array::from_fn(|n| h * first[n] - difference[n]);
         self.segment.r[2] = std::array::from_fn(|n| 2.0 * difference[n] - h * (first[n] + last[n]));
-        for (i, row) in (3..).zip(self.tableau.dense) {
-            self.segment.r[i] = self.combined(row).map(|sum| h * sum);
+        macro_rules! rows {
+            ($($i:literal)*) => {$(
+                if $i < P::TABLEAU.dense.len() {
+                    self.segment.r[3 + $i] = self.combined(const { P::TABLEAU.row($i) }).map(|sum| h * sum);
+                }
+            )*};
         }
-        self.segment.dense = true;
+        rows! { 0 1 2 3 }
     }
 
     /// A first step from the sizes of y, dy/dt and the change of dy/dt (Hairer, Nørsett and Wanner I, section II.4).

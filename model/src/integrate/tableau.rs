@@ -54,10 +54,26 @@ pub struct Tableau {
 }
 
 impl Tableau {
-    /// The stage of this number, counted from 0; the first, which is the rate at the start, is none of the list.
+    /// The stage of this number, counted from 0, those for dense output after the last; the first, which is the rate at the
+    /// start, is none of the list.
     pub const fn stage(&self, number: usize) -> &Stage {
         const NONE: &Stage = &Stage { c: 0.0, a: &[(0, 0.0)] };
-        if 0 < number && number <= self.last { &self.stages[number - 1] } else { NONE }
+        match number {
+            0 => NONE,
+            _ if number <= self.last => &self.stages[number - 1],
+            _ if number < self.count() => &self.dense_stages[number - self.last - 1],
+            _ => NONE,
+        }
+    }
+
+    /// How many stages there are, those for dense output too.
+    pub const fn count(&self) -> usize {
+        1 + self.stages.len() + self.dense_stages.len()
+    }
+
+    /// r_5 and further of the dense output over h, counted from 0.
+    pub const fn row(&self, number: usize) -> Combination {
+        if number < self.dense.len() { self.dense[number] } else { &[] }
     }
 }
 

@@ -25,12 +25,7 @@ impl<S: Scalar> Coefficients<S> {
         let s = c + theta_squared * j_quarter;
         let quarter = s * s * S::constant(0.25);
         // eq. 10; 1 − sc = (1 − c²) + c(c − s) = x s² − x j c, and 1 − q = 1 − c/s = x j/s
-        Self {
-            sinc: s * c,
-            versine: quarter + quarter,
-            cubic: quarter - j_quarter * c,
-            inverse: j_quarter / s,
-        }
+        Self { sinc: s * c, versine: quarter + quarter, cubic: quarter - j_quarter * c, inverse: j_quarter / s }
     }
 }
 
