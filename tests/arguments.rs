@@ -526,7 +526,7 @@ const IMPOSSIBLE: [(&str, Real, [&str; 3]); 22] = [
     ("solver.relative_tolerance", 1e-15, ["solver.relative_tolerance = 1e-15", "1e-14", "0.1"]),
     ("solver.relative_tolerance", 0.2, ["solver.relative_tolerance = 0.2", "1e-14", "0.1"]),
     ("solver.relative_tolerance", Real::NAN, ["solver.relative_tolerance = NaN", "1e-14", "0.1"]),
-    ("solver.absolute_tolerance", -1e-9, ["solver.absolute_tolerance = -1e-9", ">= 0", ""]),
+    ("solver.absolute_tolerance", -1e-9, ["solver.absolute_tolerance = -1e-9", "0 or", "at least 1e-20"]),
 ];
 
 #[test]

@@ -243,7 +243,7 @@ impl Bound {
             Bound::Finite => "a finite number".into(),
             Bound::Positive => "a finite number > 0".into(),
             Bound::NotNegative => "a finite number >= 0".into(),
-            Bound::ZeroOrFrom(least) => format!("0 or a finite number >= {least:?}"),
+            Bound::ZeroOrFrom(least) => format!("0 or at least {least:?}"),
             Bound::Within(low, high) => format!("a number from {low:?} to {high:?}"),
         }
     }

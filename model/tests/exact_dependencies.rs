@@ -46,7 +46,7 @@ fn somewhere(name: &str, chart: u32, random: &mut Random) -> Named {
                 &variable.name,
                 match bound {
                     Bound::Finite => random.within(-2.0, 2.0),
-                    Bound::Positive | Bound::NotNegative => random.within(1.0, 1.4),
+                    Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => random.within(1.0, 1.4),
                     Bound::Within(low, high) => random.within(low, high),
                 },
             ),

@@ -33,7 +33,7 @@ def host(paper):
         ({"solver.relative_tolerance": 0.0},
          "solver.relative_tolerance = 0.0 is not possible: it must be a number from 1e-14 to 0.1"),
         ({"solver.absolute_tolerance": -1.0},
-         "solver.absolute_tolerance = -1.0 is not possible: it must be a finite number >= 0"),
+         "solver.absolute_tolerance = -1.0 is not possible: it must be 0 or at least 1e-20"),
     ],
     ids=lambda given: next(iter(given)) if isinstance(given, dict) else "",
 )
