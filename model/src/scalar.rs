@@ -42,17 +42,18 @@ pub trait Scalar:
     fn polynomials(coefficients: &[[f64; 2]; 9], x: Self) -> [Self; 2] {
         [0, 1].map(|which| {
             let a = coefficients.map(|row| Self::constant(row[which]));
-            let x2 = x * x;
-            estrin(&a, x, x2, x2 * x2)
+            estrin(&a, x)
         })
     }
 }
 
 /// Σ a_i x^i by pairs of terms (Estrin 1960): they wait for one another less than in Horner's scheme.
 #[inline(always)]
-fn estrin<T: Copy + Add<Output = T> + Mul<Output = T>>(a: &[T; 9], x: T, x2: T, x4: T) -> T {
+fn estrin<T: Copy + Add<Output = T> + Mul<Output = T>>(a: &[T; 9], x: T) -> T {
+    let x2 = x * x;
+    let x4 = x2 * x2;
     let two = |i: usize| a[i] + a[i + 1] * x;
-    (two(0) + two(2) * x2) + ((two(4) + two(6) * x2) + a[8] * x4) * x4
+    ((two(0) + two(2) * x2) + a[8] * (x4 * x4)) + (two(4) + two(6) * x2) * x4
 }
 
 impl Scalar for f64 {
@@ -84,7 +85,6 @@ impl Scalar for f64 {
     #[inline(always)]
     fn polynomials(coefficients: &[[f64; 2]; 9], x: Self) -> [Self; 2] {
         // Both in the two halves of one register: the same bits in half the time.
-        let (x2, both) = (x * x, f64x2::splat);
-        estrin(&coefficients.map(f64x2::new), both(x), both(x2), both(x2 * x2)).to_array()
+        estrin(&coefficients.map(f64x2::new), f64x2::splat(x)).to_array()
     }
 }

@@ -8,6 +8,7 @@ mod times;
 
 pub use counts::must_hold;
 
+use crate::package::UNPACKED;
 use crate::paths;
 use crate::run::cargo;
 use anyhow::Result;
@@ -34,8 +35,8 @@ fn cargo_bench(name: &str, scene: &str) -> Command {
     command
         .args(["bench", "--quiet", "--bench", name])
         .env("SPLIT_ROTOR_SCENE", paths::scenes().join(format!("{scene}.toml")))
-        // The portable build, whatever the machine's own settings are.
-        .env("RUSTFLAGS", "");
+        // The portable build, as the FMU is packaged, whatever the machine's own settings are.
+        .env("RUSTFLAGS", UNPACKED);
     command
 }
 
