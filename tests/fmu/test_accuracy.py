@@ -105,5 +105,6 @@ def test_exact_message_where_no_method_reaches_the_end(xtask, tmp_path):
     )
     refused = xtask("accuracy", scene)
     assert refused.returncode == 1
-    assert refused.stderr.startswith("error: no method can run accuracy_of_nothing to its end: fmi2DoStep: ")
+    # cargo may have told before that it waits for another one.
+    assert "\nerror: no method can run accuracy_of_nothing to its end: fmi2DoStep: " in "\n" + refused.stderr
     assert "the tilt |gamma| reaches 3.1 rad" in refused.stderr

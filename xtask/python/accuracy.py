@@ -61,6 +61,9 @@ def draw(figure, found):
             colour, marker = next(peers)
             look = {"color": colour, "linewidth": 1.0, "linestyle": (0, (4, 1.6)), "marker": marker, "markersize": 3.8}
         axes.plot(times, errors, markevery=marked, label=f"{tool} {method}", **look)
+    if not axes.lines:
+        axes.set(xlim=(0.1, 10.0), ylim=(1e-16, 1.0))
+        axes.text(0.5, 0.5, "no method has an error to draw", transform=axes.transAxes, ha="center", color=GREY)
     shade_what_cannot_be_told(axes, found["reference"]["agreement_at_worst"]["axis_rad"])
     stop, start = found["experiment"]["stop_s"], found["experiment"]["start_s"]
     axes.set(xlabel=f"CPU time for {stop - start:g} s of motion [ms]", ylabel=f"error of the rotor axis at t = {stop:g} s [rad]")
@@ -69,10 +72,11 @@ def draw(figure, found):
     axes.yaxis.set_major_locator(LogLocator(numticks=20))
     axes.yaxis.set_major_formatter(LogFormatterSciNotation())
     axes.yaxis.set_minor_locator(LogLocator(numticks=1))
-    legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8.5, handlelength=3.0)
-    for text in legend.get_texts():
-        text.set_fontweight("bold" if text.get_text().startswith(OURS) else "normal")
-    axes.set_title(found["title"], color=BLACK, fontsize=11, fontweight="bold")
+    if axes.lines:
+        legend = axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0), fontsize=8.5, handlelength=3.0)
+        for text in legend.get_texts():
+            text.set_fontweight("bold" if text.get_text().startswith(OURS) else "normal")
+    axes.set_title(found["title"], color=BLACK, fontsize=11, fontweight="bold", parse_math=False)
     note = figure.supxlabel(caption(found), x=0.01, ha="left", fontsize=7.5, color=GREY)
     note.set_linespacing(1.4)
 

@@ -66,6 +66,8 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
     }
     progress.finish_and_clear();
     let mut sentences = advice::sentences(&rows, scale.floor, scale.simulated, experiment.stop);
+    let l = scene.parameters().setup.rotor.l.abs();
+    sentences.extend(advice::meaning(&rows, if l > 0.0 { l } else { 1.0 }, reference.floor()));
     sentences.extend(substeps(subject, &rows, scale)?);
     let mut left_out = Vec::new();
     if with_peers {

@@ -12,7 +12,8 @@ type Job = fn() -> Result<()>;
 const SHORT: [Job; 4] = [rust_tests, driven_tests, other_builds, packaged_fmus];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 6] = [clients, peers, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
+const LONG: [Job; 7] =
+    [clients, wide_builds, peers, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
 
 /// Runs the short jobs, and the long ones too where they are asked for.
 pub fn test(long: bool) -> Result<()> {
@@ -43,6 +44,25 @@ fn other_builds() -> Result<()> {
     profiles
         .iter()
         .try_for_each(|profile| run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile])))
+}
+
+/// The bits are the same with wide vectors and fused arithmetic at the compiler's disposal, as far as this machine has them.
+fn wide_builds() -> Result<()> {
+    let mut flags = vec!["-Ctarget-cpu=native"];
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            flags.push("-Ctarget-feature=+avx2,+fma");
+        }
+        if is_x86_feature_detected!("avx512bw") && is_x86_feature_detected!("avx512vl") {
+            flags.push("-Ctarget-cpu=x86-64-v4");
+        }
+    }
+    flags.into_iter().try_for_each(|flags| {
+        println!("bits with {flags}");
+        let bits = ["test", "--quiet", "--test", "bits", "--release", "--target-dir"];
+        run(cargo().args(bits).arg(paths::target().join("wide")).env("RUSTFLAGS", flags))
+    })
 }
 
 /// The packaged FMUs under a host in C and under fmpy.

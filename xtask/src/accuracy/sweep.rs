@@ -9,7 +9,7 @@ use anyhow::Result;
 use model::variables::METHODS;
 
 /// What chooses the accuracy of an adaptive method.
-const TOLERANCE: &str = "solver.relative_tolerance";
+pub const TOLERANCE: &str = "solver.relative_tolerance";
 
 /// 1e-3, 5e-4, 2e-4, 1e-4, … 1e-14: so many of them as fill the powers of ten in between.
 pub fn tolerances() -> Vec<f64> {
