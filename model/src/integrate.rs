@@ -1,5 +1,6 @@
 //! Methods of integration that know no rotor: they ask a [`System`] of N ordinary differential equations for its rates.
 
+pub mod composition;
 pub mod control;
 pub mod explicit;
 pub mod tableau;
@@ -84,3 +85,16 @@ pub struct Cost {
 }
 
 stored!(Cost { steps, rejected, evaluations, next_step, error_estimate });
+
+/// Where a step of size `h` [s] from `t` [s] ends that may not pass `until` [s]: it reaches it, or leaves half of a short
+/// rest.
+fn end_of_step(t: f64, h: f64, until: f64) -> f64 {
+    let rest = until - t;
+    if h >= rest {
+        until
+    } else if 2.0 * h > rest {
+        t + 0.5 * rest
+    } else {
+        t + h
+    }
+}
