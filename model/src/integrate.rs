@@ -3,6 +3,7 @@
 pub mod composition;
 pub mod control;
 pub mod explicit;
+pub mod stiff;
 pub mod tableau;
 
 use crate::stored::stored;
@@ -30,6 +31,15 @@ pub struct Tolerance<const N: usize> {
 }
 
 stored!(Tolerance<const N: usize> { absolute, relative });
+
+impl<const N: usize> Tolerance<N> {
+    /// The mean square of `v` in units of the tolerance at a state of this `size` [1].
+    fn mean_square(&self, v: &[f64; N], size: &[f64; N]) -> f64 {
+        let part = |n: usize| v[n] / (self.absolute[n] + self.relative[n] * size[n]);
+        // eq. 22: err² = (1/n) Σ (err_i/sc_i)², sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
+        (0..N).map(|n| part(n) * part(n)).sum::<f64>() / N as f64
+    }
+}
 
 /// Why a step could not be done; the state is that of the last step that could.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,9 @@
 //! The equations of motion of a body under its effects.
 
 use crate::body::Body;
+use crate::dual::Dual;
 use crate::effects::Effects;
+use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
 use crate::rotation::Chart;
 use crate::scalar::Scalar;
@@ -97,20 +99,34 @@ impl<E: Effects> Rotor<E> {
 
 stored!(Rotor<E: Effects> { body, effects, chart, turns });
 
+impl<E: Effects> Rotor<E> {
+    /// The rates of N equations.
+    #[inline(always)]
+    fn equations<S: Scalar, const N: usize>(&self, motion: &Kinematics<S>) -> [S; N] {
+        let mut rates = [S::zero(); N];
+        self.rates(motion).write(&mut rates);
+        if N == WITH_WORK {
+            rates[SUPPLIED] = self.effects.supply(motion);
+            rates[DISSIPATED] = self.effects.loss(motion);
+        }
+        rates
+    }
+}
+
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     #[inline(always)]
     fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = self.motion(t, y);
-        let mut rates = [0.0; N];
-        self.rates(&motion).write(&mut rates);
-        if N == WITH_WORK {
-            rates[SUPPLIED] = self.effects.supply(&motion);
-            rates[DISSIPATED] = self.effects.loss(&motion);
-        }
-        rates
+        self.equations(&self.motion(t, y))
     }
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {
         self.reaches(Coordinates::from_slice(y).gamma, Chart::REACH)
+    }
+}
+
+impl<E: Effects, const N: usize> Differentiable<N> for Rotor<E> {
+    fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
+        let y: [Dual<N>; N] = std::array::from_fn(|n| Dual::variable(y[n], n));
+        self.equations(&self.motion(t, &y)).map(|rate| rate.eps)
     }
 }
