@@ -47,6 +47,7 @@ fn somewhere(name: &str, chart: u32, random: &mut Random) -> Named {
                 match bound {
                     Bound::Finite => random.within(-2.0, 2.0),
                     Bound::Positive | Bound::NotNegative => random.within(1.0, 1.4),
+                    Bound::ZeroOrFrom(least) => random.within(least, least + 1.0),
                     Bound::Within(low, high) => random.within(low, high),
                 },
             ),
