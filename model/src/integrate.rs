@@ -1,12 +1,15 @@
 //! Methods of integration that know no rotor: they ask a [`System`] of N ordinary differential equations for its rates.
 
+pub mod composition;
 pub mod control;
 pub mod explicit;
 mod lanes;
 mod power;
+pub mod stiff;
 pub mod tableau;
 
 use crate::stored::stored;
+use lanes::{both, nothing, pair, pairs, put, sum};
 
 /// N ordinary differential equations dy/dt = f(t, y).
 pub trait System<const N: usize> {
@@ -34,6 +37,41 @@ pub struct Tolerance<const N: usize> {
 }
 
 stored!(Tolerance<const N: usize> { absolute, relative });
+
+impl<const N: usize> Tolerance<N> {
+    /// The share of each component in an error norm: 1/n of n that count.
+    fn share(&self) -> f64 {
+        1.0 / self.absolute.iter().filter(|absolute| absolute.is_finite()).count() as f64
+    }
+
+    /// What one unit of each component counts in the error norm, at a state of this `size`.
+    #[inline(always)]
+    fn weights(&self, size: &[f64; N]) -> [f64; N] {
+        let mut weights = [0.0; N];
+        for p in 0..pairs(N) {
+            // eq. 22: sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
+            put(&mut weights, p, both(1.0) / (pair(&self.absolute, p) + pair(&self.relative, p) * pair(size, p)));
+        }
+        weights
+    }
+
+    /// The root mean square of `v` in units of the tolerance at a state of this `size` [1].
+    fn norm(&self, v: &[f64; N], size: &[f64; N]) -> f64 {
+        mean_square(v, &self.weights(size), self.share()).sqrt()
+    }
+}
+
+/// The mean square of `v`, each component by its weight, and with this share [1].
+#[inline(always)]
+fn mean_square<const N: usize>(v: &[f64; N], weights: &[f64; N], share: f64) -> f64 {
+    let mut squares = nothing();
+    for p in 0..pairs(N) {
+        let weighted = pair(v, p) * pair(weights, p);
+        squares += weighted * weighted;
+    }
+    // eq. 22: err² = (1/n) Σ (err_i/sc_i)²
+    sum(squares) * share
+}
 
 /// Why a step could not be done; the state is that of the last step that could.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,3 +127,16 @@ pub struct Cost {
 }
 
 stored!(Cost { steps, rejected, evaluations, next_step, error_estimate });
+
+/// Where a step of size `h` [s] from `t` [s] ends that may not pass `until` [s]: it reaches it, or leaves half of a short
+/// rest.
+fn end_of_step(t: f64, h: f64, until: f64) -> f64 {
+    let rest = until - t;
+    if h >= rest {
+        until
+    } else if 2.0 * h > rest {
+        t + 0.5 * rest
+    } else {
+        t + h
+    }
+}

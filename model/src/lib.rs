@@ -26,6 +26,7 @@ pub mod effects;
 // Floor 3: equations of motion and the energy ledger.
 pub mod energy;
 pub mod rotor;
+pub mod splitting;
 
 // Floor 4: the one list of variables.
 pub mod variables;

@@ -3,9 +3,11 @@
 //! Notation of the paper (Sorokin and Zhang 2018). Every vector is in the inertial frame O.
 
 pub mod angle;
+pub mod arc;
 pub mod chart;
 pub mod euler_vector;
 pub mod exact;
+pub mod free;
 pub mod series;
 pub mod split;
 

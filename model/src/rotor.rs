@@ -1,7 +1,9 @@
 //! The equations of motion of a body under its effects.
 
 use crate::body::Inertia;
+use crate::dual::Dual;
 use crate::effects::{Effects, Wrench};
+use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
 use crate::rotation::Chart;
 use crate::scalar::Scalar;
@@ -86,9 +88,9 @@ impl<E: Effects> Rotor<E> {
 impl<E: Effects> Rotor<E> {
     /// The rates of a state of N numbers in this chart.
     #[inline(always)]
-    fn rates_in<const N: usize>(&self, chart: Chart, t: f64, y: &[f64; N]) -> [f64; N] {
+    fn rates_in<S: Scalar, const N: usize>(&self, chart: Chart, t: f64, y: &[S; N]) -> [S; N] {
         let motion = Kinematics::new(self.body, chart, Coordinates::from_slice(y)).when(t, self.turns);
-        let mut some = [0.0; N];
+        let mut some = [S::zero(); N];
         debug_assert!(N == WITH_WORK || !self.effects.works(), "what works is solved with its work");
         if N == WITH_WORK {
             some.copy_from_slice(&working_rates(&self.effects, &motion));
@@ -128,5 +130,14 @@ impl<E: Effects, const N: usize> System<N> for Rotor<E> {
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {
         self.reaches(Coordinates::from_slice(y).gamma, Chart::REACH)
+    }
+}
+
+impl<E: Effects, const N: usize> Differentiable<N> for Rotor<E> {
+    fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
+        // Nothing depends on the quadratures, so there is no direction for them.
+        let moving = |n: usize| if n < PHI { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
+        let rates: [Dual<PHI>; N] = self.rates_in(self.chart, t, &std::array::from_fn(moving));
+        rates.map(|rate| std::array::from_fn(|n| if n < PHI { rate.eps[n] } else { 0.0 }))
     }
 }

@@ -1,10 +1,10 @@
 //! Explicit Runge–Kutta pairs with adaptive steps and dense output, for any [`Tableau`]. No allocation.
 
 use super::control::Controller;
-use super::lanes::{both, nothing, pair, pairs, put, sum};
+use super::lanes::{both, nothing, pair, pairs, put};
 use super::power::power;
 use super::tableau::{Combination, DOP853, Dop853, Dopri5, ErrorRule, MOST_DENSE, MOST_STAGES, Pair, Stage, Tableau};
-use super::{Cost, Fault, Refusal, System, Tolerance};
+use super::{Cost, Fault, Refusal, System, Tolerance, end_of_step, mean_square};
 use crate::scalar::ulp;
 use crate::stored::stored;
 
@@ -74,7 +74,7 @@ impl<const N: usize> Explicit<N> {
     ) -> Self {
         let mut method = Self {
             tableau,
-            share: 1.0 / tolerance.absolute.iter().filter(|absolute| absolute.is_finite()).count() as f64,
+            share: tolerance.share(),
             tolerance,
             controller: Controller::new(tableau.error_order),
             t,
@@ -184,7 +184,7 @@ impl<const N: usize> Explicit<N> {
                 );
             }
             let wish = self.h;
-            let end = self.end_of_step(until);
+            let end = end_of_step(self.t, self.h, until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             self.h = end - self.t;
             self.k[0] = rate;
@@ -220,18 +220,6 @@ impl<const N: usize> Explicit<N> {
         let (y, _) = self.attempt::<false>(system);
         self.accept(self.t + h, y, 0.0);
         self.h = h;
-    }
-
-    /// Where a step of size h ends that may not pass `until`: it reaches it, or leaves half of a short rest.
-    fn end_of_step(&self, until: f64) -> f64 {
-        let rest = until - self.t;
-        if self.h >= rest {
-            until
-        } else if 2.0 * self.h > rest {
-            self.t + 0.5 * rest
-        } else {
-            self.t + self.h
-        }
     }
 
     /// The state at a time `t` [s] within the last step.
@@ -358,8 +346,8 @@ impl<const N: usize> Explicit<N> {
     /// The norm of the error of the step that ends at `y`, in units of the tolerance [1].
     #[inline(always)]
     fn error_norm<P: Pair>(&self, y: &[f64; N]) -> f64 {
-        let weights = self.weights(&std::array::from_fn(|n| self.y[n].abs().max(y[n].abs())));
-        let mean_square = |e: Combination| self.mean_square(&self.combined(e), &weights);
+        let weights = self.tolerance.weights(&std::array::from_fn(|n| self.y[n].abs().max(y[n].abs())));
+        let mean_square = |e: Combination| mean_square(&self.combined(e), &weights, self.share);
         let estimate = match const { &P::TABLEAU.error } {
             ErrorRule::Single(e) => mean_square(e).sqrt(),
             ErrorRule::Blend { fine, coarse } => {
@@ -368,30 +356,6 @@ impl<const N: usize> Explicit<N> {
             }
         };
         self.h * P::TABLEAU.calibration * estimate
-    }
-
-    /// What one unit of each component counts in the error norm, at a state of this `size`.
-    #[inline(always)]
-    fn weights(&self, size: &[f64; N]) -> [f64; N] {
-        let Tolerance { absolute, relative } = &self.tolerance;
-        let mut weights = [0.0; N];
-        for p in 0..pairs(N) {
-            // eq. 22: sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
-            put(&mut weights, p, both(1.0) / (pair(absolute, p) + pair(relative, p) * pair(size, p)));
-        }
-        weights
-    }
-
-    /// The mean square of `v`, each component by its weight [1].
-    #[inline(always)]
-    fn mean_square(&self, v: &[f64; N], weights: &[f64; N]) -> f64 {
-        let mut squares = nothing();
-        for p in 0..pairs(N) {
-            let weighted = pair(v, p) * pair(weights, p);
-            squares += weighted * weighted;
-        }
-        // eq. 22: err² = (1/n) Σ (err_i/sc_i)²
-        sum(squares) * self.share
     }
 
     fn accept(&mut self, end: f64, y: [f64; N], error: f64) {
@@ -451,13 +415,15 @@ impl<const N: usize> Explicit<N> {
     /// A first step from the sizes of y, dy/dt and the change of dy/dt (Hairer, Nørsett and Wanner I, section II.4).
     fn first_step(&mut self, system: &impl System<N>) -> f64 {
         let (t, y, rate) = (self.t, self.y, self.k[self.tableau.last]);
-        let weights = self.weights(&y.map(f64::abs));
-        let (size, speed) = (self.mean_square(&y, &weights).sqrt(), self.mean_square(&rate, &weights).sqrt());
+        let weights = self.tolerance.weights(&y.map(f64::abs));
+        let share = self.share;
+        let norm = |v: &[f64; N]| mean_square(v, &weights, share).sqrt();
+        let (size, speed) = (norm(&y), norm(&rate));
         let trial = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
         let ahead: [f64; N] = std::array::from_fn(|n| y[n] + trial * rate[n]);
         let rate_ahead = self.evaluate(system, t + trial, &ahead);
         let change: [f64; N] = std::array::from_fn(|n| rate_ahead[n] - rate[n]);
-        let curvature = self.mean_square(&change, &weights).sqrt() / trial;
+        let curvature = norm(&change) / trial;
         let largest = speed.max(curvature);
         let step = if largest <= 1e-15 {
             (trial * 1e-3).max(1e-6)

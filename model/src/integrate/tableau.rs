@@ -75,6 +75,19 @@ impl Tableau {
     pub const fn row(&self, number: usize) -> Combination {
         if number < self.dense.len() { self.dense[number] } else { &[] }
     }
+
+    /// One step of size `h` of dy/dt = f(y), from y.
+    #[inline(always)]
+    pub fn advanced<const N: usize>(&self, mut f: impl FnMut(&[f64; N]) -> [f64; N], y: [f64; N], h: f64) -> [f64; N] {
+        let mut k = [[0.0; N]; MOST_STAGES];
+        let mut at = y;
+        // eq. 21
+        for (i, stage) in self.stages.iter().enumerate() {
+            k[i] = f(&at);
+            at = std::array::from_fn(|n| y[n] + h * stage.a.iter().map(|&(j, a)| a * k[j][n]).sum::<f64>());
+        }
+        at
+    }
 }
 
 /// A tableau as a type, for what is compiled for it.

@@ -142,7 +142,7 @@ pub fn crossed_exactly(gamma: Vector2<f64>) -> Vector2<f64> {
 }
 
 /// Azimuth β of γ about e, from y towards z [rad], in [−π, π].
-fn azimuth<S: Scalar>(gamma: Vector2<S>) -> S {
+pub(super) fn azimuth<S: Scalar>(gamma: Vector2<S>) -> S {
     let (y, z) = (gamma.x.re(), gamma.y.re());
     // dβ = e·(γ×dγ)/|γ|²
     let turned = (gamma.y * S::constant(y) - gamma.x * S::constant(z)) / S::constant(y * y + z * z);

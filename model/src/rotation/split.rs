@@ -99,6 +99,18 @@ impl<S: Scalar> Tilt<S> {
         Vector3::new(S::one(), across.x, across.y)
     }
 
+    /// tan(θ/2) γ/θ in the chart [1].
+    #[inline(always)]
+    pub(super) fn half_tangent(&self) -> Vector2<S> {
+        self.gamma * self.tau()
+    }
+
+    /// γ_y and γ_z [rad] in the chart.
+    #[inline(always)]
+    pub fn gamma_in_chart(&self) -> Vector2<S> {
+        self.gamma
+    }
+
     /// The chart in which γ is written.
     pub fn chart(&self) -> Chart {
         self.chart

@@ -11,3 +11,4 @@ pub mod paper;
 pub mod rigid_body;
 pub mod rotation;
 pub mod trees;
+pub mod words;

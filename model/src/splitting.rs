@@ -1,0 +1,157 @@
+//! The rotor's motion as the sum of two: the drift of a free rotor, followed exactly, and the kicks of its effects, which
+//! change its speeds where it is.
+
+use crate::body::AngularVelocity;
+use crate::effects::Effects;
+use crate::integrate::composition::{Composition, Split, Splitting};
+use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
+use crate::rotation::arc::Reduced;
+use crate::rotation::{Angle, Tilt};
+use crate::rotor::{LIMIT, Rotor};
+use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK};
+use nalgebra::Vector3;
+use std::f64::consts::PI;
+
+/// A motion of N equations on its way through a step.
+pub struct Flow<'r, E, const N: usize> {
+    rotor: &'r Rotor<E>,
+    at: Coordinates<f64>,
+    tilt: Tilt<f64>,
+    /// Whole turns of φ from e since the step began, besides φ in the chart.
+    turns: f64,
+    /// Work supplied and lost [J].
+    work: [f64; 2],
+    /// Follows the speeds through a kick, where effects depend on them.
+    inner: Option<&'static Tableau>,
+    /// Whether kicks are spread over the drift.
+    spreads: bool,
+    evaluations: f64,
+}
+
+/// v_c, K_c and the work supplied and lost, or their rates.
+type Speeds = [f64; 8];
+
+/// A step in which the axis goes further about K than this [rad] spreads its kicks: the nutation is not resolved. Measured
+/// from 0.03 to 32 times around, worst of 20 step sizes: below this angle both ways are as good, beyond it kicks that
+/// are not spread are up to 10⁴ times worse.
+const RESOLVED: f64 = PI;
+
+impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
+    type Flow<'r>
+        = Flow<'r, E, N>
+    where
+        Self: 'r;
+
+    #[inline(always)]
+    fn flow<'r>(&'r self, y: &[f64; N], composition: &Composition, h: f64) -> Flow<'r, E, N> {
+        let at = Coordinates::from_slice(y);
+        Flow {
+            rotor: self,
+            at,
+            tilt: Tilt::new(self.chart, at.gamma),
+            turns: 0.0,
+            work: if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0; 2] },
+            // Where no effect works, none depends on the speeds.
+            inner: self.effects.works().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
+            spreads: at.k_c.norm() * h * self.body.per_jt > RESOLVED,
+            evaluations: 0.0,
+        }
+    }
+}
+
+impl<E: Effects, const N: usize> Flow<'_, E, N> {
+    /// Turns the axis by the Euler vector ρ [rad].
+    #[inline(always)]
+    fn turn(&mut self, rho: Vector3<f64>) {
+        let turned = self.tilt.turned(rho);
+        self.at.gamma = turned.gamma;
+        self.at.phi += turned.phi;
+        self.turns += turned.turns;
+        self.tilt = Tilt::new(self.rotor.chart, turned.gamma);
+    }
+
+    /// The motion at time `t` [s], with these speeds where it is.
+    #[inline(always)]
+    fn motion(&self, t: f64, v_c: Vector3<f64>, k_c: Vector3<f64>) -> Kinematics<f64> {
+        let Rotor { body, turns, .. } = *self.rotor;
+        let velocity = body.angular_velocity(&k_c, &self.tilt.axis);
+        let (omega, AngularVelocity { swing, spin }) = (velocity.omega(&self.tilt.axis), velocity);
+        Kinematics { body, t, turns, at: Coordinates { v_c, k_c, ..self.at }, tilt: self.tilt, swing, spin, omega }
+    }
+
+    /// Follows the speeds for a time `h` [s], the place and the time `t` [s] standing still.
+    #[inline(always)]
+    fn push(&mut self, t: f64, h: f64) {
+        let effects = &self.rotor.effects;
+        if effects.needs_gamma() && self.rotor.reaches(self.at.gamma, LIMIT).is_err() {
+            self.at.k_c.fill(f64::NAN);
+            return;
+        }
+        // eq. 40: m dv_c/dt = ΣF, dK_c/dt = ΣM_c, place and time frozen
+        let Some(tableau) = self.inner else {
+            let load = effects.load(&self.motion(t, self.at.v_c, self.at.k_c));
+            self.at.v_c += load.force * (h * self.rotor.body.per_m);
+            self.at.k_c += load.moment * h;
+            self.evaluations += 1.0;
+            return;
+        };
+        let (v, k) = (self.at.v_c, self.at.k_c);
+        let speeds: Speeds = [v.x, v.y, v.z, k.x, k.y, k.z, self.work[0], self.work[1]];
+        let rates = |speeds: &Speeds| {
+            let [v, k] = vectors(speeds);
+            let motion = self.motion(t, v, k);
+            let load = effects.load(&motion) + effects.damping(&motion);
+            let (a, m) = (load.force * self.rotor.body.per_m, load.moment);
+            [a.x, a.y, a.z, m.x, m.y, m.z, effects.supply(&motion), effects.loss(&motion)]
+        };
+        let speeds = tableau.advanced(rates, speeds, h);
+        [self.at.v_c, self.at.k_c] = vectors(&speeds);
+        self.work = [speeds[6], speeds[7]];
+        self.evaluations += tableau.stages.len() as f64;
+    }
+}
+
+fn vectors(speeds: &Speeds) -> [Vector3<f64>; 2] {
+    [Vector3::new(speeds[0], speeds[1], speeds[2]), Vector3::new(speeds[3], speeds[4], speeds[5])]
+}
+
+impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
+    #[inline(always)]
+    fn drift(&mut self, h: f64) {
+        let body = &self.rotor.body;
+        // eq. 39: r_c + h v_c; L(K h/Jt) on the left and K·t h (1/Ja − 1/Jt) about the axis
+        self.at.r_c += self.at.v_c * h;
+        self.at.phi += self.at.k_c.dot(&self.tilt.axis) * (h * body.spin);
+        self.turn(self.at.k_c * (h * body.per_jt));
+    }
+
+    #[inline(always)]
+    fn kick(&mut self, t: f64, h: f64) {
+        if !self.spreads {
+            return self.push(t, h);
+        }
+        let before = self.at.k_c;
+        self.push(t, 0.5 * h);
+        let k = self.at.k_c;
+        let (square, gain) = (k.norm_squared(), (k - before) * 2.0);
+        let half = 0.5 * square.sqrt() * (h * self.rotor.body.per_jt).abs();
+        if half > 0.0 {
+            // eq. 41: ρ = (1 − sin a/a) K×ΔK/|K|², a = |K| h/(2Jt)
+            let lag = 1.0 - Reduced::new(half).sine() / half;
+            self.turn(k.cross(&gain) * (lag / square));
+        }
+        self.push(t, 0.5 * h);
+    }
+
+    #[inline(always)]
+    fn end(self) -> ([f64; N], f64) {
+        let mut y = [0.0; N];
+        self.at.write(&mut y);
+        // φ has all the turns that φ from e has gained.
+        y[PHI] = Angle { turns: self.turns, remainder: self.at.phi }.radians();
+        if N == WITH_WORK {
+            (y[SUPPLIED], y[DISSIPATED]) = (self.work[0], self.work[1]);
+        }
+        (y, self.evaluations)
+    }
+}
