@@ -283,8 +283,8 @@ fn exact_linear_equations() {
         rows[0][0] = 0.0;
         // Quadratures have nothing but their diagonal.
         let size = if case % 2 == 0 { 9 } else { 7 };
-        for i in 0..9 {
-            (size..9).filter(|j| *j != i).for_each(|j| rows[i][j] = 0.0);
+        for (i, row) in rows.iter_mut().enumerate() {
+            (size..9).filter(|j| *j != i).for_each(|j| row[j] = 0.0);
         }
         let b: [f64; 9] = std::array::from_fn(|_| number());
         let x = Lu::new(rows, size).solve(&b);
