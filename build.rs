@@ -23,8 +23,9 @@ fn main() {
 
 /// What `src/scene.rs` includes.
 fn source(scene: &Scene) -> String {
+    let member = if scene.general { "Switched" } else { "Called" };
     let list = scene.effects.iter().rev().fold("()".to_owned(), |rest, (info, index)| {
-        format!("(model::effects::Called<{}, {index}>, {rest})", info.type_path)
+        format!("(model::effects::{member}<{}, {index}>, {rest})", info.type_path)
     });
     let mut starts = String::new();
     for (reference, value) in &scene.starts {

@@ -16,7 +16,7 @@ use model::error::Invalid;
 use model::integrate::{Cost, Refusal};
 use model::log::{ALL, Category};
 use model::simulation::Integrator;
-use model::variable::Place;
+use model::variable::{Kind, Place};
 use model::variables::TOLERANCES;
 
 /// Why a call was refused, and what it returns.
@@ -135,7 +135,7 @@ impl Instance {
             return Err(Failure::error(format!("stopTime = {stop:?} must not be before startTime = {start:?}")));
         }
         if let Some(tolerance) = tolerance.filter(|value| !TOLERANCES.holds(*value)) {
-            return Err(Invalid::new("tolerance", tolerance, TOLERANCES.words()).into());
+            return Err(Invalid::new("tolerance", tolerance, TOLERANCES.words(Kind::Real)).into());
         }
         self.memory.experiment = Experiment { start, stop, tolerance, ..self.memory.experiment };
         Ok(Status::Ok)
@@ -149,14 +149,15 @@ impl Instance {
 
     /// fmi2ExitInitializationMode
     pub fn exit_initialization_mode(&mut self) -> Reply {
-        let Experiment { start, tolerance, host_set_tolerance, .. } = self.memory.experiment;
+        let Experiment { start, stop, tolerance, host_set_tolerance } = self.memory.experiment;
         let tolerance = tolerance.filter(|_| !host_set_tolerance);
-        self.memory.simulation.start(start, tolerance)?;
+        self.memory.simulation.start_until(start, tolerance, stop)?;
         self.memory.step_status = Status::Ok;
         self.memory.state = match self.memory.integrator() {
             Integrator::Host => State::EventMode,
             Integrator::Method => {
                 self.tell_tolerance(tolerance);
+                self.tell_choice(tolerance);
                 State::StepComplete
             }
         };
@@ -177,6 +178,16 @@ impl Instance {
             };
             format!("the relative tolerance in force is {value:?}, the one {origin}")
         });
+    }
+
+    /// Says which method `auto` took, and why.
+    fn tell_choice(&self, tolerance: Option<Real>) {
+        let Experiment { start, stop, .. } = self.memory.experiment;
+        if self.logger.hears(Category::Solver)
+            && let Some(choice) = self.memory.simulation.choice(start, tolerance, stop)
+        {
+            self.logger.log(Status::Ok, Category::Solver, &choice);
+        }
     }
 
     /// fmi2Terminate

@@ -406,7 +406,8 @@ fn fmi_every_variable_answers_to_its_own_type_and_role_only() {
             (Kind::Real, Role::Parameter { .. }) => &["fmi2GetReal", "fmi2SetReal"],
             (Kind::Real, Role::Input { .. }) => &["fmi2GetReal", "fmi2SetReal"],
             (Kind::Real, _) => &["fmi2GetReal"],
-            (Kind::Enumeration(_), Role::Parameter { .. }) => &["fmi2GetInteger", "fmi2SetInteger"],
+            (Kind::Boolean, _) => &["fmi2GetBoolean", "fmi2SetBoolean"],
+            (Kind::Integer | Kind::Enumeration(_), Role::Parameter { .. }) => &["fmi2GetInteger", "fmi2SetInteger"],
             (Kind::Integer | Kind::Enumeration(_), _) => &["fmi2GetInteger"],
         };
         let reference = variable.place.value_reference();
@@ -503,7 +504,7 @@ fn fmi_status_kinds_without_an_answer_are_errors() {
 }
 
 /// Parameters that cannot be simulated, and what the message must name.
-const IMPOSSIBLE: [(&str, Real, [&str; 3]); 22] = [
+const IMPOSSIBLE: [(&str, Real, [&str; 3]); 24] = [
     ("rotor.m", 0.0, ["rotor.m = 0.0", "> 0", ""]),
     ("rotor.m", -1.0, ["rotor.m = -1.0", "> 0", ""]),
     ("rotor.m", Real::NAN, ["rotor.m = NaN", "finite", "> 0"]),
@@ -527,6 +528,8 @@ const IMPOSSIBLE: [(&str, Real, [&str; 3]); 22] = [
     ("solver.relative_tolerance", 0.2, ["solver.relative_tolerance = 0.2", "1e-14", "0.1"]),
     ("solver.relative_tolerance", Real::NAN, ["solver.relative_tolerance = NaN", "1e-14", "0.1"]),
     ("solver.absolute_tolerance", -1e-9, ["solver.absolute_tolerance = -1e-9", "0 or", "at least 1e-20"]),
+    ("solver.step_size", -1e-3, ["solver.step_size = -0.001", ">= 0", ""]),
+    ("solver.step_size", Real::INFINITY, ["solver.step_size = inf", "finite", ">= 0"]),
 ];
 
 #[test]
@@ -544,11 +547,17 @@ fn fmi_impossible_parameters_are_named_at_exit_of_initialization_and_can_be_mend
         let life = Life::new(CO_SIMULATION, Stage::Initialization);
         assert_eq!(life.future(instance), life.future(life.instance()), "{name} = {value}");
     }
-    for method in [0, 1, 4, -1, Integer::MAX, Integer::MIN] {
+    for method in [0, 6, -1, Integer::MAX, Integer::MIN] {
         let mut instance = Instance::quiet();
         instance.set_method(method);
         assert_eq!(instance.enter_initialization(), Status::Ok);
         refused(&mut instance, exit, &["solver.method", &method.to_string(), "2 (dopri5)", "3 (dop853)"]);
+    }
+    for order in [0, 1, 3, 5, 10, -2, Integer::MAX, Integer::MIN] {
+        let mut instance = Instance::quiet();
+        assert_eq!(instance.set_integer(reference("solver.order"), order), Status::Ok);
+        assert_eq!(instance.enter_initialization(), Status::Ok);
+        refused(&mut instance, exit, &["solver.order", &order.to_string(), "2 or 4 or 6 or 8"]);
     }
 }
 

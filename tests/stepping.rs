@@ -59,7 +59,7 @@ fn fmi_the_motion_does_not_depend_on_the_communication_steps() {
         // Where an input may change, no step of the solver's passes a communication point.
         return;
     }
-    for method in [2, 3] {
+    for method in [1, 2, 3, 4, 5] {
         let start = || {
             let mut instance = Instance::quiet();
             instance.set_method(method);
@@ -203,10 +203,13 @@ fn fmi_no_step_goes_past_the_stop_time() {
 fn exact_a_step_that_cannot_be_done_stands_at_the_last_successful_time() {
     /// How near the last time [s], the tilt [rad], the fall [m], the speed [rad/s] and the energy [1] come to what is
     /// exact: the steps shrink until they advance no more. Measured 1.8e-15, allow 1e-14.
+    /// The drifts of a composition are rounded more often: measured 1.5e-14.
     const NEARNESS: Real = 1e-14;
+    const OF_DRIFTS: Real = 5e-14;
     // γ_y = 30 rad/s · t until 3.1 rad.
     let Some(tumbling) = tumbling() else { return };
-    for method in [2, 3] {
+    for method in [2, 3, 4, 5] {
+        let nearness = if method == 4 { OF_DRIFTS } else { NEARNESS };
         let mut instance = Instance::quiet();
         instance.set_method(method);
         let mut instance = instance.started(&tumbling);
@@ -224,14 +227,19 @@ fn exact_a_step_that_cannot_be_done_stands_at_the_last_successful_time() {
         }
         assert_eq!((instance.step_status(), instance.terminated()), (Ok(Status::Discard), Ok(true)));
         let last = instance.last_successful_time().expect("a step was made");
-        assert!((3.1 / 30.0 - last).abs() < NEARNESS, "{last:?}");
+        assert!((3.1 / 30.0 - last).abs() < nearness, "{last:?}");
         // The values are those of that time: exactly γ_y = 30 t, and gravity has let the rotor fall.
         assert!(instance.bits().into_iter().all(|bits| Real::from_bits(bits).is_finite()));
         let [gamma_y, gamma_z, z, phi, omega_y] = instance.get_all(["gamma.y", "gamma.z", "r_c.z", "phi", "omega.y"]);
-        assert!(gamma_y <= 3.1 + NEARNESS && (gamma_y - 30.0 * last).abs() < NEARNESS, "{gamma_y:?}");
-        assert!((z + 0.5 * 9.81 * last * last).abs() < NEARNESS, "{z:?}");
-        assert!(gamma_z == 0.0 && phi == 0.0 && (omega_y - 30.0).abs() < NEARNESS);
-        assert!(instance.get("energy.residual").abs() < NEARNESS * instance.get("energy.total"));
+        assert!(
+            gamma_y <= 3.1 + nearness && (gamma_y - 30.0 * last).abs() < nearness,
+            "{gamma_y:?} {:e}",
+            gamma_y - 30.0 * last
+        );
+        assert!((z + 0.5 * 9.81 * last * last).abs() < nearness, "{z:?}");
+        assert!(gamma_z == 0.0 && (omega_y - 30.0).abs() < nearness);
+        assert!(phi == 0.0 || (method == 4 && phi.abs() < nearness), "{phi:e}");
+        assert!(instance.get("energy.residual").abs() < nearness * instance.get("energy.total"));
     }
 }
 

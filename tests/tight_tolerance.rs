@@ -9,8 +9,8 @@ use std::sync::mpsc::channel;
 use std::thread;
 use std::time::Duration;
 
-/// dopri5 and dop853.
-const METHODS: [i32; 2] = [2, 3];
+/// dopri5, dop853 and stiff.
+const METHODS: [i32; 3] = [2, 3, 5];
 
 const RELATIVE: &str = "solver.relative_tolerance";
 const ABSOLUTE: &str = "solver.absolute_tolerance";

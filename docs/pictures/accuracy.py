@@ -1,18 +1,21 @@
-"""Put what `cargo xtask accuracy SCENE --peers` found last into docs/accuracy.md, and its pictures beside this file."""
+"""Put what `cargo xtask accuracy` found last of these scenes into docs/accuracy.md, and its pictures beside this file."""
 
+import argparse
 import re
 import shutil
 from pathlib import Path
 
-SCENES = ("paper", "tumbling", "driven")
+SCENES = ("paper", "tumbling", "driven", "high_spin", "stiff_support", "long_run")
 HERE = Path(__file__).parent
 FOUND = HERE.parents[1] / "target" / "accuracy"
 PAGE = HERE.parent / "accuracy.md"
 
 
 def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scenes", nargs="*", default=SCENES, metavar="SCENE")
     page = PAGE.read_text(encoding="utf-8")
-    for scene in SCENES:
+    for scene in parser.parse_args().scenes:
         shutil.copyfile(FOUND / scene / "accuracy.svg", HERE / f"accuracy-{scene}.svg")
         report = (FOUND / scene / "accuracy.md").read_text(encoding="utf-8")
         # What stands between the marks is replaced.

@@ -1,9 +1,15 @@
-//! The rigid body: a symmetric rotor on its rod.
+//! The rigid body: a symmetric rotor on its rod, and what effects make of it.
 
-use crate::error::Invalid;
+mod poinsot;
+mod principal;
+mod shape;
+
+pub use poinsot::Poinsot;
+pub use shape::{Shape, Uneven};
+
 use crate::scalar::Scalar;
 use crate::stored::stored;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Mass and inertia of a rotor that is symmetric about its axis t, and the length of its rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,29 +28,37 @@ pub struct Body {
 /// What the motion needs of a body, with the divisions done once.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inertia {
-    /// Mass [kg].
+    /// Mass of the whole [kg].
     pub m: f64,
     /// Distance from the support point a to the mass centre c, along t [m].
     pub l: f64,
     /// 1/m [1/kg].
     pub per_m: f64,
-    /// 1/Jt [1/(kg·m²)].
+    /// 1/Jt [1/(kg·m²)]; of an uneven body 1/J about its third principal axis.
     pub per_jt: f64,
-    /// 1/Ja − 1/Jt [1/(kg·m²)].
+    /// 1/Ja − 1/Jt [1/(kg·m²)]; of an uneven body 1/J about its first principal axis less that about its third.
     pub spin: f64,
+    /// What is uneven of it; None of a symmetric body with its mass centre on its axis.
+    pub uneven: Option<Uneven>,
 }
 
-stored!(Inertia { m, l, per_m, per_jt, spin });
+stored!(Inertia { m, l, per_m, per_jt, spin, uneven });
 
 impl From<Body> for Inertia {
     #[allow(non_snake_case, reason = "the paper's symbols")]
     fn from(Body { m, Ja, Jt, l }: Body) -> Self {
-        Self { m, l, per_m: 1.0 / m, per_jt: 1.0 / Jt, spin: 1.0 / Ja - 1.0 / Jt }
+        Self { m, l, per_m: 1.0 / m, per_jt: 1.0 / Jt, spin: 1.0 / Ja - 1.0 / Jt, uneven: None }
     }
 }
 
 impl Inertia {
-    /// ω [rad/s] of angular momentum K [kg·m²/s] about c, the axis being t.
+    /// The same of a body of which it is known that it is not uneven.
+    #[inline(always)]
+    pub fn even(self) -> Self {
+        Self { uneven: None, ..self }
+    }
+
+    /// ω [rad/s] of angular momentum K [kg·m²/s] about c, the axis being t; of a symmetric body.
     #[inline(always)]
     pub fn angular_velocity<S: Scalar>(&self, momentum: &Vector3<S>, axis: &Vector3<S>) -> AngularVelocity<S> {
         // eq. 11: ω = K/Jt + (1/Ja − 1/Jt)(K·t) t
@@ -52,6 +66,27 @@ impl Inertia {
             swing: momentum * S::constant(self.per_jt),
             spin: S::constant(self.spin) * momentum.dot(axis),
         }
+    }
+
+    /// How an uneven body turns that nothing acts on, K being given along its principal axes [kg·m²/s]; None where it does so
+    /// steadily.
+    pub fn free(&self, uneven: &Uneven, momentum: &Vector3<f64>) -> Option<Poinsot> {
+        Poinsot::new([self.spin, uneven.excess, 0.0], self.per_jt, momentum)
+    }
+
+    /// ω [rad/s] of angular momentum K [kg·m²/s] about G, of an uneven body with this attitude.
+    #[inline(always)]
+    pub fn uneven_angular_velocity<S: Scalar>(
+        &self,
+        uneven: &Uneven,
+        momentum: &Vector3<S>,
+        attitude: &Matrix3<S>,
+    ) -> AngularVelocity<S> {
+        let [first, second] = uneven.axes.map(|axis| attitude * axis.map(S::constant));
+        // eq. 72: ω = K/J₃ + (1/J₁ − 1/J₃)(K·p₁) p₁ + (1/J₂ − 1/J₃)(K·p₂) p₂
+        let about_first = first * (S::constant(self.spin) * momentum.dot(&first));
+        let about_second = second * (S::constant(uneven.excess) * momentum.dot(&second));
+        AngularVelocity { swing: momentum * S::constant(self.per_jt) + about_first + about_second, spin: S::zero() }
     }
 }
 
@@ -77,16 +112,5 @@ impl Body {
     pub fn angular_momentum<S: Scalar>(&self, omega: &Vector3<S>, axis: &Vector3<S>) -> Vector3<S> {
         // eq. 11: K = Jt ω + (Ja − Jt)(ω·t) t
         omega * S::constant(self.Jt) + axis * (S::constant(self.Ja - self.Jt) * omega.dot(axis))
-    }
-
-    /// Whether a body of this shape can exist: Ja ≤ 2 Jt (equal for the thin disk).
-    ///
-    /// Ja is the integral of y² + z², and 2 Jt that of y² + z² + 2x². An excess within rounding (1e-12) is a thin disk.
-    pub fn check(&self) -> Result<(), Invalid> {
-        if self.Ja <= 2.0 * self.Jt * (1.0 + 1e-12) {
-            return Ok(());
-        }
-        let bound = format!("at most 2 rotor.Jt = {:?} (a thin disk has Ja = 2 Jt)", 2.0 * self.Jt);
-        Err(Invalid::new("rotor.Ja", self.Ja, bound))
     }
 }

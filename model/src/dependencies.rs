@@ -4,7 +4,7 @@ use crate::effects::{All, Effects};
 use crate::scene::Scene;
 use crate::simulation::{Integrator, Simulation};
 use crate::state::{WITH_WORK, Whole};
-use crate::variable::{Bound, Kind, Role};
+use crate::variable::{Bound, Kind, Place, Role};
 use crate::variables::Variable;
 
 /// For each variable of a scene, by its index from 0: the indices of those on which it depends, ascending.
@@ -16,7 +16,7 @@ pub struct Dependencies {
 }
 
 /// So many rotors and motions are tried, in both charts.
-const SAMPLES: usize = 24;
+const SAMPLES: usize = 64;
 
 impl Dependencies {
     /// Those of a scene.
@@ -41,11 +41,21 @@ impl Dependencies {
                 set(&mut simulation, variable, random.within(range));
             }
         }
+        switch_at_random(&mut simulation, scene, random);
         let before = values(&mut simulation, scene);
         for (index, variable) in scene.variables.iter().enumerate() {
-            let Some(range) = range(variable) else { continue };
             let old = simulation.get(variable.place).expect("a possible rotor").expect("it is in the list");
-            set(&mut simulation, variable, random.within(range));
+            let other = match range(variable) {
+                Some(range) => random.within(range),
+                None if variable.meta.kind == Kind::Boolean => 1.0 - old,
+                None => continue,
+            };
+            set(&mut simulation, variable, other);
+            if simulation.parameters().check().is_err() {
+                // It would be switched on beside what it excludes.
+                set(&mut simulation, variable, old);
+                continue;
+            }
             note(&mut self.at_start, index, &before, &values(&mut simulation, scene));
             set(&mut simulation, variable, old);
         }
@@ -74,17 +84,36 @@ impl Dependencies {
     }
 }
 
+/// Switches effects, those that have switches, so that a rotor can exist.
+fn switch_at_random(simulation: &mut Simulation<All>, scene: &Scene, random: &mut Random) {
+    loop {
+        for variable in scene.variables.iter().filter(|variable| variable.meta.kind == Kind::Boolean) {
+            // Mostly on, so that what two effects do together is seen.
+            set(simulation, variable, f64::from(random.within(ANY) > -1.0));
+        }
+        if simulation.parameters().check().is_ok() {
+            return;
+        }
+    }
+}
+
 /// Where values of any sign are drawn from.
 const ANY: (f64, f64) = (-2.0, 2.0);
+
+/// Those that may not be larger than others.
+const WITHIN_ONE: (f64, f64) = (-1.0, 1.0);
 
 /// Where the values of a parameter or input are drawn from, so that every rotor can exist; None of other variables, and of
 /// those on which no value depends.
 fn range(variable: &Variable) -> Option<(f64, f64)> {
     match (variable.meta.kind, variable.meta.role) {
         (Kind::Real, Role::Parameter { bound, .. }) => Some(match bound {
+            // Cross damping of a bearing, whose own damping is then from 1.
+            Bound::Finite if variable.place.block >= Place::FIRST_EFFECT => WITHIN_ONE,
             Bound::Finite => ANY,
             Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => (1.0, 1.5),
             Bound::Within(low, high) => (low, high),
+            Bound::OneOf(_) => return None,
         }),
         (Kind::Real, Role::Input { .. }) => Some(ANY),
         _ => None,

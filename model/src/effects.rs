@@ -8,13 +8,17 @@ mod list;
 mod terminal;
 mod wrench;
 
-pub use list::{Called, Effects, Switched};
+pub use list::{Action, Called, Effects, Switched};
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
+use crate::body::Shape;
+use crate::error::Invalid;
 use crate::scalar::Scalar;
+use crate::signal::Signal;
 use crate::state::Kinematics;
-use crate::variable::{self, Meta};
+use crate::variable::units::ONE;
+use crate::variable::{self, Bound, Kind, Meta, Role};
 
 /// Outputs of effects are read from the motion.
 pub enum Motion {}
@@ -35,8 +39,33 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// energy.
     const COULD_WORK: bool = true;
 
+    /// Whether it can [shape](Effect::shape) the body. A scene without such effects is compiled for a symmetric rotor.
+    const SHAPES: bool = false;
+
+    /// Whether what it does follows φ, so that φ is no quadrature where it is at work.
+    const FOLLOWS_PHI: bool = Self::SHAPES;
+
+    /// Whether it has a law that follows where the rotor is or how fast it moves there. To forget to deny it costs time in
+    /// the general FMU.
+    const FOLLOWS_PLACE: bool = true;
+
+    /// Whether it [foretells](Effect::foretell) inputs.
+    const FORETELLS: bool = false;
+
+    /// Whether its own inputs tell one another's rates, so that nobody need foretell them.
+    const TELLS_RATES: bool = false;
+
+    /// The effects after it in the catalogue that cannot act beside it.
+    const EXCLUDES: &'static [&'static str] = &[];
+
+    /// Whether it can [impose](Effect::imposed) a speed.
+    const IMPOSES: bool = false;
+
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
+
+    /// Adds its share to the mass, mass centre and inertia of the body.
+    fn shape(&self, _body: &mut Shape) {}
 
     /// Force on the rotor and moment about c [N, N·m].
     #[inline(always)]
@@ -57,22 +86,47 @@ pub trait Effect: Clone + Default + Send + 'static {
         S::zero()
     }
 
-    /// Power that leaves the mechanics [W], ≥ 0.
+    /// Power that leaves the mechanics [W], ≥ 0; none is −0, as in [`Wrench::zero`].
     #[inline(always)]
     fn loss<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
-        S::zero()
+        S::constant(-0.0)
     }
 
-    /// Power that comes from outside [W].
+    /// Power that comes from outside [W]; none is −0.
     #[inline(always)]
     fn supply<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
-        S::zero()
+        S::constant(-0.0)
+    }
+
+    /// The ω_φ that it imposes at time `t` [rad/s], and the rate of that [rad/s²]; None where it imposes none.
+    #[inline(always)]
+    fn imposed<S: Scalar>(&self, _t: f64) -> Option<[S; 2]> {
+        None
     }
 
     /// Whether, with its present parameters and inputs, its law has no limit where |γ| = π, because it follows the
     /// direction of γ.
     fn needs_gamma(&self) -> bool {
         false
+    }
+
+    /// What no single bound says: the first of its parameters that does not go with the others, named within its block.
+    fn check(&self) -> Result<(), Invalid> {
+        Ok(())
+    }
+
+    /// Hears where the motion begins, before anything is asked.
+    fn begin(&mut self, _start: &Kinematics<f64>) {}
+
+    /// Hears that a communication step begins at time `t` [s].
+    fn step_from(&mut self, _t: f64) {}
+
+    /// Extrapolates the input of this number over the step that begins.
+    fn foretell(&mut self, _number: usize, _signal: &mut Signal) {}
+
+    /// What it remembers of a run besides its variables: saved and brought back with them.
+    fn memory(&mut self) -> &mut [f64] {
+        &mut []
     }
 
     /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
@@ -88,6 +142,8 @@ pub trait Entry: Effect {
     const NAME: &'static str;
     /// Its number, from which its value references follow.
     const NUMBER: u32;
+    /// Whether a scene may hold several, named with their index.
+    const SEVERAL: bool;
 }
 
 /// What can be said of an effect without its type.
@@ -97,6 +153,8 @@ pub struct Info {
     pub name: &'static str,
     /// Its number, from which its value references follow.
     pub number: u32,
+    /// Whether a scene may hold several, named with their index.
+    pub several: bool,
     /// The terminal that it is, if it is one.
     pub terminal: Option<Terminal>,
     /// The path of its type, for the list that build.rs writes.
@@ -105,39 +163,79 @@ pub struct Info {
     pub metas: fn() -> Vec<Meta>,
     /// Whether it can lose energy or be supplied with it.
     pub could_work: bool,
+    /// Whether it can impose a speed.
+    pub imposes: bool,
+}
+
+/// The switch of an effect: whether it acts.
+pub static SWITCH: Meta = Meta {
+    name: "effects",
+    description: "whether the effect acts; what does not act is not computed, and shows zeros",
+    unit: &ONE,
+    kind: Kind::Boolean,
+    role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
+};
+
+fn switch_name(name: &str, several: bool, index: u32) -> String {
+    format!("effects.{}", block_name(name, several, index))
+}
+
+impl Info {
+    /// The full name of its switch, of the `index`th of its kind.
+    pub fn switch_name(&self, index: u32) -> String {
+        switch_name(self.name, self.several, index)
+    }
+
+    /// What the names of its variables begin with, of the `index`th of its kind: `drag`, `bearing[1]`.
+    pub fn block_name(&self, index: u32) -> String {
+        block_name(self.name, self.several, index)
+    }
+}
+
+fn block_name(name: &str, several: bool, index: u32) -> String {
+    if several { format!("{name}[{index}]") } else { name.to_owned() }
 }
 
 /// The effect of this name.
+#[cfg(feature = "scenes")]
 pub fn named(name: &str) -> Option<&'static Info> {
     CATALOGUE.iter().find(|info| info.name == name)
 }
 
-/// Declares the effects: their number (never reused), module and type.
+/// Declares the effects, those that build.rs lets be compiled: their number (never reused), module and type, and whether a scene may hold several.
 macro_rules! catalogue {
-    ($($number:literal $module:ident $type:ident;)*) => {
+    ($($number:literal $module:ident $type:ident $many:ident;)*) => {
         $(
+            #[cfg($module)]
             pub mod $module;
 
+            #[cfg($module)]
             impl Entry for $module::$type {
                 const NAME: &'static str = stringify!($module);
                 const NUMBER: u32 = $number;
+                const SEVERAL: bool = catalogue!(@several $many);
             }
 
-            const _: () = assert!(<$module::$type as Effect>::ROWS.len() <= 256, "an effect has at most 256 variables");
+            #[cfg($module)]
+            const _: () = assert!(<$module::$type as Effect>::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
         )*
 
         /// Every effect there is.
+        #[cfg(feature = "scenes")]
         pub static CATALOGUE: &[Info] = &[$(Info {
             name: stringify!($module),
             number: $number,
+            several: catalogue!(@several $many),
             terminal: <$module::$type as Effect>::TERMINAL,
             type_path: concat!("model::effects::", stringify!($module), "::", stringify!($type)),
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,
+            imposes: <$module::$type as Effect>::IMPOSES,
         }),*];
 
         /// Every effect, each behind a switch.
-        pub type All = catalogue!(@list $($module::$type,)*);
+        #[cfg(feature = "scenes")]
+        pub type All = catalogue!(@list $($module $type $many;)*);
 
         const _: () = {
             let numbers = [$($number),*];
@@ -153,11 +251,28 @@ macro_rules! catalogue {
         };
     };
     (@list) => { () };
-    (@list $head:ty, $($tail:ty,)*) => { (Switched<$head, 1>, catalogue!(@list $($tail,)*)) };
+    (@list $module:ident $type:ident one; $($rest:tt)*) => {
+        (Switched<$module::$type, 1>, catalogue!(@list $($rest)*))
+    };
+    (@list $module:ident $type:ident several; $($rest:tt)*) => {
+        (Switched<$module::$type, 1>, (Switched<$module::$type, 2>, (Switched<$module::$type, 3>,
+            (Switched<$module::$type, 4>, catalogue!(@list $($rest)*)))))
+    };
+    (@several one) => { false };
+    (@several several) => { true };
 }
 
 catalogue! {
-    1 gravity Gravity;
-    2 support Support;
-    3 shaft Shaft;
+    1 gravity Gravity one;
+    2 support Support one;
+    3 shaft Shaft one;
+    4 asymmetry Asymmetry one;
+    5 unbalance Unbalance several;
+    6 bearing Bearing several;
+    7 rotating_damping RotatingDamping one;
+    8 drag Drag one;
+    9 probe Probe several;
+    10 port Port several;
+    11 imposed_speed ImposedSpeed one;
+    12 extrapolation Extrapolation one;
 }

@@ -6,9 +6,9 @@ use crate::state::Kinematics;
 
 /// Kinetic energy [J].
 pub fn kinetic<S: Scalar>(motion: &Kinematics<S>) -> S {
-    let (v, omega) = (&motion.at.v_c, &motion.omega);
-    // eq. 17: T = ½ m |v_c|² + ½ ω·K_c
-    (v.dot(v) * S::constant(motion.body.m) + omega.dot(&motion.at.k_c)) * S::constant(0.5)
+    let (v, omega) = (&motion.at.v, &motion.omega);
+    // eq. 17: T = ½ m |v|² + ½ ω·K, of the mass centre of the whole
+    (v.dot(v) * S::constant(motion.body.m) + omega.dot(&motion.momentum())) * S::constant(0.5)
 }
 
 /// What there is, what came in and what went out [J].

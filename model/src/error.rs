@@ -9,20 +9,28 @@ pub struct Invalid {
     pub variable: String,
     /// Its value, in its unit.
     pub value: f64,
+    /// Whether that is a whole number, which is written without a point.
+    pub whole: bool,
     /// What would be right.
     pub bound: String,
 }
 
 impl Invalid {
-    /// `variable` = `value` breaks `bound`.
+    /// The Real `variable` = `value` breaks `bound`.
     pub fn new(variable: impl Into<String>, value: f64, bound: impl Into<String>) -> Self {
-        Self { variable: variable.into(), value, bound: bound.into() }
+        Self { variable: variable.into(), value, whole: false, bound: bound.into() }
     }
+}
+
+/// A value as people write it: a whole number without a point.
+pub fn written(value: f64, whole: bool) -> String {
+    if whole { value.to_string() } else { format!("{value:?}") }
 }
 
 impl fmt::Display for Invalid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} = {:?} is not possible: it must be {}", self.variable, self.value, self.bound)
+        let Self { variable, value, whole, bound } = self;
+        write!(f, "{variable} = {} is not possible: it must be {bound}", written(*value, *whole))
     }
 }
 

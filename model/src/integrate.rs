@@ -1,10 +1,12 @@
 //! Methods of integration that know no rotor: they ask a [`System`] of N ordinary differential equations for its rates.
 
+mod answer;
 pub mod composition;
 pub mod control;
 pub mod explicit;
 mod lanes;
 mod power;
+mod segment;
 pub mod stiff;
 pub mod tableau;
 
@@ -15,6 +17,11 @@ use lanes::{both, nothing, pair, pairs, put, sum};
 pub trait System<const N: usize> {
     /// The rates depend on the first so many components only; the others are quadratures.
     const DEPENDED_ON: usize = N;
+
+    /// On how many of these they depend as the system is now.
+    fn depended_on(&self) -> usize {
+        Self::DEPENDED_ON.min(N)
+    }
 
     /// f(t, y).
     fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N];

@@ -4,7 +4,9 @@
 
 pub mod angle;
 pub mod arc;
+mod attitude;
 pub mod chart;
+pub mod elliptic;
 pub mod euler_vector;
 pub mod exact;
 pub mod free;
@@ -13,4 +15,5 @@ pub mod split;
 
 pub use angle::Angle;
 pub use chart::Chart;
+pub use free::{Turn, Turned};
 pub use split::Tilt;

@@ -2,14 +2,14 @@
 
 use crate::body::Inertia;
 use crate::dual::Dual;
-use crate::effects::{Effects, Wrench};
+use crate::effects::{Action, Effects, Wrench};
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
-use crate::rotation::Chart;
+use crate::rotation::{Chart, Tilt};
 use crate::scalar::Scalar;
-use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, Whole};
+use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, Whole};
 use crate::stored::stored;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
 /// A rotor with what acts on it.
@@ -41,14 +41,43 @@ const BEYOND_CHART: Refusal = Refusal(
 const BEYOND_LIMIT: Refusal =
     Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi");
 
+/// The rate of K under this load [N·m].
+#[inline(always)]
+fn moment<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Vector3<S> {
+    let moment = load.about_centre(motion);
+    // eq. 76: dK/dt = M − λ dn/dt
+    motion.carried().map_or(moment, |carried| moment - carried)
+}
+
+/// A motion with the speed that effects impose on it.
+#[inline(always)]
+pub fn imposed<S: Scalar, E: Effects>(effects: &E, motion: Kinematics<S>) -> Kinematics<S> {
+    if E::IMPOSES
+        && let Some([speed, _]) = effects.imposed::<S>(motion.t)
+    {
+        motion.imposed(speed)
+    } else {
+        motion
+    }
+}
+
+/// The power of what imposes a speed, under the load of all else [W].
+#[inline(always)]
+fn imposing<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>, load: Wrench<S>) -> Option<S> {
+    motion.impulse?;
+    let [speed, acceleration] = effects.imposed::<S>(motion.t)?;
+    // eq. 76: P = τ ω_φ
+    Some(motion.torque(acceleration, &load.about_centre(motion)) * speed)
+}
+
 /// The rates of the coordinates under this load.
 #[inline(always)]
 fn rates<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Coordinates<S> {
-    // eq. 12: dr_c/dt = v_c, m dv_c/dt = ΣF, dK_c/dt = ΣM_c
+    // eq. 12: dr/dt = v, m dv/dt = ΣF, dK/dt = ΣM, all of the mass centre of the whole
     Coordinates {
-        r_c: motion.at.v_c,
-        v_c: load.force * S::constant(motion.body.per_m),
-        k_c: load.moment,
+        r: motion.at.v,
+        v: load.force * S::constant(motion.body.per_m),
+        k: moment(motion, load),
         gamma: motion.gamma_rate(),
         phi: motion.phi_rate(),
     }
@@ -58,15 +87,26 @@ fn rates<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Coordinates<S> {
 #[inline(always)]
 fn working_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
     let mut whole = [S::zero(); WITH_WORK];
-    rates(motion, effects.load(motion) + effects.damping(motion)).write(&mut whole);
-    whole[SUPPLIED] = effects.supply(motion);
-    whole[DISSIPATED] = effects.loss(motion);
+    let Action { load, damping, supply, loss } = effects.action(motion);
+    let load = load + damping;
+    rates(motion, load).write(&mut whole);
+    whole[SUPPLIED] = imposing(effects, motion, load).map_or(supply, |power| supply + power);
+    whole[DISSIPATED] = loss;
     whole
+}
+
+/// Whether a law that follows γ has no limit near this tilt; as [`Rotor::reaches`] has it, to the last bit.
+fn is_beyond_limit<S: Scalar>(tilt: &Tilt<S>) -> bool {
+    let theta_squared = tilt.gamma_in_chart().map(S::re).norm_squared();
+    match tilt.chart() {
+        Chart::FromE => theta_squared > LIMIT * LIMIT,
+        Chart::FromMinusE => theta_squared < FORBIDDEN * FORBIDDEN,
+    }
 }
 
 /// The rates of the coordinates and of the work integrals; not a number where a law that follows γ has no limit nearby.
 pub fn whole_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
-    if effects.needs_gamma() && motion.tilt.gamma().map(S::re).norm() > LIMIT {
+    if effects.needs_gamma() && is_beyond_limit(&motion.tilt) {
         return [S::constant(f64::NAN); WITH_WORK];
     }
     if effects.works() {
@@ -81,15 +121,70 @@ impl<E: Effects> Rotor<E> {
     /// The motion at time `t` [s], from a state.
     #[inline(always)]
     pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
-        Kinematics::new(self.body, self.chart, Coordinates::from_slice(y)).when(t, self.turns)
+        self.motion_in(self.chart, t, y)
     }
-}
 
-impl<E: Effects> Rotor<E> {
+    /// [`Rotor::motion`] from a state that is written in this chart.
+    #[inline(always)]
+    pub fn motion_in<S: Scalar>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
+        self.known_motion::<S, false, false>(chart, t, y)
+    }
+
+    /// [`Rotor::motion_in`] of a body that is known to be `EVEN`, and `FREE` of an imposed speed: the compiler leaves out
+    /// the rest.
+    #[inline(always)]
+    fn known_motion<S: Scalar, const EVEN: bool, const FREE: bool>(
+        &self,
+        chart: Chart,
+        t: f64,
+        y: &[S],
+    ) -> Kinematics<S> {
+        let inertia = if EVEN { self.body.even() } else { self.inertia() };
+        let motion = Kinematics::new(inertia, chart, Coordinates::from_slice(y)).when(t, self.turns);
+        if FREE { motion } else { imposed(&self.effects, motion) }
+    }
+
+    /// The body; where no effect can shape it, the compiler knows that it is even.
+    #[inline(always)]
+    pub fn inertia(&self) -> Inertia {
+        if E::SHAPES { self.body } else { self.body.even() }
+    }
+
+    /// The rates of a state of N numbers; once for each chart, so that neither asks again which one it is.
+    #[inline(always)]
+    fn known_rates<const N: usize, const EVEN: bool, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        match self.chart {
+            Chart::FromE => self.rates_in::<f64, N, EVEN, FREE>(Chart::FromE, t, y),
+            Chart::FromMinusE => self.rates_in::<f64, N, EVEN, FREE>(Chart::FromMinusE, t, y),
+        }
+    }
+
+    /// [`Rotor::known_rates`], called: laws of all effects are too long to stand in every stage.
+    #[inline(never)]
+    fn called_rates<const N: usize, const EVEN: bool, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        self.known_rates::<N, EVEN, FREE>(t, y)
+    }
+
+    /// [`Rotor::called_rates`] of a body that is even. What its effects may be is asked for once here: where none follows the
+    /// place, the compiler knows that those which could are off.
+    #[inline(never)]
+    fn even_rates<const N: usize, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        if self.effects.follows_place() {
+            self.called_rates::<N, true, FREE>(t, y)
+        } else {
+            self.known_rates::<N, true, FREE>(t, y)
+        }
+    }
+
     /// The rates of a state of N numbers in this chart.
     #[inline(always)]
-    fn rates_in<S: Scalar, const N: usize>(&self, chart: Chart, t: f64, y: &[S; N]) -> [S; N] {
-        let motion = Kinematics::new(self.body, chart, Coordinates::from_slice(y)).when(t, self.turns);
+    fn rates_in<S: Scalar, const N: usize, const EVEN: bool, const FREE: bool>(
+        &self,
+        chart: Chart,
+        t: f64,
+        y: &[S; N],
+    ) -> [S; N] {
+        let motion = self.known_motion::<S, EVEN, FREE>(chart, t, y);
         let mut some = [S::zero(); N];
         debug_assert!(N == WITH_WORK || !self.effects.works(), "what works is solved with its work");
         if N == WITH_WORK {
@@ -116,15 +211,24 @@ impl<E: Effects> Rotor<E> {
 stored!(Rotor<E: Effects> { body, effects, chart, turns });
 
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
-    /// φ and the work integrals are quadratures: no law depends on them.
-    const DEPENDED_ON: usize = PHI;
+    /// The work integrals are quadratures: no law depends on them. φ is one too where no effect follows it.
+    const DEPENDED_ON: usize = if E::FOLLOWS_PHI { COORDINATES } else { PHI };
+
+    fn depended_on(&self) -> usize {
+        if E::FOLLOWS_PHI && self.effects.follows_phi() { COORDINATES } else { PHI }
+    }
 
     #[inline(always)]
     fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        // Once for each chart, so that neither asks again which one it is.
-        match self.chart {
-            Chart::FromE => self.rates_in(Chart::FromE, t, y),
-            Chart::FromMinusE => self.rates_in(Chart::FromMinusE, t, y),
+        if !E::SWITCHED {
+            return self.known_rates::<N, false, false>(t, y);
+        }
+        // What could be switched on, and is not, is asked for once here instead of all along the laws.
+        match (self.body.uneven.is_none(), self.effects.imposed::<f64>(t).is_none()) {
+            (true, true) => self.even_rates::<N, true>(t, y),
+            (true, false) => self.even_rates::<N, false>(t, y),
+            (false, true) => self.called_rates::<N, false, true>(t, y),
+            (false, false) => self.called_rates::<N, false, false>(t, y),
         }
     }
 
@@ -135,9 +239,19 @@ impl<E: Effects, const N: usize> System<N> for Rotor<E> {
 
 impl<E: Effects, const N: usize> Differentiable<N> for Rotor<E> {
     fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
-        // Nothing depends on the quadratures, so there is no direction for them.
-        let moving = |n: usize| if n < PHI { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
-        let rates: [Dual<PHI>; N] = self.rates_in(self.chart, t, &std::array::from_fn(moving));
-        rates.map(|rate| std::array::from_fn(|n| if n < PHI { rate.eps[n] } else { 0.0 }))
+        if System::<N>::depended_on(self) == COORDINATES {
+            self.jacobian_along::<COORDINATES, N>(t, y)
+        } else {
+            self.jacobian_along::<PHI, N>(t, y)
+        }
+    }
+}
+
+impl<E: Effects> Rotor<E> {
+    /// The derivatives along the first D numbers of the state: nothing depends on the others, the quadratures.
+    fn jacobian_along<const D: usize, const N: usize>(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
+        let moving = |n: usize| if n < D { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
+        let rates: [Dual<D>; N] = self.rates_in::<_, N, false, false>(self.chart, t, &std::array::from_fn(moving));
+        rates.map(|rate| std::array::from_fn(|n| if n < D { rate.eps[n] } else { 0.0 }))
     }
 }

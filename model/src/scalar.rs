@@ -22,6 +22,9 @@ pub trait Scalar:
     + ClosedDivAssign
     + Neg<Output = Self>
 {
+    /// Whether it carries derivatives: arithmetic is then so long that laws over it are compiled once, and called.
+    const LONG: bool = true;
+
     /// A constant: its derivatives are zero.
     fn constant(value: f64) -> Self;
 
@@ -57,6 +60,8 @@ fn estrin<T: Copy + Add<Output = T> + Mul<Output = T>>(a: &[T; 9], x: T) -> T {
 }
 
 impl Scalar for f64 {
+    const LONG: bool = false;
+
     #[inline(always)]
     fn constant(value: f64) -> Self {
         value

@@ -19,7 +19,9 @@ pub struct Scene {
     pub name: String,
     /// One line on what it shows.
     pub title: String,
-    /// The effects that it calls for, each with its index among its kind, in the order of the catalogue.
+    /// Whether its effects have switches; then it holds them all, and calls for those that are on at first.
+    pub general: bool,
+    /// The effects that it holds, each with its index among its kind, in the order of the catalogue.
     pub effects: Vec<(&'static Info, u32)>,
     /// Its variables.
     pub variables: Vec<Variable>,
@@ -109,6 +111,7 @@ impl Scene {
             file: file.into(),
             name: name_of(file),
             title: found.title.unwrap_or_else(|| name_of(file)),
+            general: found.general,
             effects: found.effects,
             variables: found.variables,
             starts: found.starts,
@@ -126,7 +129,8 @@ impl Scene {
     /// The scene's parameters, over the list of all effects.
     pub fn parameters(&self) -> Parameters<All> {
         let mut parameters = Parameters::<All>::default();
-        for (info, index) in &self.effects {
+        // Those of a general scene are switched by their start values.
+        for (info, index) in self.effects.iter().filter(|_| !self.general) {
             parameters.effects.switch_on(Place::effect_block(info.number, *index));
         }
         for (reference, value) in &self.starts {

@@ -1,7 +1,7 @@
 //! What comes in from outside, over time.
 
 use crate::scalar::Scalar;
-use crate::stored::stored;
+use crate::stored::{Damaged, Stored, Walk, choice, stored};
 
 /// An input as a polynomial of degree 2 in time, about the communication point where it was last set.
 ///
@@ -19,9 +19,30 @@ pub struct Signal {
     curvature: f64,
     /// The direction in which derivatives are asked for [unit].
     seed: f64,
+    /// What was said of it last, and when [s].
+    source: Source,
+    told: f64,
 }
 
-stored!(Signal { origin, value, slope, curvature, seed });
+stored!(Signal { origin, value, slope, curvature, seed, source, told });
+
+/// What was said of a signal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Source {
+    /// A value was set.
+    #[default]
+    Value,
+    /// Derivatives were sent.
+    Derivatives,
+    /// It was extrapolated.
+    Foretold,
+}
+
+impl Stored for Source {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        choice(self, &[Source::Value, Source::Derivatives, Source::Foretold], walk)
+    }
+}
 
 /// The highest derivative of an input that a host may send.
 pub const HIGHEST_DERIVATIVE: u32 = 2;
@@ -45,6 +66,11 @@ impl Signal {
         self.slope + (t - self.origin) * self.curvature
     }
 
+    /// When it was last set [s].
+    pub fn since(&self) -> f64 {
+        self.origin
+    }
+
     /// Whether it is zero at all times.
     pub fn is_zero(&self) -> bool {
         self.value == 0.0 && self.slope == 0.0 && self.curvature == 0.0
@@ -56,6 +82,11 @@ impl Signal {
         held(self) && held(other) && self.value.to_bits() == other.value.to_bits()
     }
 
+    /// What was said last, of a signal that goes on as it was.
+    pub fn going_on(self, before: Self) -> Self {
+        Self { source: self.source, told: self.told, ..before }
+    }
+
     /// Sets its value from the communication point `t` [s] on. Derivatives sent there stay.
     pub fn set(&mut self, t: f64, value: f64) {
         self.set_out_from(t);
@@ -65,6 +96,7 @@ impl Signal {
     /// Sets its derivative of order 1 or 2 at the communication point `t` [s].
     pub fn set_derivative(&mut self, t: f64, order: u32, value: f64) {
         self.set_out_from(t);
+        self.source = Source::Derivatives;
         if order == 1 {
             self.slope = value;
         } else {
@@ -74,7 +106,22 @@ impl Signal {
 
     /// What was set before the run counts from its start at `t` [s].
     pub fn begin(&mut self, t: f64) {
-        self.origin = t;
+        (self.origin, self.told) = (t, t);
+    }
+
+    /// The value that was set at the communication point `t` [s], if one was.
+    pub fn set_at(&self, t: f64) -> Option<f64> {
+        (self.told == t && self.source != Source::Foretold).then_some(self.value)
+    }
+
+    /// Whether derivatives were sent at the communication point `t` [s].
+    pub fn was_sent_derivatives_at(&self, t: f64) -> bool {
+        self.told == t && self.source == Source::Derivatives
+    }
+
+    /// Extrapolates it from the communication point `t` [s] on: value, rate and second derivative there.
+    pub fn foretell(&mut self, t: f64, [value, slope, curvature]: [f64; 3]) {
+        *self = Self { origin: t, value, slope, curvature, source: Source::Foretold, told: t, ..*self };
     }
 
     /// Derivatives are asked for in a direction that has this much more of this input.
@@ -84,8 +131,11 @@ impl Signal {
 
     /// The value goes on from `t` [s]; derivatives sent elsewhere are forgotten.
     fn set_out_from(&mut self, t: f64) {
-        if self.origin != t {
+        if self.origin != t || self.source == Source::Foretold {
             *self = Self { origin: t, value: self.at(t), ..Self::default() };
+        } else if self.told != t {
+            self.source = Source::Value;
         }
+        self.told = t;
     }
 }

@@ -2,10 +2,16 @@
 //! what the communication point shows.
 
 mod drive;
+mod forces;
+mod linear;
+mod method;
 mod open;
+mod outlook;
+mod plan;
 mod start;
 mod tangents;
 
+pub use open::{Open, Settled};
 pub use tangents::Tangents;
 
 use crate::effects::Effects;
@@ -16,9 +22,10 @@ use crate::signal::Signal;
 use crate::state::{COORDINATES, WITH_WORK, Whole};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
-use crate::variables::{Parameters, Reading};
+use crate::variables::{Parameters, Reading, numbers};
 use drive::Drive;
-use open::Open;
+use outlook::Outlook;
+use plan::Choice;
 use start::Motion;
 
 /// Who integrates a motion.
@@ -99,7 +106,7 @@ impl<E: Effects> Simulation<E> {
         let before = *signal;
         change(signal, t);
         if signal.goes_on_like(&before) {
-            *signal = before;
+            *signal = signal.going_on(before);
         } else {
             self.tell_of_inputs();
         }
@@ -121,25 +128,50 @@ impl<E: Effects> Simulation<E> {
     /// # Panics
     /// Where `t` is not finite.
     pub fn start(&mut self, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid> {
+        self.start_until(t, relative_tolerance, None)
+    }
+
+    /// [`Simulation::start`] of a run that is known to stop at `stop` [s], which `auto` heeds.
+    pub fn start_until(&mut self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
-        let mut parameters = self.parameters.clone();
-        parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
-        let solver = &mut parameters.setup.solver;
-        solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
+        let parameters = self.in_force(t, relative_tolerance);
         parameters.check()?;
         let (motion, reading) = self.at_start(&parameters, t)?;
+        let span = stop.map(|stop| stop - t);
         // From here on nothing is refused any more: what is refused leaves everything as it was.
         self.parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
+        self.parameters.effects.begin(&reading.motion);
         self.reading = None;
         self.news = false;
         self.run = Some(match self.integrator {
             Integrator::Host => Run::Open(Open::start(motion, &reading)),
             Integrator::Method if parameters.effects.works() => {
-                Run::Working(Drive::start(motion, &reading, &parameters.setup, t))
+                Run::Working(Drive::start(motion, &reading, &parameters.setup, t, span))
             }
-            Integrator::Method => Run::Conservative(Drive::start(motion, &reading, &parameters.setup, t)),
+            Integrator::Method => Run::Conservative(Drive::start(motion, &reading, &parameters.setup, t, span)),
         });
         Ok(())
+    }
+
+    /// What `auto` takes for a run that was started like this, and why; None where the parameters name the method.
+    pub fn choice(&self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Option<String> {
+        let parameters = self.in_force(t, relative_tolerance);
+        let solver = &parameters.setup.solver;
+        if self.integrator == Integrator::Host || solver.method != numbers::AUTO {
+            return None;
+        }
+        let Motion { rotor, state } = Motion::at_start(&parameters, t);
+        let span = stop.map(|stop| stop - t);
+        Some(Choice::new(&Outlook::new(solver, &rotor, t, &state, span)).to_string())
+    }
+
+    /// The parameters with this tolerance [1], the inputs as they are at time `t` [s].
+    fn in_force(&self, t: f64, relative_tolerance: Option<f64>) -> Parameters<E> {
+        let mut parameters = self.parameters.clone();
+        parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
+        let solver = &mut parameters.setup.solver;
+        solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
+        parameters
     }
 
     /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
@@ -149,6 +181,9 @@ impl<E: Effects> Simulation<E> {
     /// a number.
     pub fn advance(&mut self, t: f64) -> Result<(), Fault> {
         self.reading = None;
+        if self.parameters.effects.foretells() {
+            self.foretell();
+        }
         let news = self.news.then_some(&self.parameters.effects);
         match self.run.as_mut().expect("a run was started") {
             Run::Conservative(drive) => drive.advance(t, news)?,
@@ -157,6 +192,25 @@ impl<E: Effects> Simulation<E> {
         }
         self.news = false;
         Ok(())
+    }
+
+    /// Extrapolates inputs over the step that begins, where an effect does so.
+    fn foretell(&mut self) {
+        let t = self.time().unwrap_or_default();
+        let effects = &mut self.parameters.effects;
+        effects.step_from(t);
+        let (mut foretold, mut number, mut changes) = (effects.clone(), 0, false);
+        foretold.for_each_foretold(&mut |signal| {
+            let before = *signal;
+            effects.foretell(number, signal);
+            if signal.goes_on_like(&before) {
+                *signal = before;
+            }
+            changes |= *signal != before;
+            number += 1;
+        });
+        effects.hear(&foretold);
+        self.news |= changes;
     }
 
     /// The communication point [s]; None before the start.
@@ -212,7 +266,9 @@ impl<E: Effects> Simulation<E> {
                 Some(Run::Open(open)) => open.read(),
                 None => {
                     self.parameters.check()?;
-                    self.at_start(&self.parameters, 0.0)?.1
+                    let reading = self.at_start(&self.parameters, 0.0)?.1;
+                    self.parameters.effects.begin(&reading.motion);
+                    reading
                 }
             });
         }
@@ -270,7 +326,7 @@ impl<E: Effects> Simulation<E> {
 
     /// The start as the parameters make it, and what it shows. An error where it overflows.
     fn at_start(&self, parameters: &Parameters<E>, t: f64) -> Result<(Motion<E>, Reading), Invalid> {
-        let mut start = Motion::at_start(parameters);
+        let mut start = Motion::at_start(parameters, t);
         if self.integrator == Integrator::Host {
             start.unwrap_turns();
         }

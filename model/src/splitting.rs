@@ -1,12 +1,14 @@
 //! The rotor's motion as the sum of two: the drift of a free rotor, followed exactly, and the kicks of its effects, which
 //! change its speeds where it is.
 
-use crate::body::AngularVelocity;
-use crate::effects::Effects;
+mod tumbling;
+
+use crate::effects::{Action, Effects};
+use crate::integrate::Refusal;
 use crate::integrate::composition::{Composition, Split, Splitting};
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::rotation::arc::Reduced;
-use crate::rotation::{Angle, Tilt};
+use crate::rotation::{Angle, Tilt, Turn, Turned};
 use crate::rotor::{LIMIT, Rotor};
 use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK};
 use nalgebra::Vector3;
@@ -26,6 +28,8 @@ pub struct Flow<'r, E, const N: usize> {
     /// Whether kicks are spread over the drift.
     spreads: bool,
     evaluations: f64,
+    /// What stood in the way.
+    refusal: Option<Refusal>,
 }
 
 /// v_c, K_c and the work supplied and lost, or their rates.
@@ -53,8 +57,9 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
             work: if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0; 2] },
             // Where no effect works, none depends on the speeds.
             inner: self.effects.works().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
-            spreads: at.k_c.norm() * h * self.body.per_jt > RESOLVED,
+            spreads: self.inertia().uneven.is_none() && at.k.norm() * h * self.body.per_jt > RESOLVED,
             evaluations: 0.0,
+            refusal: None,
         }
     }
 }
@@ -63,7 +68,12 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     /// Turns the axis by the Euler vector ρ [rad].
     #[inline(always)]
     fn turn(&mut self, rho: Vector3<f64>) {
-        let turned = self.tilt.turned(rho);
+        self.take(self.tilt.turned(&Turn::about(rho)));
+    }
+
+    /// Goes on from a tilt that has turned.
+    #[inline(always)]
+    fn take(&mut self, turned: Turned) {
         self.at.gamma = turned.gamma;
         self.at.phi += turned.phi;
         self.turns += turned.turns;
@@ -72,40 +82,42 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
 
     /// The motion at time `t` [s], with these speeds where it is.
     #[inline(always)]
-    fn motion(&self, t: f64, v_c: Vector3<f64>, k_c: Vector3<f64>) -> Kinematics<f64> {
-        let Rotor { body, turns, .. } = *self.rotor;
-        let velocity = body.angular_velocity(&k_c, &self.tilt.axis);
-        let (omega, AngularVelocity { swing, spin }) = (velocity.omega(&self.tilt.axis), velocity);
-        Kinematics { body, t, turns, at: Coordinates { v_c, k_c, ..self.at }, tilt: self.tilt, swing, spin, omega }
+    fn motion(&self, t: f64, v: Vector3<f64>, k: Vector3<f64>) -> Kinematics<f64> {
+        let at = Coordinates { v, k, ..self.at };
+        Kinematics::tilted(self.rotor.inertia(), self.tilt, at).when(t, self.rotor.turns)
     }
 
     /// Follows the speeds for a time `h` [s], the place and the time `t` [s] standing still.
     #[inline(always)]
     fn push(&mut self, t: f64, h: f64) {
         let effects = &self.rotor.effects;
-        if effects.needs_gamma() && self.rotor.reaches(self.at.gamma, LIMIT).is_err() {
-            self.at.k_c.fill(f64::NAN);
+        if effects.needs_gamma()
+            && let Err(refusal) = self.rotor.reaches(self.at.gamma, LIMIT)
+        {
+            self.refusal = Some(refusal);
             return;
         }
-        // eq. 40: m dv_c/dt = ΣF, dK_c/dt = ΣM_c, place and time frozen
+        // eq. 40: m dv/dt = ΣF, dK/dt = ΣM, place and time frozen
         let Some(tableau) = self.inner else {
-            let load = effects.load(&self.motion(t, self.at.v_c, self.at.k_c));
-            self.at.v_c += load.force * (h * self.rotor.body.per_m);
-            self.at.k_c += load.moment * h;
+            let motion = self.motion(t, self.at.v, self.at.k);
+            let load = effects.load(&motion);
+            self.at.v += load.force * (h * self.rotor.body.per_m);
+            self.at.k += load.about_centre(&motion) * h;
             self.evaluations += 1.0;
             return;
         };
-        let (v, k) = (self.at.v_c, self.at.k_c);
+        let (v, k) = (self.at.v, self.at.k);
         let speeds: Speeds = [v.x, v.y, v.z, k.x, k.y, k.z, self.work[0], self.work[1]];
         let rates = |speeds: &Speeds| {
             let [v, k] = vectors(speeds);
             let motion = self.motion(t, v, k);
-            let load = effects.load(&motion) + effects.damping(&motion);
-            let (a, m) = (load.force * self.rotor.body.per_m, load.moment);
-            [a.x, a.y, a.z, m.x, m.y, m.z, effects.supply(&motion), effects.loss(&motion)]
+            let Action { load, damping, supply, loss } = effects.action(&motion);
+            let load = load + damping;
+            let (a, m) = (load.force * self.rotor.body.per_m, load.about_centre(&motion));
+            [a.x, a.y, a.z, m.x, m.y, m.z, supply, loss]
         };
         let speeds = tableau.advanced(rates, speeds, h);
-        [self.at.v_c, self.at.k_c] = vectors(&speeds);
+        [self.at.v, self.at.k] = vectors(&speeds);
         self.work = [speeds[6], speeds[7]];
         self.evaluations += tableau.stages.len() as f64;
     }
@@ -118,11 +130,14 @@ fn vectors(speeds: &Speeds) -> [Vector3<f64>; 2] {
 impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
     #[inline(always)]
     fn drift(&mut self, h: f64) {
-        let body = &self.rotor.body;
-        // eq. 39: r_c + h v_c; L(K h/Jt) on the left and K·t h (1/Ja − 1/Jt) about the axis
-        self.at.r_c += self.at.v_c * h;
-        self.at.phi += self.at.k_c.dot(&self.tilt.axis) * (h * body.spin);
-        self.turn(self.at.k_c * (h * body.per_jt));
+        let body = self.rotor.inertia();
+        // eq. 39: r + h v; L(K h/Jt) on the left and K·t h (1/Ja − 1/Jt) about the axis
+        self.at.r += self.at.v * h;
+        if let Some(uneven) = &body.uneven {
+            return self.tumble(&body, uneven, h);
+        }
+        self.at.phi += self.at.k.dot(&self.tilt.axis) * (h * body.spin);
+        self.turn(self.at.k * (h * body.per_jt));
     }
 
     #[inline(always)]
@@ -130,9 +145,9 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         if !self.spreads {
             return self.push(t, h);
         }
-        let before = self.at.k_c;
+        let before = self.at.k;
         self.push(t, 0.5 * h);
-        let k = self.at.k_c;
+        let k = self.at.k;
         let (square, gain) = (k.norm_squared(), (k - before) * 2.0);
         let half = 0.5 * square.sqrt() * (h * self.rotor.body.per_jt).abs();
         if half > 0.0 {
@@ -144,7 +159,7 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
     }
 
     #[inline(always)]
-    fn end(self) -> ([f64; N], f64) {
+    fn end(self) -> (Result<[f64; N], Refusal>, f64) {
         let mut y = [0.0; N];
         self.at.write(&mut y);
         // φ has all the turns that φ from e has gained.
@@ -152,6 +167,6 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         if N == WITH_WORK {
             (y[SUPPLIED], y[DISSIPATED]) = (self.work[0], self.work[1]);
         }
-        (y, self.evaluations)
+        (self.refusal.map_or(Ok(y), Err), self.evaluations)
     }
 }

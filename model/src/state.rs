@@ -9,12 +9,12 @@ use nalgebra::{Vector2, Vector3};
 /// The coordinates of the motion, or their rates (units per second). Vectors in the inertial frame O.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S: Scalar> {
-    /// Position of the mass centre c [m].
-    pub r_c: Vector3<S>,
-    /// Velocity of c [m/s].
-    pub v_c: Vector3<S>,
-    /// Angular momentum K_c about c [kg·m²/s].
-    pub k_c: Vector3<S>,
+    /// Position of the mass centre G of the whole [m]: of c, where nothing is unbalanced.
+    pub r: Vector3<S>,
+    /// Velocity of G [m/s].
+    pub v: Vector3<S>,
+    /// Angular momentum about G [kg·m²/s].
+    pub k: Vector3<S>,
     /// γ_y and γ_z [rad] in the chart in force.
     pub gamma: Vector2<S>,
     /// φ [rad] in the chart in force, less the whole turns that are counted apart.
@@ -47,9 +47,9 @@ impl<S: Scalar> Coordinates<S> {
     #[inline(always)]
     pub fn from_slice(y: &[S]) -> Self {
         Self {
-            r_c: Vector3::new(y[0], y[1], y[2]),
-            v_c: Vector3::new(y[3], y[4], y[5]),
-            k_c: Vector3::new(y[6], y[7], y[8]),
+            r: Vector3::new(y[0], y[1], y[2]),
+            v: Vector3::new(y[3], y[4], y[5]),
+            k: Vector3::new(y[6], y[7], y[8]),
             gamma: Vector2::new(y[GAMMA.start], y[GAMMA.start + 1]),
             phi: y[PHI],
         }
@@ -58,7 +58,7 @@ impl<S: Scalar> Coordinates<S> {
     /// Into the first [`COORDINATES`] numbers of `y`, in the order of the fields.
     #[inline(always)]
     pub fn write(&self, y: &mut [S]) {
-        let [r, v, k, gamma] = [&self.r_c, &self.v_c, &self.k_c, &self.gamma.push(self.phi)];
+        let [r, v, k, gamma] = [&self.r, &self.v, &self.k, &self.gamma.push(self.phi)];
         for (part, vector) in y.chunks_exact_mut(3).zip([r, v, k, gamma]) {
             part.copy_from_slice(vector.as_slice());
         }
@@ -84,22 +84,89 @@ pub struct Kinematics<S: Scalar> {
     pub spin: S,
     /// Angular velocity ω [rad/s].
     pub omega: Vector3<S>,
+    /// From c to the mass centre G of the whole [m]; None of a body of which both are one.
+    pub to_centre: Option<Vector3<S>>,
+    /// λ [N·m·s], where ω_φ is imposed: the angular momentum about G is K + λ n.
+    pub impulse: Option<S>,
 }
 
 impl<S: Scalar> Kinematics<S> {
     /// The kinematics of `body` at these coordinates of a chart, at time 0 and with no turns counted apart.
     #[inline(always)]
     pub fn new(body: Inertia, chart: Chart, at: Coordinates<S>) -> Self {
-        let tilt = Tilt::new(chart, at.gamma);
-        let velocity = body.angular_velocity(&at.k_c, &tilt.axis);
+        Self::tilted(body, Tilt::new(chart, at.gamma), at)
+    }
+
+    /// [`Kinematics::new`] where the tilt of γ is known.
+    #[inline(always)]
+    pub fn tilted(body: Inertia, tilt: Tilt<S>, at: Coordinates<S>) -> Self {
+        let (velocity, to_centre) = match &body.uneven {
+            None => (body.angular_velocity(&at.k, &tilt.axis), None),
+            Some(uneven) => {
+                let attitude = tilt.attitude(at.phi);
+                let to_centre = attitude * uneven.centre.map(S::constant);
+                (body.uneven_angular_velocity(uneven, &at.k, &attitude), Some(to_centre))
+            }
+        };
         let (omega, AngularVelocity { swing, spin }) = (velocity.omega(&tilt.axis), velocity);
-        Self { body, t: 0.0, turns: 0.0, at, tilt, swing, spin, omega }
+        Self { body, t: 0.0, turns: 0.0, at, tilt, swing, spin, omega, to_centre, impulse: None }
     }
 
     /// The same at time `t` [s], with whole turns counted apart.
     #[inline(always)]
     pub fn when(self, t: f64, turns: f64) -> Self {
         Self { t, turns, ..self }
+    }
+
+    /// The same where ω_φ is imposed [rad/s]: the angular momentum gives way along n.
+    #[inline(always)]
+    pub fn imposed(self, speed: S) -> Self {
+        let n = self.tilt.joint_axis();
+        let answer = self.angular_velocity(&n);
+        // eq. 75: λ = (w − n·I⁻¹K)/(n·I⁻¹n), ω = I⁻¹(K + λ n)
+        let impulse = (speed - n.dot(&self.omega)) / n.dot(&answer);
+        let gain = answer * impulse;
+        Self { swing: self.swing + gain, omega: self.omega + gain, impulse: Some(impulse), ..self }
+    }
+
+    /// I⁻¹K [rad/s] of any angular momentum K [kg·m²/s] about G.
+    #[inline(always)]
+    fn angular_velocity(&self, momentum: &Vector3<S>) -> Vector3<S> {
+        let velocity = match &self.body.uneven {
+            None => self.body.angular_velocity(momentum, self.axis()),
+            Some(uneven) => self.body.uneven_angular_velocity(uneven, momentum, &self.tilt.attitude(self.at.phi)),
+        };
+        velocity.omega(self.axis())
+    }
+
+    /// Angular momentum about G [kg·m²/s].
+    #[inline(always)]
+    pub fn momentum(&self) -> Vector3<S> {
+        // eq. 75: K + λ n
+        self.impulse.map_or(self.at.k, |impulse| self.at.k + self.tilt.joint_axis() * impulse)
+    }
+
+    /// By how much the rate of K falls short of the moment about G, where ω_φ is imposed [N·m].
+    #[inline(always)]
+    pub fn carried(&self) -> Option<Vector3<S>> {
+        // eq. 76: λ dn/dt
+        self.impulse.map(|impulse| self.joint_rate() * impulse)
+    }
+
+    /// dn/dt [1/s].
+    fn joint_rate(&self) -> Vector3<S> {
+        let (t, t_rate) = (self.axis(), self.axis_rate());
+        let (sum, per_sum) = (Vector3::x() + t, S::one() / (S::one() + t.x));
+        // eq. 76: dn/dt = (dt/dt)/(1 + e·t) − (e + t)(e·dt/dt)/(1 + e·t)²
+        t_rate * per_sum - sum * (t_rate.x * per_sum * per_sum)
+    }
+
+    /// The torque τ along n [N·m] that gives ω_φ this rate [rad/s²] beside this moment about G [N·m].
+    pub fn torque(&self, acceleration: S, moment: &Vector3<S>) -> S {
+        let n = self.tilt.joint_axis();
+        let others = self.angular_velocity(&(moment - self.omega.cross(&self.momentum())));
+        // eq. 76: τ = (a − dn/dt·ω − n·I⁻¹(M − ω×K))/(n·I⁻¹n)
+        (acceleration - self.joint_rate().dot(&self.omega) - n.dot(&others)) / n.dot(&self.angular_velocity(&n))
     }
 
     /// φ from e, wrapped.
@@ -149,14 +216,28 @@ impl<S: Scalar> Kinematics<S> {
         // dω_φ/dt = ∂ω_φ/∂y · dy/dt
         let along = |at: S, rate: S| Dual::along(at, rate);
         let moving = Coordinates {
-            r_c: self.at.r_c.zip_map(&rates.r_c, along),
-            v_c: self.at.v_c.zip_map(&rates.v_c, along),
-            k_c: self.at.k_c.zip_map(&rates.k_c, along),
+            r: self.at.r.zip_map(&rates.r, along),
+            v: self.at.v.zip_map(&rates.v, along),
+            k: self.at.k.zip_map(&rates.k, along),
             gamma: self.at.gamma.zip_map(&rates.gamma, along),
             phi: along(self.at.phi, rates.phi),
         };
         let [rate] = Kinematics::new(self.body, self.tilt.chart(), moving).axial_rate().eps;
         rate
+    }
+
+    /// Position of c, the point on the axis that is the mass centre of the balanced rotor [m].
+    #[inline(always)]
+    pub fn r_c(&self) -> Vector3<S> {
+        // eq. 71: r_G = r_c + L b
+        self.to_centre.map_or(self.at.r, |to_centre| self.at.r - to_centre)
+    }
+
+    /// Velocity of c [m/s].
+    #[inline(always)]
+    pub fn v_c(&self) -> Vector3<S> {
+        // eq. 71: v_G = v_c + ω×L b
+        self.to_centre.map_or(self.at.v, |to_centre| self.at.v - self.omega.cross(&to_centre))
     }
 
     /// From c to the station at `p` [m] along t, in O [m].
@@ -168,12 +249,12 @@ impl<S: Scalar> Kinematics<S> {
     /// Position of the station at `p` [m] along t from c, in O [m].
     #[inline(always)]
     pub fn station(&self, p: f64) -> Vector3<S> {
-        self.at.r_c + self.lever(p)
+        self.r_c() + self.lever(p)
     }
 
     /// Velocity of the station at `p` [m] along t from c, in O [m/s].
     #[inline(always)]
     pub fn station_velocity(&self, p: f64) -> Vector3<S> {
-        self.at.v_c + self.axis_rate() * S::constant(p)
+        self.v_c() + self.axis_rate() * S::constant(p)
     }
 }

@@ -3,7 +3,7 @@
 pub mod units;
 
 use crate::dual::Tangent;
-use crate::error::Invalid;
+use crate::error::{Invalid, written};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::state::Whole;
@@ -39,9 +39,17 @@ impl Place {
     /// How many of a kind a scene may call for.
     pub const OF_A_KIND: u32 = 4;
 
+    /// The last row of an effect's block, which is its switch's where it has one, and else nobody's.
+    pub const SWITCH: usize = 255;
+
     /// The block of the effect with this catalogue number (from 1), the `index`th of its kind (from 1).
     pub const fn effect_block(number: u32, index: u32) -> u32 {
         Self::FIRST_EFFECT + Self::OF_A_KIND * (number - 1) + (index - 1)
+    }
+
+    /// The switch of the effect that has this block, where it has one.
+    pub const fn switch(block: u32) -> Self {
+        Self { block, row: Self::SWITCH }
     }
 
     /// The place behind a value reference.
@@ -173,6 +181,8 @@ pub enum Kind {
     Real,
     /// fmi2Integer.
     Integer,
+    /// fmi2Boolean, 1 or 0.
+    Boolean,
     /// fmi2Integer, with the meaning of each value.
     Enumeration(&'static Enumeration),
 }
@@ -222,6 +232,8 @@ pub enum Bound {
     ZeroOrFrom(f64),
     /// Within both ends.
     Within(f64, f64),
+    /// One of these, which ascend.
+    OneOf(&'static [f64]),
 }
 
 impl Bound {
@@ -234,17 +246,20 @@ impl Bound {
                 Bound::NotNegative => value >= 0.0,
                 Bound::ZeroOrFrom(least) => value == 0.0 || value >= least,
                 Bound::Within(low, high) => (low..=high).contains(&value),
+                Bound::OneOf(these) => these.contains(&value),
             }
     }
 
-    /// The bound in words.
-    pub fn words(self) -> String {
+    /// The bound of a variable of this kind, in words.
+    pub fn words(self, kind: Kind) -> String {
+        let number = |value| written(value, kind != Kind::Real);
         match self {
             Bound::Finite => "a finite number".into(),
             Bound::Positive => "a finite number > 0".into(),
             Bound::NotNegative => "a finite number >= 0".into(),
-            Bound::ZeroOrFrom(least) => format!("0 or at least {least:?}"),
-            Bound::Within(low, high) => format!("a number from {low:?} to {high:?}"),
+            Bound::ZeroOrFrom(least) => format!("0 or at least {}", number(least)),
+            Bound::Within(low, high) => format!("a number from {} to {}", number(low), number(high)),
+            Bound::OneOf(these) => these.iter().map(f64::to_string).collect::<Vec<_>>().join(" or "),
         }
     }
 
@@ -254,6 +269,7 @@ impl Bound {
             Bound::Finite => (None, None),
             Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => (Some(0.0), None),
             Bound::Within(low, high) => (Some(low), Some(high)),
+            Bound::OneOf(these) => (these.first().copied(), these.last().copied()),
         }
     }
 }
@@ -298,9 +314,12 @@ impl Meta {
         };
         match self.kind {
             Kind::Enumeration(of) if !of.items.iter().any(|item| f64::from(item.0) == value) => {
-                Err(Invalid::new(full_name(), value, of.words()))
+                Err(Invalid { whole: self.kind != Kind::Real, ..Invalid::new(full_name(), value, of.words()) })
             }
-            Kind::Real if !bound.holds(value) => Err(Invalid::new(full_name(), value, bound.words())),
+            Kind::Real | Kind::Integer | Kind::Boolean if !bound.holds(value) => Err(Invalid {
+                whole: self.kind != Kind::Real,
+                ..Invalid::new(full_name(), value, bound.words(self.kind))
+            }),
             _ => Ok(()),
         }
     }
@@ -331,17 +350,19 @@ macro_rules! parameter {
     };
 }
 
-/// A row for an input that is a [`Signal`]: `input!(tau, &NEWTON_METRE, 0.0, "…")`, with its value at first.
+/// A row for an input that is a [`Signal`]: `input!(tau, &NEWTON_METRE, 0.0, "…")`, with its value at first. The name of
+/// the field is the name of the variable.
+#[allow(unused_macros, reason = "a scene's effects may have none")]
 macro_rules! input {
-    ($field:ident, $unit:expr, $start:expr, $description:expr) => {
+    ($($field:ident).+, $unit:expr, $start:expr, $description:expr) => {
         $crate::variable::Row {
             meta: $crate::variable::Meta::real(
-                stringify!($field),
+                stringify!($($field).+),
                 $unit,
                 $crate::variable::Role::Input { start: $start },
                 $description,
             ),
-            access: $crate::variable::Access::Input { get: |p| &p.$field, get_mut: |p| &mut p.$field },
+            access: $crate::variable::Access::Input { get: |p| &p.$($field).+, get_mut: |p| &mut p.$($field).+ },
         }
     };
 }
@@ -372,4 +393,5 @@ macro_rules! output {
     };
 }
 
+#[allow(unused_imports, reason = "a scene's effects may have none")]
 pub(crate) use {input, output, parameter};

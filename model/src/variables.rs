@@ -1,8 +1,12 @@
 //! The one list of variables. A variable is written once, here or in the file of its effect: its value reference, its
 //! typed access, its XML line and its documentation follow.
 
-use crate::body::Body;
-use crate::effects::{Effects, Info};
+mod solver;
+
+pub use solver::{METHODS, Solver, TOLERANCES, numbers};
+
+use crate::body::{Body, Shape};
+use crate::effects::{Effects, Info, SWITCH};
 use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::Cost;
@@ -12,9 +16,7 @@ use crate::scalar::Scalar;
 use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, SUPPLIED, WITH_WORK, Whole};
 use crate::stored::{Damaged, Stored, Walk};
 use crate::variable::units::*;
-use crate::variable::{
-    Access, Bound, Enumeration, Kind, Meta, Output, Place, Readable, Role, Row, Shown, output, parameter,
-};
+use crate::variable::{Access, Bound, Kind, Meta, Output, Place, Readable, Role, Row, Shown, output, parameter};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
@@ -44,17 +46,6 @@ pub struct Start {
     pub omega: Vector3<f64>,
 }
 
-/// How the motion is integrated.
-#[derive(Clone, Debug, Default)]
-pub struct Solver {
-    /// Number of the method in [`METHODS`].
-    pub method: i32,
-    /// Relative tolerance [1].
-    pub relative_tolerance: f64,
-    /// Absolute tolerance in nominals [1]; 0: the relative one.
-    pub absolute_tolerance: f64,
-}
-
 /// What an instant of the run shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Reading<S: Scalar = f64> {
@@ -81,16 +72,16 @@ impl<S: Scalar> Reading<S> {
         state
     }
 
-    fn r_c(&self) -> &Vector3<S> {
-        &self.motion.at.r_c
+    fn r_c(&self) -> Vector3<S> {
+        self.motion.r_c()
     }
 
-    fn v_c(&self) -> &Vector3<S> {
-        &self.motion.at.v_c
+    fn v_c(&self) -> Vector3<S> {
+        self.motion.v_c()
     }
 
-    fn k_c(&self) -> &Vector3<S> {
-        &self.motion.at.k_c
+    fn k_c(&self) -> Vector3<S> {
+        self.motion.momentum()
     }
 
     /// γ_y and γ_z from e [rad], where rounding gives |γ| > π: π.
@@ -120,7 +111,7 @@ impl Reading {
         let moving: Whole<S> = std::array::from_fn(|n| S::moving(state[n], seeds[n]));
         let Kinematics { body, t, turns, .. } = self.motion;
         let at = Coordinates::from_slice(&moving);
-        let motion = Kinematics::new(body, self.motion.tilt.chart(), at).when(t, turns);
+        let motion = rotor::imposed(effects, Kinematics::new(body, self.motion.tilt.chart(), at).when(t, turns));
         let work = [moving[SUPPLIED], moving[DISSIPATED]];
         Reading::new(motion, effects, work, self.ledger.total_at_start, self.cost)
     }
@@ -133,22 +124,6 @@ impl Shown for Always {
     type Of<S: Scalar> = Reading<S>;
 }
 
-/// The type of `solver.method`.
-pub static METHODS: Enumeration = Enumeration {
-    name: "SolverMethod",
-    items: &[
-        (2, "dopri5", "explicit Runge-Kutta pair of Dormand and Prince, order 5(4), adaptive"),
-        (3, "dop853", "explicit Runge-Kutta method of Dormand and Prince, order 8(5,3), adaptive"),
-    ],
-};
-
-/// What a relative tolerance [1] must be: no tighter than double precision can keep.
-pub const TOLERANCES: Bound = Bound::Within(1e-14, 1e-1);
-
-/// The absolute tolerances that are possible: where a component passes zero nothing else counts, and far below the rounding
-/// of the others steps would shrink without end.
-const LEAST_ABSOLUTE: Bound = Bound::ZeroOrFrom(1e-20);
-
 type AlwaysRow = Row<Setup, Always>;
 
 fn constant<S: Scalar>(value: f64) -> S {
@@ -158,7 +133,7 @@ fn constant<S: Scalar>(value: f64) -> S {
 const ANY: Bound = Bound::Finite;
 
 /// The blocks that are always there, in the order of their value references.
-pub static BLOCKS: [&[AlwaysRow]; 6] = [ROTOR, START, SOLVER, MOTION, ENERGY, STATE];
+pub static BLOCKS: [&[AlwaysRow]; 6] = [ROTOR, START, solver::ROWS, MOTION, ENERGY, STATE];
 
 const ROTOR: &[AlwaysRow] = &[
     parameter!(rotor.m, &KILOGRAM, None, Bound::Positive, "mass"),
@@ -194,53 +169,6 @@ const START: &[AlwaysRow] = &[
     parameter!(start.omega.x, &RADIAN_PER_SECOND, Some(0.0), ANY, "angular velocity at the start, x"),
     parameter!(start.omega.y, &RADIAN_PER_SECOND, Some(0.0), ANY, "angular velocity at the start, y"),
     parameter!(start.omega.z, &RADIAN_PER_SECOND, Some(0.0), ANY, "angular velocity at the start, z"),
-];
-
-const SOLVER: &[AlwaysRow] = &[
-    Row {
-        meta: Meta {
-            name: "solver.method",
-            description: "method of integration",
-            unit: &ONE,
-            kind: Kind::Enumeration(&METHODS),
-            role: Role::Parameter { default: Some(3.0), bound: ANY },
-        },
-        access: Access::Parameter {
-            get: |s| f64::from(s.solver.method),
-            set: |s, value| s.solver.method = value as i32,
-        },
-    },
-    parameter!(
-        solver.relative_tolerance,
-        &ONE,
-        Some(1e-8),
-        TOLERANCES,
-        "tolerance of a step's error, relative to the larger of the value and its nominal"
-    ),
-    parameter!(
-        solver.absolute_tolerance,
-        &ONE,
-        Some(0.0),
-        LEAST_ABSOLUTE,
-        "tolerance of a step's error in nominals; 0: the relative tolerance"
-    ),
-    output!("solver.steps", &ONE, "steps accepted so far", |_, r| constant(r.cost.steps)),
-    output!("solver.rejected", &ONE, "steps rejected so far", |_, r| constant(r.cost.rejected)),
-    output!(
-        "solver.evaluations",
-        &ONE,
-        "evaluations of the right-hand side so far, those for outputs between two steps included",
-        |_, r| constant(r.cost.evaluations)
-    ),
-    output!("solver.next_step", &SECOND, "the step that the solver would like next; 0 before the run", |_, r| {
-        constant(r.cost.next_step)
-    }),
-    output!(
-        "solver.error_estimate",
-        &ONE,
-        "sum of the local error estimates of the accepted steps, relative as the tolerance is",
-        |_, r| constant(r.cost.error_estimate)
-    ),
 ];
 
 const MOTION: &[AlwaysRow] = &[
@@ -404,7 +332,6 @@ impl Setup {
                 row.meta.check(|| row.meta.name.into(), get(self))?;
             }
         }
-        self.rotor.check()?;
         let theta = self.start.gamma.norm();
         if theta > PI {
             return Err(Invalid::new("|start.gamma|", theta, format!("at most pi = {PI:?}")));
@@ -508,7 +435,20 @@ impl<E: Effects> Parameters<E> {
     /// The first parameter whose value is not possible.
     pub fn check(&self) -> Result<(), Invalid> {
         self.setup.check()?;
-        self.effects.check()
+        self.effects.check()?;
+        let is_symplectic = self.setup.solver.method == numbers::SYMPLECTIC;
+        if is_symplectic && E::IMPOSES && self.effects.imposed::<f64>(0.0).is_some() {
+            let bound = "another method: drifts and kicks do not keep an imposed speed";
+            return Err(Invalid::new("solver.method", f64::from(numbers::SYMPLECTIC), bound));
+        }
+        self.shape().check()
+    }
+
+    /// The body with what effects make of it.
+    pub fn shape(&self) -> Shape {
+        let mut shape = Shape::of(self.setup.rotor);
+        self.effects.shape(&mut shape);
+        shape
     }
 }
 
@@ -552,7 +492,20 @@ pub fn of_scene(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
         block(number, "", rows.iter().map(|row| row.meta).collect());
     }
     for (info, index) in effects {
-        block(Place::effect_block(info.number, *index), &format!("{}.", info.name), (info.metas)());
+        block(Place::effect_block(info.number, *index), &format!("{}.", info.block_name(*index)), (info.metas)());
     }
+    list
+}
+
+/// The list of a general scene, in which each effect has a switch: the switches stand together, before the effects.
+pub fn of_general(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
+    let switch = |(info, index): &(&'static Info, u32)| Variable {
+        name: info.switch_name(*index),
+        place: Place::switch(Place::effect_block(info.number, *index)),
+        meta: SWITCH,
+    };
+    let mut list = of_scene(effects);
+    let first = list.iter().position(|variable| variable.place.block >= Place::FIRST_EFFECT).unwrap_or(list.len());
+    list.splice(first..first, effects.iter().map(switch));
     list
 }

@@ -3,7 +3,7 @@
 use crate::dependencies::Dependencies;
 use crate::log::{self, Category};
 use crate::scene::Scene;
-use crate::state::{GAMMA, PHI};
+use crate::state::{GAMMA, PHI, SUPPLIED};
 use crate::variable::units::Unit;
 use crate::variable::{Bound, Enumeration, Kind, Role};
 use crate::variables::{Variable, state_number};
@@ -171,10 +171,22 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
             }
             attributes.extend(start.map(|value| ("start", number(value))));
             attributes.extend(derivative_of(scene, variable).map(|index| ("derivative", index.to_string())));
-            attributes.extend(is_set_anew(variable).then(|| ("reinit", "true".to_owned())));
+            attributes.extend(is_set_anew(scene, variable).then(|| ("reinit", "true".to_owned())));
             empty(out, "Real", &attributes)
         }
-        Kind::Integer => empty(out, "Integer", &[]),
+        Kind::Integer => {
+            let mut attributes = Vec::new();
+            if let (Role::Parameter { bound, .. }, Some(start)) = (meta.role, start) {
+                let (least, greatest) = bound.range();
+                let limits = [("min", least), ("max", greatest), ("start", Some(start))];
+                attributes.extend(limits.into_iter().filter_map(|(name, value)| Some((name, value?.to_string()))));
+            }
+            empty(out, "Integer", &attributes)
+        }
+        Kind::Boolean => {
+            let start = start.map(|value| ("start", (value != 0.0).to_string()));
+            empty(out, "Boolean", &start.into_iter().collect::<Vec<_>>())
+        }
         Kind::Enumeration(of) => {
             let mut attributes = vec![("declaredType", of.name.to_owned())];
             attributes.extend(start.map(|value| ("start", value.to_string())));
@@ -190,9 +202,10 @@ fn derivative_of(scene: &Scene, variable: &Variable) -> Option<usize> {
     Some(scene.variables.iter().position(|variable| variable.name == state)? + 1)
 }
 
-/// Whether the variable is a state that changes at an event, where the chart does.
-fn is_set_anew(variable: &Variable) -> bool {
-    state_number(variable.place).is_some_and(|n| GAMMA.contains(&n) || n == PHI)
+/// Whether the variable is a state that changes at an event: where the chart does, or where an imposed speed jumps.
+fn is_set_anew(scene: &Scene, variable: &Variable) -> bool {
+    let jumps = || scene.effects.iter().any(|(info, _)| info.imposes);
+    state_number(variable.place).is_some_and(|n| GAMMA.contains(&n) || n == PHI || (n == SUPPLIED && jumps()))
 }
 
 fn real(unit: &Unit) -> Vec<(&'static str, String)> {

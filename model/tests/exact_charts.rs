@@ -32,7 +32,8 @@ fn free_rotor(omega: Vector3<f64>, tolerance: f64) -> Simulation<()> {
 
 /// A free rotor that starts at γ = (0, gamma) [rad].
 fn tilted_rotor(gamma: [f64; 2], omega: Vector3<f64>, tolerance: f64) -> Simulation<()> {
-    let values = [(0, 0, BODY.m), (0, 1, BODY.Ja), (0, 2, BODY.Jt), (0, 3, BODY.l), (2, 0, 3.0), (2, 1, tolerance)];
+    let values =
+        [(0, 0, BODY.m), (0, 1, BODY.Ja), (0, 2, BODY.Jt), (0, 3, BODY.l), (2, 0, 3.0), (2, 1, tolerance), (2, 9, 6.0)];
     let spin = (0..3).map(|i| (1, 9 + i, omega[i]));
     let tilt = (0..2).map(|i| (1, 7 + i, gamma[i]));
     let places = values.into_iter().chain(spin).chain(tilt);

@@ -60,9 +60,9 @@ fn mount() -> Mount {
 /// Total energy [J] of a body of this shape in a chart, over any scalar.
 fn total<S: Scalar>(shape: f64, chart: Chart, at: Coordinates<f64>) -> S {
     let at = Coordinates {
-        r_c: at.r_c.map(S::constant),
-        v_c: at.v_c.map(S::constant),
-        k_c: at.k_c.map(S::constant),
+        r: at.r.map(S::constant),
+        v: at.v.map(S::constant),
+        k: at.k.map(S::constant),
         gamma: at.gamma.map(S::constant),
         phi: S::constant(at.phi),
     };
@@ -77,7 +77,7 @@ proptest! {
     fn exact_energy_across_a_switch(shape in 0..SHAPES.len(), gamma in tilt(), v_c in vector(10.0), k_c in vector(10.0), r_c in vector(1.0)) {
         // What the rounding of γ′ to doubles alone moves: ω_a |K| of ½Ja ω_a² + ½K²/Jt.
         let (shape, slender) = (SHAPES[shape], (1.0 / SHAPES[shape]).sqrt().max(1.0));
-        let before = Coordinates { r_c, v_c, k_c, gamma, phi: 0.0 };
+        let before = Coordinates { r: r_c, v: v_c, k: k_c, gamma, phi: 0.0 };
         let after = Coordinates { gamma: crossed_exactly(gamma), ..before };
         let change = total::<DoubleDouble>(shape, Chart::FromMinusE, after) - total(shape, Chart::FromE, before);
         let shown: (f64, f64) = (total(shape, Chart::FromE, before), total(shape, Chart::FromMinusE, after));

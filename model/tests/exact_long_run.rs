@@ -14,8 +14,16 @@ const REMAINDER: f64 = 5e-10;
 
 #[test]
 fn exact_remainder_after_a_million_turns() {
-    let values =
-        [(0, 0, 5.0), (0, 1, 0.15625), (0, 2, 0.078125), (0, 3, 0.75), (1, 9, SPIN), (2, 0, 3.0), (2, 1, 1e-8)];
+    let values = [
+        (0, 0, 5.0),
+        (0, 1, 0.15625),
+        (0, 2, 0.078125),
+        (0, 3, 0.75),
+        (1, 9, SPIN),
+        (2, 0, 3.0),
+        (2, 1, 1e-8),
+        (2, 9, 6.0),
+    ];
     let mut rotor =
         Simulation::<()>::from(Parameters::from_iter(values.map(|(block, row, value)| (Place { block, row }, value))));
     rotor.start(0.0, Some(1e-12)).unwrap();

@@ -9,6 +9,7 @@ use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use oracles::fixed::Fixed;
+use oracles::jeffcott::Jeffcott;
 use oracles::motion::{FreeRotor, Oscillator, Whirl, small_whirl};
 use oracles::numerics::{derivative, integral, log_slope, root};
 use oracles::{paper, rotation, trees};
@@ -184,6 +185,8 @@ fn exact_free_rotor_keeps_phi_and_attitude_together() {
         let other = libm::remainder(phi - rotation::phi(&rotor.attitude(t)), std::f64::consts::TAU);
         within("phi modulo a turn", other.abs(), FREE_PHI);
         within("panels", (phi - rotor.phi(t, 50)).abs(), FREE_PHI);
+        within("closed form", (phi - rotor.phi_in_closed_form(t)).abs(), FREE_PHI);
+        within("backwards", (rotor.phi(-t, 100) - rotor.phi_in_closed_form(-t)).abs(), FREE_PHI);
     }
 }
 
@@ -290,5 +293,34 @@ fn literature_reference_keeps_what_is_constant() {
         within("energy column", (instant.energy / 195.3125 - 1.0).abs(), REFERENCE);
         within("K·t", (instant.k_c.dot(&t) / 7.8125 - 1.0).abs(), REFERENCE);
         within("omega_phi", (omega_phi / instant.omega_phi - 1.0).abs(), REFERENCE);
+    }
+}
+
+/// Newton's law of Jeffcott's rotor, relative to what pushes it [1]; and its steady whirl, relative [1].
+const JEFFCOTT: [f64; 2] = [1e-9, 1e-11];
+
+#[test]
+fn exact_unbalanced_rotor_obeys_newton() {
+    let (natural, damping, eccentricity) = (20.0, 0.05, 0.002);
+    let through = Jeffcott { natural, damping, eccentricity, speed: 10.0, acceleration: 2.0 };
+    let place = |t: f64| through.place(t);
+    for t in [1.0, 4.0, 9.0] {
+        let parts = |t: f64| [place(t).re, place(t).im];
+        let speeds = |t: f64| derivative(parts, t, 0.02);
+        let (z, v, a) = (parts(t), speeds(t), derivative(speeds, t, 0.02));
+        let mass =
+            derivative(|t| derivative(|t| [libm::cos(through.phi(t)), libm::sin(through.phi(t))], t, 0.02), t, 0.02);
+        for n in 0..2 {
+            let defect = a[n] + 2.0 * damping * natural * v[n] + natural * natural * z[n] + eccentricity * mass[n];
+            within("Newton", defect.abs() / (eccentricity * 400.0), JEFFCOTT[0]);
+        }
+    }
+    // What is left of the start after 30 s: e^(−30).
+    for speed in [12.0, 20.0, 45.0] {
+        let steady = Jeffcott { natural, damping, eccentricity, speed, acceleration: 0.0 };
+        let (below, lost) = (natural * natural - speed * speed, 2.0 * damping * natural * speed);
+        let radius = eccentricity * speed * speed / libm::hypot(below, lost);
+        let z = steady.place(30.0);
+        within("radius", (libm::hypot(z.re, z.im) / radius - 1.0).abs(), JEFFCOTT[1]);
     }
 }

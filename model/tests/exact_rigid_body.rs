@@ -36,7 +36,17 @@ fn exact_extrapolation_has_its_order() {
 
 fn body(scene: &Scene) -> RigidBody {
     let model::body::Body { m, Ja, Jt, l } = scene.body;
-    RigidBody { m, Ja, Jt, l, g: scene.g, c: [scene.c1, scene.c2], d: [scene.d1, scene.d2], tau: |_| 0.0 }
+    RigidBody {
+        m,
+        Ja,
+        Jt,
+        l,
+        g: scene.g,
+        c: [scene.c1, scene.c2],
+        d: [scene.d1, scene.d2],
+        tau: |_| 0.0,
+        pushed: [Vector3::zeros(); 2],
+    }
 }
 
 /// Axis, attitude [1] and φ [rad] of a free rotor after 3 s: measured 2.9e-13.

@@ -17,11 +17,11 @@ fn errors(method: Method, tolerance: f64) -> [f64; 7] {
         largest(instants.iter().zip(&readings).map(|(instant, reading)| f(instant, reading)))
     };
     [
-        of(&|exact, reading| (reading.motion.at.r_c - exact.r_c).norm()),
+        of(&|exact, reading| (reading.motion.at.r - exact.r_c).norm()),
         of(&|exact, reading| (reading.motion.axis() - rotation::axis(&exact.gamma)).norm()),
         of(&|exact, reading| (reading.motion.phi() - exact.phi).abs()),
-        of(&|exact, reading| (reading.motion.at.v_c - exact.v_c).norm()),
-        of(&|exact, reading| (reading.motion.at.k_c - exact.k_c).norm()),
+        of(&|exact, reading| (reading.motion.at.v - exact.v_c).norm()),
+        of(&|exact, reading| (reading.motion.at.k - exact.k_c).norm()),
         of(&|exact, reading| (reading.motion.axial_rate() - exact.omega_phi).abs()),
         of(&|exact, reading| (reading.ledger.total() / exact.energy - 1.0).abs()),
     ]
@@ -47,7 +47,7 @@ const FALL: [f64; 2] = [10.0, 15.0];
 
 #[test]
 fn literature_errors_fall_with_the_tolerance() {
-    for method in Method::ALL {
+    for method in Method::PAIRS {
         let ladder = [1e-6, 1e-8, 1e-10, 1e-12].map(|tolerance| errors(method, tolerance));
         for (step, pair) in ladder.windows(2).enumerate() {
             for (n, name) in NAMES.into_iter().enumerate() {
@@ -64,7 +64,7 @@ const AXIAL_MOMENTUM: f64 = 4e-13;
 #[test]
 fn exact_axial_momentum_is_constant() {
     for reading in Scene::paper().run::<Supported>(times(10.0, 1000)) {
-        let axial = reading.motion.at.k_c.dot(reading.motion.axis());
+        let axial = reading.motion.at.k.dot(reading.motion.axis());
         within("K_c·t", (axial / 7.8125 - 1.0).abs(), AXIAL_MOMENTUM);
     }
 }

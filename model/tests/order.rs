@@ -3,11 +3,11 @@
 mod harness;
 mod oracles;
 
+use harness::swinging::{distance, swinging};
 use harness::{Method, Scene, largest, within};
 use model::integrate::explicit::Explicit;
 use model::integrate::tableau::{Combination, ErrorRule, Stage, Tableau};
 use model::integrate::{Refusal, System, Tolerance};
-use nalgebra::{Vector2, Vector3};
 use oracles::numerics::log_slope;
 use oracles::trees::{Tree, trees};
 
@@ -166,26 +166,6 @@ fn exact_polynomials_are_integrated_exactly() {
     }
 }
 
-/// The paper's rotor, heavily tilted and swinging: no small angle, no steady state.
-fn swinging(method: Method) -> Scene {
-    Scene {
-        method,
-        gamma: Vector2::new(0.9, 1.1),
-        omega: Vector3::new(5.0, 4.0, -7.0),
-        r_c: Vector3::new(0.3, 0.4, -0.5),
-        v_c: Vector3::new(1.0, -2.0, 0.5),
-        c1: 200.0,
-        c2: 20.0,
-        ..Scene::paper()
-    }
-}
-
-/// Error of the whole state, each component by its nominal size [1].
-fn distance(a: &[f64; 12], b: &[f64; 12]) -> f64 {
-    let nominal = [0.75, 0.75, 0.75, 1.0, 1.0, 1.0, 0.15625, 0.15625, 0.15625, 1.0, 1.0, 1.0];
-    (0..12).map(|n| ((a[n] - b[n]) / nominal[n]) * ((a[n] - b[n]) / nominal[n])).sum::<f64>().sqrt()
-}
-
 fn after(scene: &Scene, end: f64, steps: u32) -> [f64; 12] {
     let (mut stepper, rotor) = (scene.stepper(), scene.rotor());
     for _ in 0..steps {
@@ -203,9 +183,9 @@ const END: f64 = 1.0;
 #[test]
 fn exact_observed_order_of_the_step() {
     for (claim, range) in CLAIMS.iter().zip([[300, 450, 700, 1000, 1500], [60, 90, 130, 180, 250]]) {
-        let scene = swinging(claim.method);
+        let scene = Scene { method: claim.method, ..swinging() };
         // dop853 in 2000 steps is exact to rounding; dopri5 in 1500 agrees with it to 2e-10.
-        let reference = after(&swinging(Method::Dop853), END, 2000);
+        let reference = after(&Scene { method: Method::Dop853, ..swinging() }, END, 2000);
         let errors: Vec<_> =
             range.iter().map(|&n| (END / f64::from(n), distance(&after(&scene, END, n), &reference))).collect();
         let slope = log_slope(&errors);
@@ -220,7 +200,7 @@ const PLACES: u32 = 8;
 fn exact_observed_order_of_the_dense_output() {
     // Local: the error within one step from an exact state falls as h^(order + 1), here the geometric mean of places.
     for (claim, range) in CLAIMS.iter().zip([[0.0005, 0.0007, 0.001, 0.0015], [0.0025, 0.0035, 0.005, 0.007]]) {
-        let rotor = swinging(claim.method).rotor();
+        let rotor = Scene { method: claim.method, ..swinging() }.rotor();
         let start = |method: Method, y| {
             let tolerance = Tolerance { absolute: [1.0; 12], relative: [0.0; 12] };
             Explicit::start(method.tableau(), tolerance, &rotor, 0.0, y)
@@ -236,7 +216,9 @@ fn exact_observed_order_of_the_dense_output() {
                 distance(&stepper.dense(&rotor, sigma * h), reference.state())
             }))
         };
-        let places: Vec<_> = (1..=PLACES).map(|i| after(&swinging(Method::Dop853), 0.1 * f64::from(i), 400)).collect();
+        let places: Vec<_> = (1..=PLACES)
+            .map(|i| after(&Scene { method: Method::Dop853, ..swinging() }, 0.1 * f64::from(i), 400))
+            .collect();
         let mean = |h: f64| libm::exp(places.iter().map(|&y| libm::log(worst(y, h))).sum::<f64>() / f64::from(PLACES));
         let errors: Vec<_> = range.iter().map(|&h| (h, mean(h))).collect();
         let slope = log_slope(&errors) - 1.0;

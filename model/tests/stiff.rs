@@ -4,8 +4,8 @@
 mod harness;
 mod oracles;
 
-use harness::{Driven, Method, Random, Scene, Supported, largest, within};
-use model::effects::{Effects, named};
+use harness::swinging::{distance, driven, reference};
+use harness::{Method, Random, Scene, Supported, largest, within};
 use model::integrate::explicit::Explicit;
 use model::integrate::stiff::lu::Lu;
 use model::integrate::stiff::radau::{C, ERROR, GAMMA, PAIR, T, T_INVERSE, weights};
@@ -14,8 +14,7 @@ use model::integrate::{Fault, System, Tolerance};
 use model::rotor::Rotor;
 use model::state::WITH_WORK;
 use model::stored::{from_bytes, to_bytes};
-use model::variables::of_scene;
-use nalgebra::{Complex, ComplexField, Matrix3, Vector2, Vector3};
+use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
 use oracles::motion::Oscillator;
 use oracles::numerics::{derivative, log_slope};
 use oracles::trees::{Tree, trees};
@@ -75,42 +74,6 @@ fn literature_coefficients_of_collocation() {
 
 // ------------------------------------------------------------------------------------------------ observed order
 
-/// The paper's rotor, heavily tilted and swinging, damped, with a torque that changes.
-fn driven() -> (Rotor<Driven>, [f64; WITH_WORK]) {
-    let scene = Scene {
-        gamma: Vector2::new(0.9, 1.1),
-        omega: Vector3::new(5.0, 4.0, -7.0),
-        r_c: Vector3::new(0.3, 0.4, -0.5),
-        v_c: Vector3::new(1.0, -2.0, 0.5),
-        c1: 200.0,
-        c2: 20.0,
-        d1: 3.0,
-        d2: 0.2,
-        ..Scene::paper()
-    };
-    let mut effects = Driven::default();
-    let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
-    for (name, value) in scene.values().iter().filter(|(name, _)| name.contains("gravity") || name.contains("support"))
-    {
-        let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
-        assert!(effects.set_parameter(variable.place, *value));
-    }
-    effects.for_each_signal(&mut |tau| {
-        tau.set(0.0, 2.0);
-        tau.set_derivative(0.0, 1, -3.0);
-        tau.set_derivative(0.0, 2, 5.0);
-    });
-    let mut y = [0.0; WITH_WORK];
-    y[..12].copy_from_slice(&scene.state());
-    (Rotor { body: scene.body.into(), effects, ..Rotor::default() }, y)
-}
-
-/// Error of the whole state, each component by its nominal size [1].
-fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
-    let nominal = [0.75, 0.75, 0.75, 1.0, 1.0, 1.0, 0.15625, 0.15625, 0.15625, 1.0, 1.0, 1.0, 1.0, 1.0];
-    (0..N).map(|n| ((a[n] - b[n]) / nominal[n]) * ((a[n] - b[n]) / nominal[n])).sum::<f64>().sqrt()
-}
-
 fn tolerance<const N: usize>(size: f64) -> Tolerance<N> {
     Tolerance { absolute: [size; N], relative: [size; N] }
 }
@@ -123,21 +86,12 @@ fn after<const N: usize>(system: &impl Differentiable<N>, y: [f64; N], end: f64,
     method
 }
 
-/// dop853 in so many steps: exact to rounding.
-fn reference<const N: usize>(system: &impl System<N>, y: [f64; N], end: f64, steps: u32) -> [f64; N] {
-    let mut method = Explicit::start(Method::Dop853.tableau(), tolerance(1.0), system, 0.0, y);
-    for _ in 0..steps {
-        method.fixed_step(system, end / f64::from(steps));
-    }
-    *method.state()
-}
-
 /// The observed order lies within this of the nominal one [1]: measured 0.011 (4.989), of the dense output 0.012 (4.988).
 const OBSERVED: f64 = 0.1;
 
 #[test]
 fn exact_observed_order_of_the_step() {
-    let (rotor, y) = driven();
+    let (rotor, y) = driven(3.0, 0.2);
     let exact = reference(&rotor, y, 1.0, 2000);
     let error = |n: u32| distance(after(&rotor, y, 1.0, n).state(), &exact);
     let errors: Vec<_> = [200, 300, 450, 700, 1000].map(|n| (1.0 / f64::from(n), error(n))).into();
@@ -148,7 +102,7 @@ fn exact_observed_order_of_the_step() {
 #[test]
 fn exact_observed_order_of_the_dense_output() {
     // Local: the error within one step from an exact state falls as h^(order + 1), here the geometric mean of places.
-    let (rotor, start) = driven();
+    let (rotor, start) = driven(3.0, 0.2);
     let places: Vec<_> =
         (1..=8).map(|i| (0.1 * f64::from(i), reference(&rotor, start, 0.1 * f64::from(i), 400))).collect();
     let worst = |(t, y): &(f64, [f64; WITH_WORK]), h: f64| {
@@ -305,7 +259,7 @@ const JACOBIAN: f64 = 2e-12;
 
 #[test]
 fn exact_jacobian() {
-    let (rotor, y) = driven();
+    let (rotor, y) = driven(3.0, 0.2);
     let jacobian = rotor.jacobian(0.3, &y);
     let size = largest(jacobian.as_flattened().iter().map(|x| x.abs()));
     for column in 0..WITH_WORK {
@@ -324,7 +278,7 @@ fn exact_jacobian() {
 
 #[test]
 fn exact_run_goes_on_with_the_same_bits_from_its_bytes() {
-    let (rotor, y) = driven();
+    let (rotor, y) = driven(3.0, 0.2);
     let mut method = Stiff::start(tolerance(1e-7), &rotor, 0.0, y);
     let go_on = |method: &mut Stiff<WITH_WORK>| {
         for _ in 0..5 {
@@ -344,7 +298,7 @@ const BACK: f64 = 2.0;
 
 #[test]
 fn exact_goes_on_from_where_it_went_back_to() {
-    let (rotor, y) = driven();
+    let (rotor, y) = driven(3.0, 0.2);
     let exact = reference(&rotor, y, 0.8, 2000);
     let error = |goes_back: bool| {
         let mut method = Stiff::start(tolerance(1e-9), &rotor, 0.0, y);

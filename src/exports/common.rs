@@ -175,17 +175,19 @@ pub unsafe extern "C" fn fmi2GetInteger(
     }
 }
 
-/// Reads variables of type Boolean, of which there are none.
+/// Reads variables of type Boolean, the switches.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBoolean(
     component: Component,
     references: *const ValueReference,
     n: Size,
-    _value: *mut Boolean,
+    value: *mut Boolean,
 ) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
-        enter(component, &call::GET_BOOLEAN, |instance| instance.get_other(values(references, n, "vr")?, Type::Boolean))
+        enter(component, &call::GET_BOOLEAN, |instance| {
+            instance.get_boolean(values(references, n, "vr")?, places(value, n, "value")?)
+        })
     }
 }
 
@@ -235,17 +237,19 @@ pub unsafe extern "C" fn fmi2SetInteger(
     }
 }
 
-/// Sets parameters of type Boolean, of which there are none.
+/// Sets parameters of type Boolean, the switches.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetBoolean(
     component: Component,
     references: *const ValueReference,
     n: Size,
-    _value: *const Boolean,
+    value: *const Boolean,
 ) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
-        enter(component, &call::SET_BOOLEAN, |instance| instance.set_other(values(references, n, "vr")?, Type::Boolean))
+        enter(component, &call::SET_BOOLEAN, |instance| {
+            instance.set_boolean(values(references, n, "vr")?, values(value, n, "value")?)
+        })
     }
 }
 

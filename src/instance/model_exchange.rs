@@ -5,6 +5,7 @@ use crate::abi::{Real, Status};
 use crate::calls::State;
 use crate::scene::Simulation;
 use model::log::Category;
+use model::simulation::Open;
 
 /// What fmi2NewDiscreteStates found.
 pub struct Events {
@@ -15,6 +16,9 @@ pub struct Events {
 impl Instance {
     /// fmi2EnterEventMode
     pub fn enter_event_mode(&mut self) -> Reply {
+        if let Some(open) = self.memory.simulation.open() {
+            open.enter_event();
+        }
         self.memory.state = State::EventMode;
         Ok(Status::Ok)
     }
@@ -22,18 +26,24 @@ impl Instance {
     /// fmi2NewDiscreteStates
     pub fn new_discrete_states(&mut self) -> Result<Events, Failure> {
         self.memory.simulation.admits()?;
-        let states_changed = self.memory.simulation.open().is_some_and(|open| open.settle_chart());
-        if states_changed {
+        let settled = self.memory.simulation.open().map(Open::settle).unwrap_or_default();
+        if settled.chart {
             self.tell(Category::Events, || {
                 "the axis has turned far: gamma and phi are now measured in the other chart, and the states changed"
                     .into()
             });
         }
-        Ok(Events { states_changed })
+        if settled.work {
+            self.tell(Category::Events, || "the imposed speed jumped: its work is booked as supplied".into());
+        }
+        Ok(Events { states_changed: settled.any() })
     }
 
     /// fmi2EnterContinuousTimeMode
     pub fn enter_continuous_time_mode(&mut self) -> Reply {
+        if let Some(open) = self.memory.simulation.open() {
+            open.leave_event();
+        }
         self.memory.state = State::ContinuousTime;
         Ok(Status::Ok)
     }

@@ -1,7 +1,7 @@
 //! Reading and setting variables.
 
 use super::{Failure, Instance, Reply};
-use crate::abi::{Integer, Real, Status};
+use crate::abi::{Boolean, Integer, Real, Status};
 use crate::calls::State;
 use crate::scene::Effects;
 use model::variable::{Kind, Meta, Place, Role};
@@ -53,7 +53,12 @@ impl Instance {
         self.get(references, values, Type::Integer, |value| value as Integer)
     }
 
-    /// fmi2GetBoolean and fmi2GetString: there is no variable of these types.
+    /// fmi2GetBoolean
+    pub fn get_boolean(&mut self, references: &[u32], values: &mut [Boolean]) -> Reply {
+        self.get(references, values, Type::Boolean, |value| Boolean::from(value != 0.0))
+    }
+
+    /// fmi2GetString: there is no variable of this type.
     pub fn get_other(&mut self, references: &[u32], kind: Type) -> Reply {
         self.get(references, &mut vec![(); references.len()], kind, |_| ())
     }
@@ -68,7 +73,12 @@ impl Instance {
         self.set(references, values, Type::Integer, |value| f64::from(*value))
     }
 
-    /// fmi2SetBoolean and fmi2SetString: there is no variable of these types.
+    /// fmi2SetBoolean
+    pub fn set_boolean(&mut self, references: &[u32], values: &[Boolean]) -> Reply {
+        self.set(references, values, Type::Boolean, |value| f64::from(*value != 0))
+    }
+
+    /// fmi2SetString: there is no variable of this type.
     pub fn set_other(&mut self, references: &[u32], kind: Type) -> Reply {
         self.set(references, &vec![(); references.len()], kind, |()| 0.0)
     }
@@ -151,6 +161,7 @@ pub(super) fn typed(reference: u32, kind: Type) -> Result<&'static Meta, Failure
 fn type_of(meta: &Meta) -> Type {
     match meta.kind {
         Kind::Real => Type::Real,
+        Kind::Boolean => Type::Boolean,
         Kind::Integer | Kind::Enumeration(_) => Type::Integer,
     }
 }

@@ -80,6 +80,9 @@ static void instances(fmi2Type type)
     for (int i = 0; i < options.cycles / 10 + 1; i++) {
         short_life(type);
     }
+    /* What a look leaves behind in the heap is cut up by the next life. */
+    usage();
+    short_life(type);
     struct usage before = usage();
     for (int i = 0; i < options.cycles; i++) {
         short_life(type);

@@ -61,6 +61,12 @@ def fmu(request, fmus):
     return fmus[request.param]
 
 
+@pytest.fixture(params=project.GENTLE)
+def gentle(request, fmus):
+    """Each gentle scene's FMU."""
+    return fmus[request.param]
+
+
 @pytest.fixture(scope="session")
 def paper(fmus):
     """The rotor of Sorokin and Zhang."""

@@ -7,6 +7,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
+# Those that leave the method to auto are too stiff, too fast or too long for other methods and for differences.
+GENTLE = [scene for scene in SCENES if 'method = "auto"' not in (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
+GENERAL = [scene for scene in SCENES if "\ngeneral = true" in "\n" + (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
 PACKAGES = ROOT / "target" / "fmu"
 
 

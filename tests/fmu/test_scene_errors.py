@@ -8,7 +8,7 @@ PAPER = (project.ROOT / "scenes" / "paper.toml").read_text(encoding="utf-8")
 CASES = {
     "unknown section": (
         "[rotor]", "[rotr]",
-        ", line 5: unknown key `rotr`: a scene knows title, rotor, start, effects, solver, experiment",
+        ", line 5: unknown key `rotr`: a scene knows title, general, rotor, start, effects, solver, experiment",
     ),
     "unknown key in rotor": (
         "m = 5.0", "mass = 5.0", ", line 6: unknown key `rotor.mass`: [rotor] knows m, Ja, Jt, l",
@@ -24,7 +24,8 @@ CASES = {
     ),
     "unknown key in solver": (
         "relative_tolerance", "rtol",
-        ", line 24: unknown key `solver.rtol`: [solver] knows method, relative_tolerance, absolute_tolerance",
+        ", line 24: unknown key `solver.rtol`: [solver] knows method, relative_tolerance, absolute_tolerance, "
+        "step_size, order",
     ),
     "unknown key in experiment": (
         "step =", "dt =", ", line 28: unknown key `experiment.dt`: [experiment] knows start, stop, step, tolerance",
@@ -34,7 +35,8 @@ CASES = {
         ", line 20: unknown key `effects.support.F`: [effects.support] knows c1, c2, d1, d2",
     ),
     "unknown effect": (
-        "effects.gravity", "effects.gravty", ", line 15: unknown effect `gravty`: there are gravity, support, shaft",
+        "effects.gravity", "effects.gravty", ", line 15: unknown effect `gravty`: there are gravity, support, shaft, asymmetry, "
+        "unbalance, bearing, rotating_damping, drag, probe, port, imposed_speed, extrapolation",
     ),
     "text for a number": (
         "m = 5.0", 'm = "5 kg"', ', line 6: rotor.m = "5 kg" is not possible: it must be a number in kg',
@@ -70,10 +72,10 @@ CASES = {
         ", line 12: |start.gamma| = 5.0 is not possible: it must be at most pi = 3.141592653589793",
     ),
     "unknown method": (
-        '"dop853"', '"rk4"', ', line 23: solver.method = "rk4" is not possible: it must be one of "dopri5", "dop853"',
+        '"dop853"', '"rk4"', ', line 23: solver.method = "rk4" is not possible: it must be one of "auto", "dopri5", "dop853", "symplectic", "stiff"',
     ),
     "method by number": (
-        '"dop853"', "3", ', line 23: solver.method = 3 is not possible: it must be one of "dopri5", "dop853"',
+        '"dop853"', "3", ', line 23: solver.method = 3 is not possible: it must be one of "auto", "dopri5", "dop853", "symplectic", "stiff"',
     ),
     "impossible tolerance": (
         "1e-10", "1.0",
@@ -92,6 +94,42 @@ CASES = {
         'title = "Rotor in a block of springs (Sorokin and Zhang 2018)"', 'title = "Rotor',
         ', line 3: is not TOML: invalid basic string, expected `"`',
     ),
+    "several where there is one": (
+        "[effects.support]", "[[effects.support]]",
+        ", line 18: there is only one support: write [effects.support]",
+    ),
+    "one where there may be several": (
+        "[effects.gravity]", "[effects.bearing]\nposition = 0.0\n\n[effects.gravity]",
+        ", line 15: there may be several of bearing: write [[effects.bearing]], once for each, up to 4",
+    ),
+    "too many": (
+        "[effects.gravity]", "[[effects.probe]]\nposition = 0.0\n" * 5 + "[effects.gravity]",
+        ", line 15: [[effects.probe]] stands 5 times: there may be up to 4",
+    ),
+    "too many in a general scene": (
+        "[rotor]", "general = true\n" + 5 * "[[effects.probe]]\n" + "[rotor]",
+        ", line 6: [[effects.probe]] stands 5 times: there may be up to 4",
+    ),
+    "number for a truth": (
+        "[rotor]", "general = 1\n[rotor]", ", line 5: general = 1 is not possible: it must be true or false",
+    ),
+    "missing place": (
+        "[effects.gravity]", "[[effects.port]]\n[effects.gravity]",
+        ": `port[1].position` is missing: give the place along t from c in m as `position = ...` under [[effects.port]]",
+    ),
+    "unknown key in one of several": (
+        "[effects.gravity]", "[[effects.port]]\nposition = 0.0\n[[effects.port]]\nplace = 0.0\n[effects.gravity]",
+        ", line 18: unknown key `effects.port[2].place`: [[effects.port]] knows position, f, m",
+    ),
+    "unknown component of an input": (
+        "[effects.gravity]", "[[effects.port]]\nposition = 0.0\nf = { a = 1.0 }\n[effects.gravity]",
+        ", line 17: unknown key `effects.port[1].f.a`: [effects.port.f] knows x, y, z",
+    ),
+    "damping that drives": (
+        "[effects.gravity]", "[[effects.bearing]]\nposition = 0.0\ncyz = 1.0\n[effects.gravity]",
+        ", line 17: bearing[1].cyz = 1.0 is not possible: it must be such that (cyz + czy)/2 is at most "
+        "sqrt(cyy czz) = 0.0 in size, or the bearing would drive what it damps",
+    ),
     "same key twice": ("m = 5.0", "m = 5.0\nm = 6.0", ", line 7: is not TOML: duplicate key"),
 }
 
@@ -105,6 +143,11 @@ def test_exact_message_of_a_scene_that_cannot_be(xtask, tmp_path, case):
     described = xtask("describe", scene)
     assert (described.returncode, described.stdout) == (1, "")
     assert described.stderr == f"error: {scene}{message}\n"
+
+
+def test_exact_each_message_is_another():
+    messages = [message for _, _, message in CASES.values()]
+    assert len(messages) >= 20 and len(set(messages)) == len(messages)
 
 
 @pytest.mark.parametrize("command", ["describe", "package", "demo", "accuracy"])

@@ -1,5 +1,6 @@
 """terminalsAndIcons.xml: by the schema, and about variables that there are."""
 
+import re
 from pathlib import Path
 
 import fmpy
@@ -40,8 +41,11 @@ def test_exact_members_are_inputs_and_outputs(fmu, root):
 
 
 def test_exact_a_shaft_is_a_terminal(fmu, root):
-    terminals = root.findall("Terminals/Terminal")
-    assert [terminal.get("name") for terminal in terminals] == ["shaft"] * ("shaft.tau" in fmu.variables)
+    named = {terminal.get("name"): terminal for terminal in root.findall("Terminals/Terminal")}
+    ports = [name for name in named if re.fullmatch(r"port\[\d\]", name)]
+    assert set(ports) == {name.partition(".")[0] for name in fmu.variables if name.startswith("port[")}
+    assert set(named) - set(ports) == {"shaft"} & {name.partition(".")[0] for name in fmu.variables}
+    terminals = [terminal for name, terminal in named.items() if name == "shaft"]
     for terminal in terminals:
         members = {m.get("memberName"): m.get("variableKind") for m in terminal.findall("TerminalMemberVariable")}
         assert members == FLANGE

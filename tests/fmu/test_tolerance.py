@@ -6,7 +6,7 @@ import pytest
 TIMES = np.arange(0, 101) / 100.0  # [s]
 SCENE, EXPERIMENT, OWN = 1e-10, 1e-4, 1e-7
 SAME_MOTION = 1e-8  # [rad], dopri5 against dop853 at 1e-10, axis after 1 s, measured 7e-10
-DOPRI5, DOP853 = 2, 3
+AUTO, DOPRI5, DOP853 = 1, 2, 3
 
 
 @pytest.fixture
@@ -25,6 +25,14 @@ def run(paper):
 def test_exact_the_scene_rules_when_nobody_else_says(run):
     _, said = run()
     assert said == ["the relative tolerance in force is 1e-10, the one of the scene"]
+
+
+def test_exact_auto_says_what_it_takes_and_why(paper):
+    with paper.host() as host:
+        host.set_method(AUTO)
+        host.start()
+        said = [message.text for message in host.log if message.category == "logSolver"]
+        assert len(said) == 2 and said[1].startswith("auto takes dop853: nothing is stiff"), said
 
 
 def test_exact_the_experiment_rules_over_the_scene(run):
@@ -90,5 +98,6 @@ def test_exact_a_method_that_is_not_listed_is_refused(paper):
         host.set_method(7)
         host.slave.enterInitializationMode()
         assert host.refused("exitInitializationMode") == (
-            "fmi2ExitInitializationMode: solver.method = 7.0 is not possible: it must be 2 (dopri5) or 3 (dop853)"
+            "fmi2ExitInitializationMode: solver.method = 7 is not possible: it must be 1 (auto) or 2 (dopri5) or "
+            "3 (dop853) or 4 (symplectic) or 5 (stiff)"
         )

@@ -320,6 +320,14 @@ impl Instance {
         if status == Status::Ok { Ok(value) } else { Err(status) }
     }
 
+    /// fmi2GetBoolean of one reference.
+    pub fn get_boolean(&mut self, reference: ValueReference) -> Result<Boolean, Status> {
+        let mut value = Boolean::MIN;
+        // SAFETY: a live instance, and arrays of one.
+        let status = unsafe { fmi2GetBoolean(self.component, &raw const reference, 1, &raw mut value) };
+        if status == Status::Ok { Ok(value) } else { Err(status) }
+    }
+
     /// fmi2SetInteger of one reference.
     pub fn set_integer(&mut self, reference: ValueReference, value: Integer) -> Status {
         // SAFETY: a live instance, and arrays of one.
@@ -371,6 +379,7 @@ impl Instance {
             let mut value = [Real::NAN];
             let readable = match variable.meta.kind {
                 Kind::Integer | Kind::Enumeration(_) => self.get_integer(reference).map(|value| value as u64),
+                Kind::Boolean => self.get_boolean(reference).map(|value| value as u64),
                 Kind::Real => match self.read(&[reference], &mut value) {
                     Status::Ok => Ok(value[0].to_bits()),
                     status => Err(status),

@@ -41,7 +41,7 @@ fn leg() -> impl Strategy<Value = Leg> {
 
 /// Any journey.
 pub fn journey() -> impl Strategy<Value = Journey> {
-    let (kind, method) = (prop_oneof![Just(CO_SIMULATION), Just(MODEL_EXCHANGE)], 2..=3);
+    let (kind, method) = (prop_oneof![Just(CO_SIMULATION), Just(MODEL_EXCHANGE)], 1..=5);
     let legs = (vec(leg(), 0..8), vec(leg(), 1..8), vec(leg(), 0..4));
     (kind, method, 0..STARTS.len(), legs).prop_map(|(kind, method, start, (before, after, detour))| Journey {
         kind,

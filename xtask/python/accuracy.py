@@ -1,7 +1,8 @@
 """Draw error against time: accuracy.svg from the accuracy.json beside it. `cargo xtask accuracy` runs it.
 
 A curve is a tool's method, a point one of its settings, if no other setting of the same method is better in both. Our
-curves are drawn full and in strong colours, those of peers dashed and muted.
+curves are drawn full and in strong colours, those of peers dashed and muted; `auto`, which is one of our others, is marks
+only. Orders of a method are one curve.
 """
 
 import argparse
@@ -19,6 +20,7 @@ from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 from report.figures import BLACK, BLUE, GREEN, PURPLE, STYLE, VERMILLION
 
 OURS = "split-rotor"
+AUTO = "auto"
 COLOURS = (VERMILLION, BLUE, GREEN, PURPLE)
 MUTED = ("#3d3d3d", "#b08d57", "#6f9a6a", "#a3839b", "#8c8c8c", "#4f9ea0", "#b5737d", "#8f8f4b", "#6d7f99")
 MARKERS = "sD^vPX<>p"
@@ -55,7 +57,9 @@ def draw(figure, found):
         times = [1e3 * row["cpu_time_s"] for row in rows]
         errors = [row["axis_error_rad"] for row in rows]
         marked = [i for i, row in enumerate(rows) if len(rows) < FEW or is_power_of_ten(row["value"])]
-        if tool == OURS:
+        if method == AUTO:
+            look = {"color": BLACK, "linewidth": 0.0, "marker": "o", "markersize": 9, "fillstyle": "none", "zorder": 5}
+        elif tool == OURS:
             look = {"color": next(ours), "linewidth": 2.2, "marker": "o", "markersize": 5, "zorder": 4}
         else:
             colour, marker = next(peers)

@@ -9,6 +9,7 @@ the run fails or its energy does not add up, with the reason on stderr.
 import argparse
 import csv
 import sys
+from dataclasses import replace
 from pathlib import Path
 from zipfile import BadZipFile
 
@@ -19,7 +20,7 @@ from fmpy.model_description import ValidationError
 from report.measure import energy_balance, spin_deviation
 from report.page import render
 from report.scene import Scene
-from report.simulate import SimulationFailed, simulate
+from report.simulate import SimulationFailed, respond, responds, simulate
 
 
 def main():
@@ -30,6 +31,8 @@ def main():
         description = read_model_description(arguments.fmu)
         scene = Scene.of(description)
         run = simulate(arguments.fmu, description, scene)
+        if responds(description):
+            run = replace(run, response=respond(arguments.fmu, description, scene))
     except (BadZipFile, ValidationError, SimulationFailed) as failure:
         print(f"error: {arguments.fmu}: {failure}", file=sys.stderr)
         return 1

@@ -3,15 +3,16 @@
 
 mod calls;
 mod counts;
+mod general;
 mod operations;
+mod sets;
+mod spending;
 mod times;
-
-pub use counts::must_hold;
 
 use crate::package::UNPACKED;
 use crate::paths;
 use crate::run::cargo;
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use model::scene::Scene;
 use std::process::Command;
 
@@ -21,12 +22,30 @@ fn scenes() -> Vec<String> {
     ["paper", "driven"].map(str::to_owned).into_iter().filter(|name| there.contains(name)).collect()
 }
 
-/// Measures and prints tables.
-pub fn bench() -> Result<()> {
-    calls::print()?;
-    // What is missing is told with the remedy, and the rest is measured all the same.
-    counts::print().unwrap_or_else(|error| println!("\ninstructions are not counted: {error:#}"));
-    times::print()
+/// Measures and prints tables, those whose names hold `part`; sets of effects are drawn with `seed`.
+pub fn bench(part: &str, seed: Option<u64>) -> Result<()> {
+    let general = || general::print(seed.unwrap_or(general::SEED)).map(drop);
+    let tables: [(&str, &dyn Fn() -> Result<()>); 7] = [
+        ("calls", &calls::print),
+        ("scenes", &spending::print_scenes),
+        ("effects", &spending::print_effects),
+        ("general", &general),
+        ("off", &|| general::print_off().map(drop)),
+        ("counts", &|| counts::print().map(drop)),
+        ("times", &times::print),
+    ];
+    for (name, print) in tables.iter().filter(|(name, _)| name.contains(part)) {
+        // What is missing is told with the remedy, and the rest is measured all the same.
+        print().unwrap_or_else(|error| println!("\n{name} not measured: {error:#}"));
+    }
+    Ok(())
+}
+
+/// Counts, and fails where that is not possible or where a limit that is met no longer holds.
+pub fn must_hold() -> Result<()> {
+    let broken = [counts::print()?, general::print(general::SEED)?, general::print_off()?].concat();
+    ensure!(broken.is_empty(), "more than the limit: {}", broken.join("; "));
+    Ok(())
 }
 
 /// `cargo bench` of one of `benches/` with a scene compiled in.

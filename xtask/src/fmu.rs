@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use libloading::Library;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_double, c_int, c_uint, c_void};
+use std::fmt::{Display, Formatter};
 use std::path::Path;
 use std::ptr::{NonNull, null};
 
@@ -18,6 +19,12 @@ type Component = *mut c_void;
 
 /// fmi2OK and fmi2Warning: what was asked is done.
 const DONE: [Status; 2] = [0, 1];
+/// fmi2Discard
+pub const DISCARD: Status = 2;
+/// fmi2Error
+pub const ERROR: Status = 3;
+/// fmi2LastSuccessfulTime
+const LAST_SUCCESSFUL_TIME: c_int = 2;
 /// fmi2CoSimulation
 const CO_SIMULATION: c_int = 1;
 const FALSE: c_int = 0;
@@ -48,6 +55,7 @@ pub struct Fmu {
     set_integer: unsafe extern "C" fn(Component, *const Reference, usize, *const c_int) -> Status,
     get_real: unsafe extern "C" fn(Component, *const Reference, usize, *mut c_double) -> Status,
     do_step: unsafe extern "C" fn(Component, c_double, c_double, c_int) -> Status,
+    get_real_status: unsafe extern "C" fn(Component, c_int, *mut c_double) -> Status,
     _library: Library,
 }
 
@@ -73,6 +81,7 @@ impl Fmu {
             set_integer: function!("fmi2SetInteger"),
             get_real: function!("fmi2GetReal"),
             do_step: function!("fmi2DoStep"),
+            get_real_status: function!("fmi2GetRealStatus"),
             _library: library,
         })
     }
@@ -117,7 +126,25 @@ extern "C" fn listen(environment: *mut c_void, _instance: Text, _status: Status,
     journal.0.borrow_mut().push(message.to_string_lossy().replace("%%", "%"));
 }
 
-/// An instance; errors tell the function and what was logged.
+/// A call that was not done.
+#[derive(Debug)]
+pub struct Refused {
+    function: &'static str,
+    /// What it returned.
+    pub status: Status,
+    /// What was logged.
+    pub log: String,
+}
+
+impl Display for Refused {
+    fn fmt(&self, f: &mut Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}", self.function, self.log)
+    }
+}
+
+impl std::error::Error for Refused {}
+
+/// An instance; errors are [`Refused`].
 pub struct Instance<'f> {
     fmu: &'f Fmu,
     component: NonNull<c_void>,
@@ -176,9 +203,20 @@ impl Instance<'_> {
         Ok(values)
     }
 
-    fn done(&self, function: &str, call: impl FnOnce(Component) -> Status) -> Result<()> {
-        if !DONE.contains(&call(self.component.as_ptr())) {
-            bail!("{function}: {}", self.journal.take());
+    /// The time that the last step reached [s].
+    pub fn last_successful_time(&self) -> Result<f64> {
+        let mut t = 0.0;
+        // SAFETY: a live instance; a place for one value.
+        self.done("fmi2GetRealStatus", |component| unsafe {
+            (self.fmu.get_real_status)(component, LAST_SUCCESSFUL_TIME, &raw mut t)
+        })?;
+        Ok(t)
+    }
+
+    fn done(&self, function: &'static str, call: impl FnOnce(Component) -> Status) -> Result<()> {
+        let status = call(self.component.as_ptr());
+        if !DONE.contains(&status) {
+            return Err(Refused { function, status, log: self.journal.take() }.into());
         }
         Ok(())
     }

@@ -4,11 +4,16 @@ mod accuracy;
 mod bench;
 mod c;
 mod c_host;
+mod copies;
 mod demo;
 mod fmu;
 mod fuzz;
+mod hard_cases;
 mod licences;
 mod memcheck;
+/// Exact answers, shared with the tests of the model.
+#[path = "../../model/tests/oracles/mod.rs"]
+mod oracles;
 mod package;
 mod page;
 mod paths;
@@ -17,6 +22,7 @@ mod run;
 mod sanitize;
 mod scenes;
 mod sheet;
+mod sheets;
 mod templates;
 mod terminals;
 mod test;
@@ -24,6 +30,7 @@ mod unpacked;
 
 use anyhow::Result;
 use clap::{Parser, Subcommand};
+use hard_cases::Extent;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -45,6 +52,9 @@ enum Command {
     },
     /// Run the tests: Rust, equal bits in every build, and the packaged FMUs under fmpy
     Test {
+        /// Only jobs whose names hold this
+        #[arg(default_value = "")]
+        part: String,
         /// The long ones too: third-party clients
         #[arg(long)]
         long: bool,
@@ -67,9 +77,30 @@ enum Command {
         #[arg(long)]
         peers: bool,
     },
+    /// Run the gallery of hard cases, each against an exact or independent answer: table, CSV and JSON in target/hard-cases
+    HardCases {
+        /// Only cases whose names hold this
+        part: Option<String>,
+        /// Long cases shortened
+        #[arg(long)]
+        short: bool,
+        /// Each row once more with a wrong constant or sign, which must make it fail
+        #[arg(long)]
+        mutants: bool,
+        /// With the FMUs as they were packaged last
+        #[arg(long)]
+        packaged: bool,
+    },
     /// Measure what calls of the FMU, the right-hand side and the methods' steps take: times, and instructions where
     /// valgrind is installed
-    Bench,
+    Bench {
+        /// Only tables whose names hold this: calls, scenes, effects, general, off, counts, times
+        #[arg(default_value = "")]
+        part: String,
+        /// Draws the sets of effects of `general`
+        #[arg(long)]
+        seed: Option<u64>,
+    },
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print a scene's modelDescription.xml
@@ -93,10 +124,14 @@ fn main() -> ExitCode {
 fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Demo { scene } => demo::demo(&scene),
-        Command::Test { long } => test::test(long),
+        Command::Test { part, long } => test::test(&part, long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
         Command::Accuracy { scene, peers } => accuracy::accuracy(&scene, peers).map(drop),
-        Command::Bench => bench::bench(),
+        Command::HardCases { part, short, mutants, packaged } => {
+            let extent = Extent { part, whole: !short, mutants };
+            if packaged { hard_cases::run(&extent) } else { hard_cases::hard_cases(&extent) }
+        }
+        Command::Bench { part, seed } => bench::bench(&part, seed),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),
     }

@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use indicatif::{ProgressBar, ProgressStyle};
 use model::scene::Scene;
 use model::xml;
+use std::collections::BTreeSet;
 use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
 use std::fs::File;
 use std::io::Write;
@@ -46,15 +47,21 @@ fn same_name(scenes: &[Scene]) -> Option<(&Scene, &Scene)> {
 
 /// The library of a scene. The next scene's overwrites it.
 fn build(scene: &Scene) -> Result<PathBuf> {
-    let target = paths::target().join("package");
-    let file = std::path::absolute(&scene.file)?;
     // A target directory of its own: the profile is called fmu, and target/fmu holds the packages.
+    build_in(paths::root(), scene, &paths::target().join("package"))
+}
+
+/// The library of a scene, of the project in the folder `root`.
+pub fn build_in(root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
+    let effects: BTreeSet<_> = scene.effects.iter().map(|(info, _)| info.name).collect();
     run(cargo()
+        .current_dir(root)
         .args(["rustc", "--quiet", "--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib"])
         .arg("--target-dir")
-        .arg(&target)
-        .env("SPLIT_ROTOR_SCENE", file)
-        .env("CARGO_ENCODED_RUSTFLAGS", flags()?)
+        .arg(target)
+        .env("SPLIT_ROTOR_SCENE", std::path::absolute(&scene.file)?)
+        .env("SPLIT_ROTOR_EFFECTS", effects.into_iter().collect::<Vec<_>>().join(","))
+        .env("CARGO_ENCODED_RUSTFLAGS", flags(root)?)
         .env_remove("RUSTFLAGS"))?;
     Ok(target.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
 }
@@ -63,8 +70,9 @@ fn build(scene: &Scene) -> Result<PathBuf> {
 /// wait for what is packed last (24 instead of 40 ns in a chain of them; what gains by it, packs itself).
 pub const UNPACKED: &str = "-Cno-vectorize-slp";
 
-/// The user's own compiler flags, [`UNPACKED`], and that no path of this machine stays in the library.
-fn flags() -> Result<String> {
+/// The user's own compiler flags, [`UNPACKED`], and that no path of this machine stays in the library: not that of the project,
+/// `root`, nor that of its libraries.
+fn flags(root: &Path) -> Result<String> {
     let own = match std::env::var("CARGO_ENCODED_RUSTFLAGS") {
         Ok(flags) => flags.split('\x1f').map(str::to_owned).collect(),
         Err(_) => {
@@ -73,7 +81,7 @@ fn flags() -> Result<String> {
     };
     let home = std::env::home_dir().context("there is no home folder")?;
     let cargo_home = std::env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);
-    let hidden = [(paths::root(), "split-rotor"), (&cargo_home, "cargo")];
+    let hidden = [(root, "split-rotor"), (&cargo_home, "cargo")];
     let hide = hidden.map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()));
     Ok(own
         .into_iter()

@@ -38,14 +38,16 @@ fn row(scene: &Scene, variable: &Variable) -> Value {
     let reference = place.value_reference();
     let (causality, bound) = match meta.role {
         // The page says once that every number must be finite.
-        Role::Parameter { bound, .. } => ("parameter", Some(bound.words().replace("a finite number", ""))),
+        Role::Parameter { bound, .. } => ("parameter", Some(bound.words(meta.kind).replace("a finite number", ""))),
         Role::Input { .. } => ("input", None),
         Role::Output => ("output", None),
         Role::State | Role::Mode => ("local", None),
     };
     let (start, bound) = match (scene.starts.get(&reference), meta.kind) {
         (None, _) => (None, bound),
-        (Some(value), Kind::Real | Kind::Integer) => (Some(number(*value)), bound),
+        (Some(value), Kind::Real) => (Some(number(*value)), bound),
+        (Some(value), Kind::Integer) => (Some(value.to_string()), bound),
+        (Some(value), Kind::Boolean) => (Some((*value != 0.0).to_string()), Some(String::new())),
         (Some(value), Kind::Enumeration(of)) => (Some(value.to_string()), Some(of.words())),
     };
     let (unit, description) = (meta.unit.name, meta.description);

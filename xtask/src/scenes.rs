@@ -5,7 +5,7 @@ use anyhow::Result;
 use model::effects::Info;
 use model::scene::Scene;
 use model::variable::Place;
-use model::variables::Variable;
+use model::variables::{Variable, numbers};
 use model::xml;
 
 /// The scene that the user means.
@@ -17,6 +17,14 @@ pub fn find(name_or_path: &str) -> Result<Scene> {
 pub fn variables_of<'s>(scene: &'s Scene, info: &Info, index: u32) -> impl Iterator<Item = &'s Variable> {
     let block = Place::effect_block(info.number, index);
     scene.variables.iter().filter(move |variable| variable.place.block == block)
+}
+
+/// Whether a scene names its method. One that leaves it to `auto` is too stiff, too fast or too long for the loops of a host in
+/// model exchange, and for differences.
+pub fn is_gentle(scene: &Scene) -> bool {
+    let method = scene.variables.iter().find(|variable| variable.name == "solver.method");
+    let method = method.map(|variable| variable.place.value_reference());
+    method.is_some_and(|method| scene.starts[&method] != f64::from(numbers::AUTO))
 }
 
 /// Lists the scenes and their effects.

@@ -56,7 +56,13 @@ pub fn sheet(xml: &str) -> Result<String> {
                         // Elements of these names stand in TypeDefinitions, too, before the first variable.
                         if let Some(variable) = variables.last_mut() {
                             variable.kind = if name == "Enumeration" { 'I' } else { name.as_bytes()[0].into() };
-                            variable.start = value(&element, "start")?;
+                            // C reads a truth as a number.
+                            let truth = |start: String| match start.as_str() {
+                                "true" => "1".into(),
+                                "false" => "0".into(),
+                                _ => start,
+                            };
+                            variable.start = value(&element, "start")?.map(truth);
                             variable.state = value(&element, "derivative")?.map(|index| index.parse()).transpose()?;
                         }
                     }

@@ -12,7 +12,7 @@ use model::variables::Variable;
 pub fn terminals_and_icons(scene: &Scene) -> Result<String> {
     let called = scene.effects.iter().filter_map(|(info, index)| {
         let variables: Vec<_> = scenes::variables_of(scene, info, *index).collect();
-        info.terminal.map(|terminal| described(terminal, &variables))
+        info.terminal.map(|terminal| described(terminal, &info.block_name(*index), &variables))
     });
     render(called.collect())
 }
@@ -21,11 +21,8 @@ fn render(terminals: Vec<Value>) -> Result<String> {
     templates::render("terminalsAndIcons/terminalsAndIcons.xml", context! { terminals })
 }
 
-/// A terminal of these variables of an effect: all but its parameters.
-fn described(terminal: Terminal, variables: &[&Variable]) -> Value {
-    let first = variables.first().expect("a terminal has members");
-    // The name of the block, with its index where there is one.
-    let name = first.name.strip_suffix(first.meta.name).map(|block| block.trim_end_matches('.'));
+/// A terminal of this name, of these variables of an effect: all but its parameters.
+fn described(terminal: Terminal, name: &str, variables: &[&Variable]) -> Value {
     let members: Vec<_> = variables
         .iter()
         .filter(|variable| !matches!(variable.meta.role, Role::Parameter { .. }))
@@ -47,7 +44,7 @@ mod tests {
         let scene = scenes::find("paper").unwrap();
         let (info, index) = scene.effects.iter().find(|(info, _)| info.name == "support").unwrap();
         let variables: Vec<_> = scenes::variables_of(&scene, info, *index).collect();
-        let terminal = described(Terminal { kind: "a <kind>", flows: &["F.x"] }, &variables);
+        let terminal = described(Terminal { kind: "a <kind>", flows: &["F.x"] }, "support", &variables);
         let xml = render(vec![terminal]).unwrap();
         assert!(xml.contains(r#"<Terminal name="support" matchingRule="bus" terminalKind="a &lt;kind&gt;">"#), "{xml}");
         let members: Vec<_> = xml.lines().filter(|line| line.contains("TerminalMemberVariable")).collect();

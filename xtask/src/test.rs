@@ -1,23 +1,49 @@
 //! `test`: everything that must hold, as a list of jobs.
 
+use crate::hard_cases::{self, Extent};
 use crate::run::{cargo, run};
-use crate::{accuracy, bench, c_host, fuzz, memcheck, package, paths, python, sanitize};
+use crate::{accuracy, bench, c_host, copies, fuzz, memcheck, package, paths, python, sanitize};
 use anyhow::{Result, bail};
 use model::scene::Scene;
+use std::time::Instant;
 
-/// Runs what its name says; where it cannot, that is an error, which names what is to be installed.
-type Job = fn() -> Result<()>;
+/// What a job does, and what runs it; where it cannot, that is an error, which names what is to be installed.
+type Job = (&'static str, fn() -> Result<()>);
 
 /// What always runs, the quickest first.
-const SHORT: [Job; 4] = [rust_tests, driven_tests, other_builds, packaged_fmus];
+const SHORT: [Job; 5] = [
+    ("Rust's tests", rust_tests),
+    ("call rules of a driven scene", driven_tests),
+    ("bits of other builds", other_builds),
+    ("packaged FMUs", packaged_fmus),
+    ("hard cases, shortened, with mutants", gallery),
+];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 7] =
-    [clients, wide_builds, peers, sanitize::sanitizers, memcheck::valgrind, bench::must_hold, fuzz::fuzz];
+const LONG: [Job; 11] = [
+    ("third-party clients", clients),
+    ("long runs", long_runs),
+    ("bits of wide builds", wide_builds),
+    ("hard cases in full", whole_gallery),
+    ("peers", peers),
+    ("sanitizers", sanitize::sanitizers),
+    ("memcheck", memcheck::valgrind),
+    ("counts that must hold", bench::must_hold),
+    ("absence is free", copies::absence_is_free),
+    ("the example of an effect", copies::example_is_right),
+    ("fuzz", fuzz::fuzz),
+];
 
-/// Runs the short jobs, and the long ones too where they are asked for.
-pub fn test(long: bool) -> Result<()> {
-    SHORT.iter().chain(LONG.iter().filter(|_| long)).try_for_each(|job| job())
+/// Runs the short jobs, and the long ones too where they are asked for, those whose names hold `part`; says what each took.
+pub fn test(part: &str, long: bool) -> Result<()> {
+    let jobs = SHORT.iter().chain(LONG.iter().filter(|_| long));
+    for (name, job) in jobs.filter(|(name, _)| name.contains(part)) {
+        println!("\n== {name}");
+        let start = Instant::now();
+        job()?;
+        println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
+    }
+    Ok(())
 }
 
 fn rust_tests() -> Result<()> {
@@ -54,9 +80,6 @@ fn wide_builds() -> Result<()> {
         if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
             flags.push("-Ctarget-feature=+avx2,+fma");
         }
-        if is_x86_feature_detected!("avx512bw") && is_x86_feature_detected!("avx512vl") {
-            flags.push("-Ctarget-cpu=x86-64-v4");
-        }
     }
     flags.into_iter().try_for_each(|flags| {
         println!("bits with {flags}");
@@ -71,10 +94,25 @@ fn packaged_fmus() -> Result<()> {
     pytest(&["tests/fmu", "tests/clients"])
 }
 
+/// The hard cases, the long ones shortened, and that each can fail; with the FMUs just packaged.
+fn gallery() -> Result<()> {
+    hard_cases::run(&Extent { mutants: true, ..Extent::default() })
+}
+
+/// The hard cases in full.
+fn whole_gallery() -> Result<()> {
+    hard_cases::run(&Extent { whole: true, ..Extent::default() })
+}
+
 /// The packaged FMUs under third-party clients, and pytest's other long tests.
 fn clients() -> Result<()> {
     python::clients()?;
     pytest(&["--long", "-m", "long", "tests/fmu", "tests/clients"])
+}
+
+/// The Rust tests of the model that take long.
+fn long_runs() -> Result<()> {
+    run(cargo().args(["test", "--quiet", "-p", "split-rotor-model", "--test", "named", "--", "--ignored"]))
 }
 
 /// What a user would pick instead of us still runs, all of it.

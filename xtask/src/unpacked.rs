@@ -15,9 +15,21 @@ pub struct Unpacked {
     pub library: PathBuf,
     /// What it must know of the modelDescription.xml.
     pub sheet: PathBuf,
+    /// Keeps the files as long as this lives, where they are of this run only.
+    _folder: Option<Folder>,
 }
 
-/// Takes an FMU apart, into target/unpacked.
+/// A folder of one run, which goes with it.
+struct Folder(PathBuf);
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // Where a loaded library cannot be removed, it stays.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Takes an FMU apart, into a folder of its own in target/unpacked: another run meanwhile keeps its library.
 pub fn unpack(fmu: &Path) -> Result<Unpacked> {
     let name = fmu.file_stem().context("an FMU has a name")?.to_string_lossy().into_owned();
     let mut zip = ZipArchive::new(File::open(fmu)?)?;
@@ -30,8 +42,10 @@ pub fn unpack(fmu: &Path) -> Result<Unpacked> {
     let sheet = sheet::sheet(&xml)?;
     let identifier = sheet.lines().find_map(|line| line.strip_prefix("attribute CoSimulation.modelIdentifier "));
     let library = read(&package::library_path(identifier.context("the XML has no model identifier")?)?)?;
-    let folder = paths::target().join("unpacked");
-    write(&folder, &name, &sheet, &library).with_context(|| format!("cannot take {} apart", fmu.display()))
+    let folder = paths::target().join("unpacked").join(format!("{name}-{}", std::process::id()));
+    let unpacked = write(&folder, &name, &sheet, &library);
+    let unpacked = unpacked.with_context(|| format!("cannot take {} apart", fmu.display()))?;
+    Ok(Unpacked { _folder: Some(Folder(folder)), ..unpacked })
 }
 
 /// Writes what a C host needs of this FMU into `folder`.
@@ -41,6 +55,7 @@ pub fn write(folder: &Path, name: &str, sheet: &str, library: &[u8]) -> Result<U
         name: name.into(),
         library: folder.join(format!("{name}{}", std::env::consts::DLL_SUFFIX)),
         sheet: folder.join(format!("{name}.txt")),
+        _folder: None,
     };
     std::fs::write(&unpacked.sheet, sheet)?;
     std::fs::write(&unpacked.library, library)?;

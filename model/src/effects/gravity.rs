@@ -21,17 +21,19 @@ impl Effect for Gravity {
         parameter!("g.z", g.z, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along z"),
     ];
 
+    const FOLLOWS_PLACE: bool = false;
+
     const COULD_WORK: bool = false;
 
     #[inline(always)]
     fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        // eq. 13: F = m g
-        Wrench { force: (self.g * motion.body.m).map(S::constant), ..Wrench::zero() }
+        // eq. 13: F = m g, at the mass centre of the whole
+        Wrench::at_centre(motion, (self.g * motion.body.m).map(S::constant))
     }
 
     #[inline(always)]
     fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        // eq. 13: V = −m g·r_c
-        -(self.g * motion.body.m).map(S::constant).dot(&motion.at.r_c)
+        // eq. 13: V = −m g·r
+        -(self.g * motion.body.m).map(S::constant).dot(&motion.at.r)
     }
 }

@@ -24,6 +24,10 @@ impl Effect for Shaft {
         }),
     ];
 
+    const FOLLOWS_PLACE: bool = false;
+
+    const EXCLUDES: &'static [&'static str] = &["imposed_speed"];
+
     // The members have the names of Modelica's adaptors between flanges and signals.
     const TERMINAL: Option<Terminal> =
         Some(Terminal { kind: "Modelica.Mechanics.Rotational.Interfaces.Flange_a", flows: &["tau"] });

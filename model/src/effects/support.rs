@@ -27,7 +27,7 @@ impl Support {
     /// Force of the springs at a [N], and their moment against tilt [N·m].
     #[inline(always)]
     fn springs<S: Scalar>(&self, motion: &Kinematics<S>) -> [Vector3<S>; 2] {
-        let to_origin = motion.lever(motion.body.l) - motion.at.r_c;
+        let to_origin = motion.lever(motion.body.l) - motion.r_c();
         // eq. 14: F = −c1 r_a, M = −c2 γ
         [to_origin * S::constant(self.c1), -across(motion.tilt.gamma() * S::constant(self.c2))]
     }

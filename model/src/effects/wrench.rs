@@ -1,6 +1,7 @@
 //! A force and a moment.
 
 use crate::scalar::Scalar;
+use crate::state::Kinematics;
 use nalgebra::Vector3;
 use std::ops::Add;
 
@@ -20,6 +21,36 @@ impl<S: Scalar> Wrench<S> {
     pub fn zero() -> Self {
         let none = Vector3::repeat(S::constant(-0.0));
         Self { force: none, moment: none }
+    }
+
+    /// A force [N] at the mass centre G of the whole.
+    #[inline(always)]
+    pub fn at_centre(motion: &Kinematics<S>, force: Vector3<S>) -> Self {
+        match motion.to_centre {
+            None => Self { force, ..Self::zero() },
+            // eq. 73: M_c = L b×F
+            Some(to_centre) => Self { force, moment: to_centre.cross(&force) },
+        }
+    }
+
+    /// Its moment about the mass centre G of the whole [N·m].
+    #[inline(always)]
+    pub fn about_centre(&self, motion: &Kinematics<S>) -> Vector3<S> {
+        // eq. 73: M_G = M_c − L b×F
+        motion.to_centre.map_or(self.moment, |to_centre| self.moment - to_centre.cross(&self.force))
+    }
+
+    /// A force [N] at the station at `p` [m] along t from c.
+    #[inline(always)]
+    pub fn at_station(motion: &Kinematics<S>, p: f64, force: Vector3<S>) -> Self {
+        // eq. 60: M_c = p t×F
+        Self { force, moment: motion.lever(p).cross(&force) }
+    }
+
+    /// A moment [N·m].
+    #[inline(always)]
+    pub fn couple(moment: Vector3<S>) -> Self {
+        Self { moment, ..Self::zero() }
     }
 }
 

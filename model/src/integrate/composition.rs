@@ -6,7 +6,8 @@ mod coefficients;
 
 pub use coefficients::{KAHAN, SOFRONIOU, STRANG, SUZUKI};
 
-use super::{Cost, Fault, System, end_of_step};
+use super::answer::Answer;
+use super::{Cost, Fault, Refusal, System, end_of_step};
 use crate::stored::{Damaged, Stored, Walk, choice, stored};
 
 /// A motion that is the sum of two, on its way through a step.
@@ -17,8 +18,8 @@ pub trait Split<const N: usize> {
     /// Follows the other for a time `h` [s], backwards where it is negative; meanwhile the time stands at `t` [s].
     fn kick(&mut self, t: f64, h: f64);
 
-    /// The state reached, and how often the right-hand side was evaluated on the way.
-    fn end(self) -> ([f64; N], f64);
+    /// The state reached, or why it cannot be, and how often the right-hand side was evaluated on the way.
+    fn end(self) -> (Result<[f64; N], Refusal>, f64);
 }
 
 /// A system whose motion is the sum of two.
@@ -99,15 +100,38 @@ pub struct Composed<const N: usize> {
     start: f64,
     start_y: [f64; N],
     last: f64,
+    answer: Answer<N>,
+    /// Steps in a row that got nowhere.
+    stall: u32,
 }
 
-stored!(Composed<const N: usize> { composition, size, h, cost, t, y, start, start_y, last });
+stored!(Composed<const N: usize> { composition, size, h, cost, t, y, start, start_y, last, answer, stall });
+
+/// So many steps in a row may be shorter than what gets anywhere.
+const PATIENCE: u32 = 1000;
+
+const TOO_SHORT: Refusal = Refusal(
+    "in steps of the symplectic method that are so short the run would never end: lengthen solver.step_size, or where it is \
+     0, soften what changes so fast",
+);
 
 impl<const N: usize> Composed<N> {
     /// Starts at time `t` [s] and state `y`, with steps of this size [s].
     pub fn start(composition: &'static Composition, size: f64, t: f64, y: [f64; N]) -> Self {
         let cost = Cost::default();
-        Self { composition, size, h: size, cost, t, y, start: t, start_y: y, last: 0.0 }
+        Self {
+            composition,
+            size,
+            h: size,
+            cost,
+            t,
+            y,
+            start: t,
+            start_y: y,
+            last: 0.0,
+            answer: Answer::none(),
+            stall: 0,
+        }
     }
 
     /// Nothing yet: a place for what was stored.
@@ -140,6 +164,11 @@ impl<const N: usize> Composed<N> {
         self.h = self.h.min(h);
     }
 
+    /// The size of the next step [s], unless it is limited.
+    pub fn next_step(&self) -> f64 {
+        self.h
+    }
+
     /// Goes back to a time `t` [s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, t: f64, y: [f64; N]) {
         (self.t, self.y) = (t, y);
@@ -160,41 +189,42 @@ impl<const N: usize> Composed<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward, but not past time `until` [s]. One that cannot be done is tried again with half its size, not
-    /// below `least` [s]; where none is possible, the method stands as before.
+    /// One step forward, but not past time `until` [s]. One that cannot be done is tried again with half its size; where none
+    /// is possible, the method stands as before.
+    ///
+    /// Steps below `least` [s] get nowhere: after [`PATIENCE`] of them in a row, none is possible.
     pub fn step(&mut self, system: &impl Splitting<N>, least: f64, until: f64) -> Result<(), Fault> {
         let (mut h, y) = (self.h, self.y);
-        let mut fault = Fault::Underflow { t: self.t };
+        let mut fault = None;
         loop {
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * h > self.t;
-            if !advances {
-                return Err(fault);
+            if !advances || self.stall > PATIENCE {
+                self.stall = 0;
+                return Err(fault.unwrap_or(Fault::Refused { t: self.t, reason: TOO_SHORT }));
             }
             let end = end_of_step(self.t, h, until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             let span = end - self.t;
-            let y = self.followed(system, self.t, &y, span);
-            fault = if !y.iter().all(|y| y.is_finite()) {
-                Fault::NotFinite { t: self.t }
-            } else if let Err(reason) = system.admits(end, &y) {
-                Fault::Refused { t: self.t, reason }
-            } else {
-                self.accept(end, y, span);
-                return Ok(());
-            };
+            let followed = self.followed(system, self.t, &y, span);
+            fault = Some(match followed.and_then(|y| system.admits(end, &y).map(|()| y)) {
+                Ok(y) if y.iter().all(|y| y.is_finite()) => {
+                    self.stall = if span < least { self.stall + 1 } else { 0 };
+                    self.accept(end, y, span);
+                    return Ok(());
+                }
+                Ok(_) => Fault::NotFinite { t: self.t },
+                Err(reason) => Fault::Refused { t: self.t, reason },
+            });
             self.cost.rejected += 1.0;
             h = 0.5 * span;
-            if h < least {
-                return Err(fault);
-            }
         }
     }
 
     /// One step of size `h` [s], wherever it ends.
     pub fn fixed_step(&mut self, system: &impl Splitting<N>, h: f64) {
         let y = self.y;
-        let y = self.followed(system, self.t, &y, h);
+        let y = self.followed(system, self.t, &y, h).unwrap_or([f64::NAN; N]);
         self.accept(self.t + h, y, h);
     }
 
@@ -204,11 +234,15 @@ impl<const N: usize> Composed<N> {
         if t == self.start || self.last == 0.0 {
             return self.start_y;
         }
+        if let Some(answer) = self.answer.at(t) {
+            return answer;
+        }
         let y = self.start_y;
-        self.followed(system, self.start, &y, t - self.start)
+        let answer = self.followed(system, self.start, &y, t - self.start).unwrap_or([f64::NAN; N]);
+        self.answer.keep(t, answer)
     }
 
-    fn followed(&mut self, system: &impl Splitting<N>, t: f64, y: &[f64; N], h: f64) -> [f64; N] {
+    fn followed(&mut self, system: &impl Splitting<N>, t: f64, y: &[f64; N], h: f64) -> Result<[f64; N], Refusal> {
         let mut motion = system.flow(y, self.composition, h);
         self.composition.follow(&mut motion, t, h);
         let (y, evaluations) = motion.end();
@@ -219,6 +253,7 @@ impl<const N: usize> Composed<N> {
     fn accept(&mut self, end: f64, y: [f64; N], h: f64) {
         (self.start, self.start_y, self.last) = (self.t, self.y, h);
         (self.t, self.y, self.h) = (end, y, self.size);
+        self.answer = Answer::none();
         self.cost.steps += 1.0;
     }
 }

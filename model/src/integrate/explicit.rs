@@ -1,9 +1,11 @@
 //! Explicit Runge–Kutta pairs with adaptive steps and dense output, for any [`Tableau`]. No allocation.
 
+use super::answer::Answer;
 use super::control::Controller;
 use super::lanes::{both, nothing, pair, pairs, put};
 use super::power::power;
-use super::tableau::{Combination, DOP853, Dop853, Dopri5, ErrorRule, MOST_DENSE, MOST_STAGES, Pair, Stage, Tableau};
+use super::segment::Segment;
+use super::tableau::{Combination, DOP853, Dop853, Dopri5, ErrorRule, MOST_STAGES, Pair, Stage, Tableau};
 use super::{Cost, Fault, Refusal, System, Tolerance, end_of_step, mean_square};
 use crate::scalar::ulp;
 use crate::stored::stored;
@@ -30,7 +32,6 @@ pub struct Explicit<const N: usize> {
 }
 
 stored!(Explicit<const N: usize> { tableau, tolerance, share, controller, cost, t, y, h, k, stall, segment });
-stored!(Segment<const N: usize> { t, h, y, r, dense });
 
 /// A refused step is tried again with this part of it.
 const REFUSED: f64 = 0.6;
@@ -38,30 +39,13 @@ const REFUSED: f64 = 0.6;
 /// A first step spans at least so many units in the last place of the time.
 const LEAST_FIRST: f64 = 100.0;
 
+/// A step whose polynomial ends in a term of so many tolerances is of no use between its ends: one that spans many turns of a
+/// motion too small to matter there. In sound steps that term is 3 to 30.
+const ROUGH: f64 = 100.0;
+
 /// So many attempts in a row may be shorter than what gets anywhere: a first step may start tiny and grow. Steps that
 /// succeed are borne with twice as long, so that the reason told is that of one that did not.
 const PATIENCE: u32 = 1000;
-
-/// The last step.
-#[derive(Clone, Debug)]
-struct Segment<const N: usize> {
-    /// Where it began [s].
-    t: f64,
-    /// Its size [s].
-    h: f64,
-    /// The state at its start.
-    y: [f64; N],
-    /// r_2 and further of eq. 24, once somebody asked.
-    r: [[f64; N]; MOST_DENSE - 1],
-    /// Whether `r` is filled.
-    dense: bool,
-}
-
-impl<const N: usize> Segment<N> {
-    fn blank() -> Self {
-        Self { t: 0.0, h: 0.0, y: [0.0; N], r: [[0.0; N]; MOST_DENSE - 1], dense: false }
-    }
-}
 
 impl<const N: usize> Explicit<N> {
     /// Starts at time `t` [s] and state `y`.
@@ -228,17 +212,28 @@ impl<const N: usize> Explicit<N> {
             return self.segment.y;
         }
         self.prepare_dense(system);
-        let Segment { t: start, h, y, r, .. } = &self.segment;
-        let sigma = (t - start) / h;
-        let mut sum = [0.0; N];
-        // eq. 24: y(t₀ + σh) = r₁ + σ(r₂ + (1 − σ)(r₃ + σ(r₄ + (1 − σ)(r₅ + …))))
-        for (i, row) in r[..3 + self.tableau.dense.len()].iter().enumerate().rev() {
-            let factor = if i % 2 == 0 { sigma } else { 1.0 - sigma };
-            for (sum, r) in sum.iter_mut().zip(row) {
-                *sum = (*sum + r) * factor;
+        if !self.segment.rough {
+            return self.segment.at(t, self.terms());
+        }
+        let known = self.segment.answer.at(t);
+        known.unwrap_or_else(|| {
+            let y = self.stepped(system, t);
+            self.segment.answer.keep(t, y)
+        })
+    }
+
+    /// The same by steps from where the last one began, for one whose polynomial says nothing.
+    fn stepped(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
+        let Segment { t: start, y, .. } = self.segment;
+        let mut again = Self::start(self.tableau, self.tolerance, system, start, y);
+        while again.t < t {
+            if again.step(system, 0.0, t).is_err() {
+                // The step as a whole was possible, so what stands in the way of its parts is not worth a word.
+                return self.segment.at(t, self.terms());
             }
         }
-        std::array::from_fn(|n| y[n] + sum[n])
+        self.cost.evaluations += again.cost.evaluations;
+        again.y
     }
 
     fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {
@@ -361,6 +356,10 @@ impl<const N: usize> Explicit<N> {
     fn accept(&mut self, end: f64, y: [f64; N], error: f64) {
         let segment = &mut self.segment;
         (segment.t, segment.h, segment.y, segment.dense) = (self.t, self.h, self.y, false);
+        if segment.rough {
+            // Only such a step is read by what an answer keeps.
+            (segment.rough, segment.answer) = (false, Answer::none());
+        }
         // The segment ends at y: r_2 holds the difference until the rest is asked for.
         segment.r[0] = std::array::from_fn(|n| y[n] - self.y[n]);
         self.t = end;
@@ -381,6 +380,21 @@ impl<const N: usize> Explicit<N> {
             self.prepare_dense_with::<Dopri5, _>(system);
         }
         self.segment.dense = true;
+        self.segment.rough = self.roughness() > ROUGH;
+    }
+
+    /// The last term of the polynomial in the middle of the step, in units of the tolerance [1].
+    fn roughness(&self) -> f64 {
+        let Segment { y, r, .. } = &self.segment;
+        let terms = self.terms();
+        let size = std::array::from_fn(|i| y[i].abs().max((y[i] + r[0][i]).abs()));
+        // eq. 24: σ and 1 − σ are 1/2 in each of its factors
+        self.tolerance.norm(&r[terms - 1], &size) / f64::from(1_u32 << terms)
+    }
+
+    /// How many terms the polynomial of eq. 24 has after y.
+    fn terms(&self) -> usize {
+        3 + self.tableau.dense.len()
     }
 
     /// [`Explicit::prepare_dense`] with the coefficients as constants.

@@ -5,6 +5,7 @@ mod collocation;
 pub mod lu;
 pub mod radau;
 
+use super::answer::Answer;
 use super::control::Controller;
 use super::{Cost, Fault, System, Tolerance, end_of_step, mean_square};
 use crate::scalar::ulp;
@@ -57,9 +58,10 @@ struct Segment<const N: usize> {
     jacobian: [[f64; N]; N],
     /// z_i: what the state has gained at each stage.
     z: [[f64; N]; STAGES],
+    answer: Answer<N>,
 }
 
-stored!(Segment<const N: usize> { t, h, y, jacobian, z });
+stored!(Segment<const N: usize> { t, h, y, jacobian, z, answer });
 
 /// A refused step is tried again with this part of it, and so is one that Newton's method does not solve.
 const REFUSED: f64 = 0.5;
@@ -149,6 +151,11 @@ impl<const N: usize> Stiff<N> {
         self.h = self.h.min(h);
     }
 
+    /// The size of the next step [s], unless it is limited.
+    pub fn next_step(&self) -> f64 {
+        self.h
+    }
+
     /// Goes back to a time `t` [s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, system: &impl System<N>, t: f64, y: [f64; N]) {
         self.t = t;
@@ -232,15 +239,20 @@ impl<const N: usize> Stiff<N> {
 
     /// The state at a time `t` [s] within the last step: that of a shorter step from the same start, which the polynomial of
     /// collocation, of order 3 only, foretells.
-    pub fn dense<F: System<N>>(&mut self, system: &F, t: f64) -> [f64; N] {
-        let Segment { t: start, h, y, jacobian, z } = self.segment;
+    pub fn dense(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
+        let Segment { t: start, h, y, jacobian, z, answer } = self.segment;
+        if let Some(answer) = answer.at(t) {
+            return answer;
+        }
         if t == start || h == 0.0 {
             return y;
         }
         let sigma = (t - start) / h;
         let guess = radau::C.map(|c| combined(&weights(c * sigma), &z));
-        let z = self.solve(system, start, y, &Collocation::new::<F>(&jacobian, t - start), guess).unwrap_or(guess);
-        std::array::from_fn(|n| y[n] + z[STAGES - 1][n])
+        let z = self
+            .solve(system, start, y, &Collocation::new(&jacobian, t - start, system.depended_on()), guess)
+            .unwrap_or(guess);
+        self.segment.answer.keep(t, std::array::from_fn(|n| y[n] + z[STAGES - 1][n]))
     }
 
     fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {
@@ -249,16 +261,16 @@ impl<const N: usize> Stiff<N> {
     }
 
     /// The Jacobian for a step of size h.
-    fn differentiate<F: Differentiable<N>>(&mut self, system: &F) -> [[f64; N]; N] {
-        self.cost.evaluations += F::DEPENDED_ON.min(N) as f64;
+    fn differentiate(&mut self, system: &impl Differentiable<N>) -> [[f64; N]; N] {
+        self.cost.evaluations += system.depended_on() as f64;
         // In the middle of the step, where the method is going: there it serves all stages.
         let ahead = self.foretold_at(0.5);
         system.jacobian(self.t + 0.5 * self.h, &std::array::from_fn(|n| self.y[n] + ahead[n]))
     }
 
     /// A step of size h from where the method stands: its stages and the norm of its error in units of the tolerance [1].
-    fn attempt<F: System<N>>(&mut self, system: &F, jacobian: &[[f64; N]; N]) -> ([[f64; N]; STAGES], f64) {
-        let collocation = Collocation::new::<F>(jacobian, self.h);
+    fn attempt(&mut self, system: &impl System<N>, jacobian: &[[f64; N]; N]) -> ([[f64; N]; STAGES], f64) {
+        let collocation = Collocation::new(jacobian, self.h, system.depended_on());
         let guess = self.foretold();
         match self.solve(system, self.t, self.y, &collocation, guess) {
             Some(z) => (z, self.error_norm(system, &collocation, &z)),
@@ -354,7 +366,7 @@ impl<const N: usize> Stiff<N> {
         error: f64,
     ) {
         let y = self.ended(&z);
-        self.segment = Segment { t: self.t, h: self.h, y: self.y, jacobian, z };
+        self.segment = Segment { t: self.t, h: self.h, y: self.y, jacobian, z, ..Segment::blank() };
         self.t = end;
         self.go_on_from(system, y);
         self.smooth = true;
@@ -367,6 +379,6 @@ impl<const N: usize> Stiff<N> {
 
 impl<const N: usize> Segment<N> {
     fn blank() -> Self {
-        Self { t: 0.0, h: 0.0, y: [0.0; N], jacobian: [[0.0; N]; N], z: [[0.0; N]; STAGES] }
+        Self { t: 0.0, h: 0.0, y: [0.0; N], jacobian: [[0.0; N]; N], z: [[0.0; N]; STAGES], answer: Answer::none() }
     }
 }

@@ -1,6 +1,7 @@
 //! Angles from sines and cosines, and back, without libm.
 
 use super::{exact, series};
+use crate::scalar::Scalar;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 
 /// π less its double [rad].
@@ -57,6 +58,21 @@ impl Reduced {
         let sine = self.beta * self.sinc;
         if self.half_turns == 2.0 * whole(0.5 * self.half_turns) { sine } else { -sine }
     }
+}
+
+/// Cosine and sine of an angle a [rad] of any sign, |a| < 10⁹.
+#[inline(always)]
+pub fn cosine_and_sine<S: Scalar>(angle: S) -> [S; 2] {
+    let a = angle.re();
+    let half_turns = 2.0 * whole(a * (0.5 * FRAC_1_PI));
+    // eq. 34: β = a − nπ, n even
+    let (high, low) = exact::product(half_turns, PI);
+    let beta = angle.with_value(((a - high) - low) - half_turns * PI_LOW);
+    // eq. 9, eq. 10: of the half angle; cos β = c² − ¼β²s², sin β = β s c
+    let square = beta * beta;
+    let [c, j_quarter] = series::cosine_and_bessel(square);
+    let s = c + square * j_quarter;
+    [c * c - square * (s * s * S::constant(0.25)), beta * s * c]
 }
 
 /// The whole number nearest to a number below 10¹⁵.

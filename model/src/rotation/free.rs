@@ -3,7 +3,7 @@
 use super::arc::{Reduced, atan2};
 use super::chart::azimuth;
 use super::{Chart, Tilt, series};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// What becomes of a tilt.
@@ -18,16 +18,18 @@ pub struct Turned {
 }
 
 /// The rotation ρ as a quaternion (w, p), its half angle less n half turns.
-struct Quaternion {
+#[derive(Clone, Copy, Debug)]
+pub struct Turn {
     rho: Vector3<f64>,
     w: f64,
     p: Vector3<f64>,
     half_turns: f64,
 }
 
-impl Quaternion {
+impl Turn {
+    /// By an Euler vector ρ [rad] of any length.
     #[inline(always)]
-    fn new(rho: Vector3<f64>) -> Self {
+    pub fn about(rho: Vector3<f64>) -> Self {
         let square = rho.norm_squared();
         if square <= PI * PI {
             // eq. 9
@@ -37,6 +39,32 @@ impl Quaternion {
         let angle = square.sqrt();
         let half = Reduced::new(0.5 * angle);
         Self { rho, w: half.cosine, p: rho * (half.beta * half.sinc / angle), half_turns: half.half_turns }
+    }
+
+    /// That of a quaternion of any length and sign, half a turn or less.
+    pub fn of(w: f64, p: Vector3<f64>) -> Self {
+        let per = (1.0 / (w * w + p.norm_squared()).sqrt()).copysign(w);
+        Self { rho: p * per, w: w * per, p: p * per, half_turns: 0.0 }
+    }
+
+    /// This one after another, half a turn or less.
+    pub fn after(&self, other: &Self) -> Self {
+        Self::of(self.w * other.w - self.p.dot(&other.p), other.p * self.w + self.p * other.w + self.p.cross(&other.p))
+    }
+
+    /// The same backwards.
+    pub fn back(&self) -> Self {
+        Self { rho: -self.rho, p: -self.p, ..*self }
+    }
+
+    /// The same seen from other axes, those of a rotation matrix.
+    pub fn seen_from(&self, axes: &Matrix3<f64>) -> Self {
+        Self { rho: axes * self.rho, p: axes * self.p, ..*self }
+    }
+
+    /// Real and imaginary part [1].
+    pub fn quaternion(&self) -> (f64, Vector3<f64>) {
+        (self.w, self.p)
     }
 
     /// Real part and part along e of its product with (a, 0, b).
@@ -56,10 +84,9 @@ impl Quaternion {
 }
 
 impl Tilt<f64> {
-    /// The tilt after a turn by the Euler vector ρ [rad] of any length, about its direction all the way.
+    /// The tilt after a turn about its direction all the way.
     #[inline(always)]
-    pub fn turned(&self, rho: Vector3<f64>) -> Turned {
-        let q = Quaternion::new(rho);
+    pub fn turned(&self, q: &Turn) -> Turned {
         let b = self.half_tangent();
         // eq. 35: (w, x, y, z) is the product of the quaternions of ρ and (1, 0, b), b = tan(θ/2) γ/θ
         let (w, x) = q.along(1.0, b);

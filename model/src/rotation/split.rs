@@ -52,6 +52,13 @@ impl<S: Scalar> Tilt<S> {
         (self.quarter + self.quarter) * self.per_sinc
     }
 
+    /// (1 − cos θ)/θ² [1].
+    #[inline(always)]
+    pub(super) fn versine(&self) -> S {
+        // eq. 10: ½ s² = 2 s²/4
+        self.quarter + self.quarter
+    }
+
     /// g = γ×e in the chart, whose length is θ [rad].
     #[inline(always)]
     fn g(&self) -> Vector2<S> {

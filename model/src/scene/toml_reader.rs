@@ -3,7 +3,7 @@
 use super::{Experiment, defaults};
 use crate::effects::{self, CATALOGUE, Info};
 use crate::error::Invalid;
-use crate::variable::{Bound, Kind};
+use crate::variable::{Bound, Kind, Place};
 use crate::variables::{self, TOLERANCES, Variable};
 use std::collections::BTreeMap;
 use toml::Spanned;
@@ -12,6 +12,7 @@ use toml::de::{DeTable, DeValue};
 /// What a text says.
 pub(super) struct Found {
     pub title: Option<String>,
+    pub general: bool,
     pub effects: Vec<(&'static Info, u32)>,
     pub variables: Vec<Variable>,
     pub starts: BTreeMap<u32, f64>,
@@ -34,10 +35,36 @@ impl<'v> Values<'v> {
     }
 }
 
+impl Values<'_> {
+    /// Switches on what is called for; of the rest, what has no default is zero, and counts only once it is switched on.
+    fn switch(&mut self, called: &[(&'static Info, u32)]) {
+        let called: Vec<_> = called.iter().map(|(info, index)| Place::effect_block(info.number, *index)).collect();
+        for variable in self.settable().filter(|variable| variable.place.block >= Place::FIRST_EFFECT) {
+            let (Place { block, row }, reference) = (variable.place, variable.place.value_reference());
+            let is_called = called.contains(&block);
+            if row == Place::SWITCH {
+                self.starts.insert(reference, f64::from(is_called));
+            } else if !is_called {
+                self.starts.entry(reference).or_insert(0.0);
+            }
+        }
+    }
+}
+
+/// How many of a kind a general scene has at least.
+const OF_A_KIND_IN_GENERAL: u32 = 2;
+
+/// What a general scene holds whose file calls for these.
+fn every_effect(called: &[(&Info, u32)]) -> Vec<(&'static Info, u32)> {
+    let called = |info: &Info| called.iter().filter(|(one, _)| one.number == info.number).count() as u32;
+    let number = |info: &Info| if info.several { called(info).max(OF_A_KIND_IN_GENERAL) } else { 1 };
+    CATALOGUE.iter().flat_map(|info| (1..=number(info)).map(move |index| (info, index))).collect()
+}
+
 /// A line from 1, where one is to blame, and what is wrong with it.
 type Wrong = (Option<usize>, String);
 
-const SECTIONS: &str = "title, rotor, start, effects, solver, experiment";
+const SECTIONS: &str = "title, general, rotor, start, effects, solver, experiment";
 const EXPERIMENT: [&str; 4] = ["start", "stop", "step", "tolerance"];
 
 pub(super) fn read(text: &str) -> Result<Found, Wrong> {
@@ -57,58 +84,89 @@ type Value<'i> = Spanned<DeValue<'i>>;
 
 impl Reader<'_> {
     fn scene(&self, root: &DeTable) -> Result<Found, Wrong> {
-        let mut title = None;
-        let mut effects = Vec::new();
+        let (mut title, mut general) = (None, false);
+        if let Some(value) = root.get("general") {
+            let given = value.get_ref().as_bool();
+            general = given.ok_or_else(|| self.wrong_type(value, "general", "true or false"))?;
+        }
+        let mut called = Vec::new();
         for (key, value) in root {
             match key.get_ref().as_ref() {
                 "title" => match value.get_ref().as_str() {
                     Some(text) => title = Some(text.to_owned()),
                     None => return Err(self.wrong_type(value, "title", "a string")),
                 },
-                "effects" => effects = self.effects(self.table(value, "effects")?)?,
-                "rotor" | "start" | "solver" | "experiment" => {}
+                "effects" => called = self.effects(self.table(value, "effects")?)?,
+                "general" | "rotor" | "start" | "solver" | "experiment" => {}
                 other => {
                     let message = format!("unknown key `{other}`: a scene knows {SECTIONS}");
                     return Err((Some(self.line(key.span().start)), message));
                 }
             }
         }
-        let variables = variables::of_scene(&effects);
+        let (effects, variables) = if general {
+            let all = every_effect(&called);
+            let variables = variables::of_general(&all);
+            (all, variables)
+        } else {
+            (called.clone(), variables::of_scene(&called))
+        };
         let mut values = Values { variables: &variables, starts: defaults(&variables), lines: Vec::new() };
         for section in ["rotor", "start", "solver"] {
             if let Some(value) = root.get(section) {
                 self.block(self.table(value, section)?, section, section, &mut values)?;
             }
         }
-        if let Some(called) = root.get("effects").and_then(|value| value.get_ref().as_table()) {
-            for (key, value) in called {
-                let name = key.get_ref().as_ref();
-                let section = format!("effects.{name}");
-                self.block(self.table(value, &section)?, name, &section, &mut values)?;
+        if let Some(tables) = root.get("effects").and_then(|value| value.get_ref().as_table()) {
+            for (info, index) in &called {
+                let (name, section, value) = (info.block_name(*index), info.switch_name(*index), &tables[info.name]);
+                let value = value.get_ref().as_array().map_or(value, |several| &several[*index as usize - 1]);
+                values.lines.push((section.clone(), self.line(value.span().start)));
+                self.block(self.table(value, &section)?, &name, &section, &mut values)?;
             }
+        }
+        if general {
+            values.switch(&called);
         }
         nothing_missing(&values)?;
         let Values { starts, lines, .. } = values;
         let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
         let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
         let experiment = self.experiment(root.get("experiment"), tolerance)?;
-        Ok(Found { title, effects, variables, starts, experiment, lines })
+        Ok(Found { title, general, effects, variables, starts, experiment, lines })
     }
 
-    /// The effects that are called for, in the order of the catalogue.
+    /// The effects that are called for, in the order of the catalogue, those of a kind in the order of the file.
     fn effects(&self, called: &DeTable) -> Result<Vec<(&'static Info, u32)>, Wrong> {
+        let most = Place::OF_A_KIND;
         for (key, value) in called {
-            if value.get_ref().is_array() {
-                let message = format!("there is only one {0}: write [effects.{0}]", key.get_ref());
-                return Err((Some(self.line(key.span().start)), message));
-            }
-            if effects::named(key.get_ref()).is_none() {
+            let here = |message| Err((Some(self.line(key.span().start)), message));
+            let name = key.get_ref().as_ref();
+            let Some(info) = effects::named(name) else {
                 let known: Vec<_> = CATALOGUE.iter().map(|info| info.name).collect();
-                let message = format!("unknown effect `{}`: there are {}", key.get_ref(), known.join(", "));
-                return Err((Some(self.line(key.span().start)), message));
+                return here(format!("unknown effect `{name}`: there are {}", known.join(", ")));
+            };
+            match (info.several, value.get_ref()) {
+                (false, DeValue::Array(_)) => {
+                    return here(format!("there is only one {name}: write [effects.{name}]"));
+                }
+                (true, DeValue::Array(several)) if several.len() > most as usize => {
+                    let given = several.len();
+                    return here(format!("[[effects.{name}]] stands {given} times: there may be up to {most}"));
+                }
+                (false, _) | (true, DeValue::Array(_)) => {}
+                (true, _) => {
+                    let right = format!("write [[effects.{name}]], once for each, up to {most}");
+                    return here(format!("there may be several of {name}: {right}"));
+                }
             }
         }
-        Ok(CATALOGUE.iter().filter(|info| called.contains_key(info.name)).map(|info| (info, 1)).collect())
+        let number = |info: &Info| match called.get(info.name).map(Spanned::get_ref) {
+            None => 0,
+            Some(DeValue::Array(several)) => several.len() as u32,
+            Some(_) => 1,
+        };
+        Ok(CATALOGUE.iter().flat_map(|info| (1..=number(info)).map(move |index| (info, index))).collect())
     }
 
     /// Takes the values of a table whose keys are variables beginning with `prefix`; `section` is its key in the file.
@@ -128,10 +186,11 @@ impl Reader<'_> {
                 self.block(table, &name, &in_file, values)?;
             } else {
                 let known = next_keys(values.settable(), prefix);
+                let section = heading(section);
                 let message = if known.is_empty() {
-                    format!("unknown key `{in_file}`: [{section}] has no keys")
+                    format!("unknown key `{in_file}`: {section} has no keys")
                 } else {
-                    format!("unknown key `{in_file}`: [{section}] knows {}", known.join(", "))
+                    format!("unknown key `{in_file}`: {section} knows {}", known.join(", "))
                 };
                 return Err((Some(self.line(key.span().start)), message));
             }
@@ -142,7 +201,7 @@ impl Reader<'_> {
     /// The value of a parameter, checked.
     fn number(&self, value: &Value, variable: &Variable, in_file: &str) -> Result<f64, Wrong> {
         let number = match variable.meta.kind {
-            Kind::Real | Kind::Integer => as_number(value.get_ref()).ok_or_else(|| {
+            Kind::Real | Kind::Integer | Kind::Boolean => as_number(value.get_ref()).ok_or_else(|| {
                 let unit = variable.meta.unit.name;
                 let right = if unit.is_empty() { "a number".into() } else { format!("a number in {unit}") };
                 self.wrong_type(value, in_file, &right)
@@ -186,7 +245,7 @@ impl Reader<'_> {
         let within = Bound::Within(f64::MIN_POSITIVE, stop - start);
         let right = format!("a number of seconds > 0, at most stop - start = {:?} s", stop - start);
         let step = or(2, (stop - start) / 1000.0, within, &right)?;
-        let tolerance = or(3, tolerance, TOLERANCES, &TOLERANCES.words())?;
+        let tolerance = or(3, tolerance, TOLERANCES, &TOLERANCES.words(Kind::Real))?;
         Ok(Experiment { start, stop, step, tolerance })
     }
 
@@ -210,11 +269,23 @@ fn nothing_missing(values: &Values) -> Result<(), Wrong> {
         if !values.starts.contains_key(&variable.place.value_reference()) {
             let (unit, what) = (variable.meta.unit.name, variable.meta.description);
             let (section, key) = variable.name.split_once('.').unwrap_or(("", &variable.name));
-            let right = format!("give the {what} in {unit} as `{key} = ...` under [{section}]");
+            let of_effect = if variable.place.block < Place::FIRST_EFFECT { "" } else { "effects." };
+            let within = heading(&format!("{of_effect}{section}"));
+            let unit = if unit.is_empty() { String::new() } else { format!(" in {unit}") };
+            let right = format!("give the {what}{unit} as `{key} = ...` under {within}");
             return Err((None, format!("`{}` is missing: {right}", variable.name)));
         }
     }
     Ok(())
+}
+
+/// What stands in the file above the keys of a section: `[effects.drag]`, `[[effects.bearing]]`.
+fn heading(section: &str) -> String {
+    match section.split_once('[') {
+        Some((name, rest)) if rest.ends_with(']') => format!("[[{name}]]"),
+        Some((name, rest)) => format!("[{name}{}]", rest.split_once(']').map_or("", |(_, within)| within)),
+        None => format!("[{section}]"),
+    }
 }
 
 fn as_number(value: &DeValue) -> Option<f64> {

@@ -1,14 +1,15 @@
 //! A method that drives a rotor: charts, whole turns of φ, and the answer at any time of the last step.
 
+use super::method::Method;
+use super::plan::Plan;
 use super::start::{Motion, tolerance};
 use crate::effects::Effects;
-use crate::integrate::explicit::Explicit;
-use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
-use crate::integrate::{Cost, Fault};
+use crate::energy::{Ledger, kinetic};
+use crate::integrate::{Cost, Fault, Refusal};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart};
 use crate::rotor::{self, Rotor};
-use crate::state::{Coordinates, DISSIPATED, GAMMA, Kinematics, PHI, SUPPLIED, WITH_WORK};
+use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK};
 use crate::stored::stored;
 use crate::variables::{Reading, Setup};
 use nalgebra::Vector2;
@@ -19,7 +20,7 @@ use std::f64::consts::TAU;
 pub(super) struct Drive<E, const N: usize> {
     /// The rotor, in the chart and with the whole turns of the time that the method has reached.
     rotor: Rotor<E>,
-    method: Explicit<N>,
+    method: Method<N>,
     last: LastStep,
     /// The longest step so far [s].
     longest: f64,
@@ -63,22 +64,35 @@ const LEAST_PART: f64 = 1e-12;
 
 /// φ [rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
 /// last place for the remainder of φ to stay exact.
-const LONGEST_TURN: f64 = 16.0 * TAU;
+pub(super) const LONGEST_TURN: f64 = 16.0 * TAU;
 
 /// γ [rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
 /// keep the step from growing beyond what its dense output can follow.
 const LONGEST_TILT: f64 = 1.0;
 
+/// The sine of the angle between K and the axis, up to which the axis stays where it is.
+const NARROW: f64 = 0.25;
+
 /// The azimuth of γ from −e [rad] advances by about so much at most in a step, so that its turns can be counted.
 const LONGEST_WHIRL: f64 = 1.0;
 
+/// Where the ledger leaves over more than this part of all energy that there is, was, came and went, a method without an
+/// error estimate has lost the motion [1].
+const LOST: f64 = 0.1;
+
+const TOO_LONG: Refusal = Refusal(
+    "the energy is not kept, so the steps of the symplectic method are too long for these forces: shorten \
+             solver.step_size, or where it is 0, tighten solver.relative_tolerance or take another solver.method",
+);
+
 impl<E: Effects, const N: usize> Drive<E, N> {
-    /// A drive from time `t` [s] of a motion that shows `reading` at its start.
-    pub(super) fn start(start: Motion<E>, reading: &Reading, setup: &Setup, t: f64) -> Self {
+    /// A drive from time `t` [s] of a motion that shows `reading` at its start, for `span` [s], where that is known.
+    pub(super) fn start(start: Motion<E>, reading: &Reading, setup: &Setup, t: f64, span: Option<f64>) -> Self {
         let Motion { rotor, state } = start;
         let mut y = [0.0; N];
         y.copy_from_slice(&state[..N]);
-        let method = Explicit::start(tableau(setup.solver.method), tolerance(setup), &rotor, t, y);
+        let tolerance = tolerance(setup, rotor.effects.follows_phi());
+        let method = Method::start(Plan::new(&setup.solver, &rotor, t, &y, span), tolerance, &rotor, t, y);
         let last = LastStep { chart: rotor.chart, turns: rotor.turns, gamma: gamma(&y), closest: None };
         let mut drive = Self {
             rotor,
@@ -97,7 +111,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     pub(super) fn blank() -> Self {
         Self {
             rotor: Rotor::default(),
-            method: Explicit::blank(),
+            method: Method::blank(),
             last: LastStep::default(),
             longest: 0.0,
             t: 0.0,
@@ -125,29 +139,58 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     /// at the last time reached.
     pub(super) fn advance(&mut self, t: f64, news: Option<&E>) -> Result<(), Fault> {
         assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
+        self.keeps_energy()?;
         if let Some(effects) = news {
             self.hear(effects)?;
         }
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
         let until = if news.is_some() { t } else { f64::INFINITY };
-        let wanted = t - self.method.time();
-        while self.method.time() < t {
+        let mut reached = self.method.time();
+        let wanted = t - reached;
+        while reached < t {
             let least = LEAST_PART * wanted.max(self.longest);
             if let Err(fault) = self.step(least, until) {
                 self.t = self.method.time();
-                return Err(fault);
+                // Where the motion is lost already, what stands in its way has another cause.
+                return self.keeps_energy().and(Err(fault));
             }
             self.settle(t);
+            reached = self.method.time();
         }
         self.t = t;
-        Ok(())
+        self.keeps_energy()
+    }
+
+    /// Whether the motion reached has anything to do with the one asked for. Methods that estimate their error know.
+    fn keeps_energy(&self) -> Result<(), Fault> {
+        if !matches!(self.method, Method::Composed(_)) {
+            return Ok(());
+        }
+        let ledger = self.ledger();
+        let all = ledger.kinetic + ledger.potential.abs() + ledger.supplied.abs() + ledger.dissipated;
+        if ledger.residual().abs() <= LOST * (all + ledger.total_at_start.abs()) {
+            return Ok(());
+        }
+        Err(Fault::Refused { t: self.t, reason: TOO_LONG })
+    }
+
+    /// The ledger of the state that the method has reached.
+    fn ledger(&self) -> Ledger<f64> {
+        let y = self.method.state();
+        let motion = self.rotor.motion(self.method.time(), y);
+        Ledger::new(&motion, &self.rotor.effects, work(y), self.total_at_start)
     }
 
     /// Goes on from the communication point with the inputs of these effects.
     fn hear(&mut self, effects: &E) -> Result<(), Fault> {
-        let (y, chart, turns) = self.shown();
+        let (mut y, chart, turns) = self.shown();
         (self.rotor.chart, self.rotor.turns) = (chart, turns);
+        let before = self.rotor.motion(self.t, &y);
         self.rotor.effects.hear(effects);
+        if E::IMPOSES && N == WITH_WORK {
+            // A jump of the imposed speed supplies the jump of kinetic energy.
+            y[SUPPLIED] += kinetic(&self.rotor.motion(self.t, &y)) - kinetic(&before);
+        }
         self.method.go_back(&self.rotor, self.t, y);
         self.watch_tilt(gamma(&y));
         let reached = self.rotor.reaches(gamma(&y), Chart::REACH);
@@ -156,9 +199,10 @@ impl<E: Effects, const N: usize> Drive<E, N> {
 
     /// A step that keeps to what the chart and the counting of turns allow.
     fn limit_step(&mut self) {
-        let (at, rate) = (gamma(self.method.state()), gamma(self.method.rate()));
+        let Some(rates) = self.method.rate() else { return self.limit_drift() };
+        let (at, rate) = (gamma(self.method.state()), gamma(rates));
         // Mostly nothing limits the step, and products tell: divisions and roots would hold up the next step.
-        let (h, turning) = (self.method.next_step(), self.method.rate()[PHI].abs());
+        let (h, turning) = (self.method.next_step(), rates[PHI].abs());
         if h * turning > LONGEST_TURN {
             self.method.limit_step(LONGEST_TURN / turning);
         }
@@ -173,6 +217,19 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         }
     }
 
+    /// A drift is exact and counts its turns, however long. But where a law has no limit at −e, the axis must not fly past
+    /// it unseen.
+    fn limit_drift(&mut self) {
+        if self.rotor.effects.needs_gamma() {
+            let motion = self.rotor.motion(self.method.time(), self.method.state());
+            let (k, axis) = (motion.at.k, motion.axis());
+            // About K the axis goes on a cone, of which a narrow one leads nowhere.
+            if k.cross(axis).norm() > NARROW * k.norm() {
+                self.method.limit_step(LONGEST_TILT / motion.axis_rate().norm());
+            }
+        }
+    }
+
     fn step(&mut self, least: f64, until: f64) -> Result<(), Fault> {
         self.limit_step();
         // Near −e a step can pass where it may not end; then it is taken back.
@@ -184,7 +241,8 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
             self.last = LastStep { chart: self.rotor.chart, turns: self.rotor.turns, gamma: from, closest: None };
             let near = before.is_some() && from.norm().min(to.norm()) < NEAR;
-            if self.rotor.chart == Chart::FromMinusE && (near || azimuth_change(from, to).abs() > MUCH) {
+            let turned = || !self.method.counts_turns() && azimuth_change(from, to).abs() > MUCH;
+            if self.rotor.chart == Chart::FromMinusE && (near || turned()) {
                 self.last.closest = Some(self.closest_to_origin());
             }
             match (&before, self.last.closest) {
@@ -231,6 +289,9 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     /// The whole turns of φ that go with γ [rad] at a time `t` [s] of the last step.
     fn turns_at(&self, t: f64, gamma: Vector2<f64>) -> f64 {
         let LastStep { chart, turns, gamma: from, closest } = self.last;
+        if self.method.counts_turns() {
+            return turns;
+        }
         match closest {
             Some((when, closest)) if when < t => {
                 turns + chart.turns_gained(from, closest) + chart.turns_gained(closest, gamma)
@@ -244,7 +305,11 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         const SECTIONS: u32 = 40;
         let (mut low, mut high) = (self.method.start_time(), self.method.time());
-        let mut at = |t: f64| (t, gamma(&self.method.dense(&self.rotor, t)));
+        let mut at = |t: f64| {
+            let gamma = gamma(&self.method.dense(&self.rotor, t));
+            // Where kicks on the way there have no limit, the origin is near.
+            (t, if gamma.norm().is_nan() { Vector2::zeros() } else { gamma })
+        };
         let mut a = at(high - GOLDEN * (high - low));
         let mut b = at(low + GOLDEN * (high - low));
         for _ in 0..SECTIONS {
@@ -264,18 +329,20 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         if self.t == self.method.time() {
             return (*self.method.state(), self.rotor.chart, self.rotor.turns);
         }
+        // The rotor may have gone on in the other chart.
+        let chart = std::mem::replace(&mut self.rotor.chart, self.last.chart);
         let y = self.method.dense(&self.rotor, self.t);
+        self.rotor.chart = chart;
         (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
     }
 
     /// What the communication point shows.
     pub(super) fn read(&mut self) -> Reading {
         let (y, chart, turns) = self.shown();
-        let motion = Kinematics::new(self.rotor.body, chart, Coordinates::from_slice(&y)).when(self.t, turns);
-        let work = if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] };
+        let motion = self.rotor.motion_in(chart, self.t, &y).when(self.t, turns);
         let spent = self.method.cost();
         let cost = Cost { error_estimate: spent.error_estimate * self.relative_tolerance, ..spent };
-        Reading::new(motion, &self.rotor.effects, work, self.total_at_start, cost)
+        Reading::new(motion, &self.rotor.effects, work(&y), self.total_at_start, cost)
     }
 }
 
@@ -283,7 +350,7 @@ fn gamma(y: &[f64]) -> Vector2<f64> {
     Coordinates::from_slice(y).gamma
 }
 
-/// The method of this number; checked before.
-fn tableau(number: i32) -> &'static Tableau {
-    if number == 2 { &DOPRI5 } else { &DOP853 }
+/// The work supplied and lost [J], where it is solved.
+fn work<const N: usize>(y: &[f64; N]) -> [f64; 2] {
+    if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] }
 }

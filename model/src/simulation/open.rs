@@ -2,6 +2,7 @@
 
 use super::start::Motion;
 use crate::effects::Effects;
+use crate::energy::kinetic;
 use crate::integrate::{Cost, Refusal};
 use crate::rotation::Chart;
 use crate::rotation::chart::crossed_exactly;
@@ -21,13 +22,15 @@ pub struct Open<E> {
     state: Whole<f64>,
     /// Where the last completed step ended.
     completed: Completed,
+    /// The kinetic energy at the event that the host is at [J]; None between events.
+    at_event: Option<f64>,
     /// Total energy at the start [J].
     total_at_start: f64,
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
 }
 
-stored!(Open<E: Effects> { rotor, t, state, completed, total_at_start, tilted });
+stored!(Open<E: Effects> { rotor, t, state, completed, at_event, total_at_start, tilted });
 
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
@@ -42,6 +45,22 @@ struct Completed {
 
 stored!(Completed { t, gamma, rate });
 
+/// What an event changed of the state.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Settled {
+    /// γ and φ: they are written in the other chart.
+    pub chart: bool,
+    /// The work supplied, by a jump of an imposed speed.
+    pub work: bool,
+}
+
+impl Settled {
+    /// Whether anything did.
+    pub fn any(self) -> bool {
+        self.chart || self.work
+    }
+}
+
 /// Into so many pieces the way between two completed steps is cut to count turns.
 const PIECES: u32 = 32;
 
@@ -51,8 +70,9 @@ impl<E: Effects> Open<E> {
         let Motion { rotor, state } = start;
         let total_at_start = reading.ledger.total_at_start;
         let t = reading.motion.t;
-        let mut open = Self { rotor, t, state, completed: Completed::default(), total_at_start, tilted: false };
+        let mut open = Self { rotor, t, state, total_at_start, ..Self::blank() };
         open.completed = open.here();
+        open.at_event = Some(open.kinetic());
         open.watch_tilt();
         open
     }
@@ -60,7 +80,7 @@ impl<E: Effects> Open<E> {
     /// Nothing yet: a place for what was stored.
     pub(super) fn blank() -> Self {
         let (rotor, completed) = (Rotor::default(), Completed::default());
-        Self { rotor, t: 0.0, state: [0.0; WITH_WORK], completed, total_at_start: 0.0, tilted: false }
+        Self { rotor, t: 0.0, state: [0.0; WITH_WORK], completed, at_event: None, total_at_start: 0.0, tilted: false }
     }
 
     /// The time [s].
@@ -109,8 +129,45 @@ impl<E: Effects> Open<E> {
         self.rotor.chart.is_left_at(self.completed.gamma)
     }
 
-    /// At an event: goes on in the other chart where this one is left, which changes the state. Whether it did.
-    pub fn settle_chart(&mut self) -> bool {
+    /// An event begins.
+    pub fn enter_event(&mut self) {
+        self.at_event = Some(self.kinetic());
+    }
+
+    /// The event is over.
+    pub fn leave_event(&mut self) {
+        self.at_event = None;
+    }
+
+    /// At an event: goes on in the other chart where this one is left, and books the work of a jump. What of the state
+    /// that changed.
+    pub fn settle(&mut self) -> Settled {
+        let settled = Settled { work: self.book_jump(), chart: self.settle_chart() };
+        if self.at_event.is_some() {
+            self.enter_event();
+        }
+        settled
+    }
+
+    /// A jump of an imposed speed supplies the jump of kinetic energy. Between events it could not be told from a host's
+    /// trials, so only those at events are booked. Whether there was one.
+    fn book_jump(&mut self) -> bool {
+        let Some(before) = self.at_event else { return false };
+        let jump = self.kinetic() - before;
+        if !E::IMPOSES || jump == 0.0 {
+            return false;
+        }
+        self.state[SUPPLIED] += jump;
+        true
+    }
+
+    /// [J]
+    fn kinetic(&self) -> f64 {
+        kinetic(&self.rotor.motion(self.t, &self.state))
+    }
+
+    /// Goes on in the other chart where this one is left, which changes the state. Whether it did.
+    fn settle_chart(&mut self) -> bool {
         let chart = self.rotor.chart;
         let now = gamma(&self.state);
         if !chart.is_left_at(now) {

@@ -50,6 +50,8 @@ pub static NEWTON_METRE_PER_RADIAN: Unit = unit("N.m/rad", [1, 2, -2, -1]);
 pub static NEWTON_SECOND_PER_METRE: Unit = unit("N.s/m", [1, 0, -1, 0]);
 /// N.m.s/rad
 pub static NEWTON_METRE_SECOND_PER_RADIAN: Unit = unit("N.m.s/rad", [1, 2, -1, -1]);
+/// N.m.s2/rad2
+pub static NEWTON_METRE_SECOND_SQUARED_PER_RADIAN_SQUARED: Unit = unit("N.m.s2/rad2", [1, 2, 0, -2]);
 /// J
 pub static JOULE: Unit = unit("J", [1, 2, -2, 0]);
 /// W

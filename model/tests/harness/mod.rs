@@ -3,6 +3,8 @@
 #![allow(dead_code, reason = "each test crate uses a part")]
 
 pub mod named;
+pub mod swinging;
+pub mod uneven;
 
 use model::body::Body;
 use model::effects::gravity::Gravity;
@@ -54,7 +56,7 @@ impl Listed for Shafted {
     const NAMES: &'static [&'static str] = &["shaft"];
 }
 
-/// A method, by its number in the scene.
+/// An explicit pair, by its number in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Order 5.
@@ -65,7 +67,7 @@ pub enum Method {
 
 impl Method {
     /// Both.
-    pub const ALL: [Self; 2] = [Self::Dopri5, Self::Dop853];
+    pub const PAIRS: [Self; 2] = [Self::Dopri5, Self::Dop853];
 
     /// Its coefficients.
     pub fn tableau(self) -> &'static Tableau {
@@ -203,7 +205,7 @@ impl Scene {
     pub fn state(&self) -> [f64; 12] {
         let axis = crate::oracles::rotation::axis(&self.gamma);
         let k_c = self.omega * self.body.Jt + axis * ((self.body.Ja - self.body.Jt) * self.omega.dot(&axis));
-        let at = Coordinates { r_c: self.r_c, v_c: self.v_c, k_c, gamma: self.gamma, phi: self.phi };
+        let at = Coordinates { r: self.r_c, v: self.v_c, k: k_c, gamma: self.gamma, phi: self.phi };
         let mut y = [0.0; 12];
         at.write(&mut y);
         y
@@ -224,7 +226,7 @@ pub fn at<E: Effects>(simulation: &mut Simulation<E>, t: f64) -> Reading {
 
 /// Total angular momentum about e through O [kg·m²/s].
 pub fn momentum_about_e(motion: &Kinematics<f64>) -> f64 {
-    (motion.at.r_c.cross(&motion.at.v_c) * motion.body.m + motion.at.k_c).x
+    (motion.at.r.cross(&motion.at.v) * motion.body.m + motion.at.k).x
 }
 
 /// Times from 0 to `end` [s], `parts` + 1 of them.

@@ -20,6 +20,13 @@ pub fn names() -> Vec<String> {
     Scene::names(&folder())
 }
 
+/// The names of the scenes that name their method. Those that leave it to `auto` are too stiff, too fast or too long for
+/// differences, and for any other method.
+pub fn gentle() -> Vec<String> {
+    let is_gentle = |name: &String| Named::new(name, Integrator::Method).get("solver.method") != 1.0;
+    names().into_iter().filter(is_gentle).collect()
+}
+
 fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
 }
@@ -27,7 +34,16 @@ fn folder() -> std::path::PathBuf {
 impl Named {
     /// The scene of this name, not yet started.
     pub fn new(name: &str, integrator: Integrator) -> Self {
-        let scene = Scene::find(name, &folder()).unwrap_or_else(|error| panic!("{error}"));
+        Self::of(Scene::find(name, &folder()).unwrap_or_else(|error| panic!("{error}")), integrator)
+    }
+
+    /// The scene of this text, not yet started.
+    pub fn written(text: &str) -> Self {
+        let scene = Scene::parse(Path::new("test.toml"), text).unwrap_or_else(|error| panic!("{error}"));
+        Self::of(scene, Integrator::Method)
+    }
+
+    fn of(scene: Scene, integrator: Integrator) -> Self {
         let simulation = Simulation::with(integrator, scene.parameters());
         Self { scene, simulation }
     }

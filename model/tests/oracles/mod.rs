@@ -3,12 +3,20 @@
 
 #![allow(dead_code, reason = "each test crate uses a part")]
 
+pub mod asymmetric;
+pub mod cross_coupling;
+pub mod elliptic;
 pub mod extrapolation;
 pub mod fixed;
+pub mod heavy_top;
+pub mod jeffcott;
 pub mod motion;
 pub mod numerics;
 pub mod paper;
 pub mod rigid_body;
+pub mod rotating_damping;
 pub mod rotation;
+pub mod top;
 pub mod trees;
+pub mod uneven;
 pub mod words;

@@ -4,6 +4,7 @@
 use super::numerics::{integral, root};
 use super::rotation;
 use nalgebra::{Matrix3, Vector2, Vector3};
+use std::f64::consts::PI;
 
 /// A torque-free symmetric rotor.
 ///
@@ -44,6 +45,24 @@ impl FreeRotor {
     /// The axis at time `t` [s].
     pub fn axis(&self, t: f64) -> Vector3<f64> {
         rotation::rodrigues(&(self.momentum() * (t / self.Jt))) * rotation::axis(&self.gamma)
+    }
+
+    /// φ at time `t` [s], whole turns included, in closed form. With a = |K|t/(2Jt) the quaternion of the axis' motion is
+    /// (cos a, K/|K| sin a)·(cos θ/2, sin θ/2 γ/θ) = (w, x, …), and φ gains 2 arg(w + ix): the point (w, x) goes along an
+    /// ellipse about 0, always in one sense, and is opposite to itself half a turn of a later.
+    ///
+    /// Source: derived here; checked against the quadrature of [`FreeRotor::phi`].
+    pub fn phi_in_closed_form(&self, t: f64) -> f64 {
+        let (momentum, theta) = (self.momentum(), self.gamma.norm());
+        let (cosine, sine) = (libm::cos(0.5 * theta), if theta > 0.0 { libm::sin(0.5 * theta) / theta } else { 0.5 });
+        let (n, tilt) = (momentum.normalize(), self.gamma * sine);
+        let half = 0.5 * momentum.norm() * t / self.Jt;
+        let (across, along) = (n.y * tilt.x + n.z * tilt.y, n.x * cosine + n.y * tilt.y - n.z * tilt.x);
+        let halves = (half / PI).round();
+        let rest = half - halves * PI;
+        let (s, c) = (libm::sin(rest), libm::cos(rest));
+        let turned = libm::atan2(along * s, cosine * c - across * s) + libm::copysign(halves * PI, halves * along);
+        self.phi + self.Ja * self.axial_spin() * t * (1.0 / self.Ja - 1.0 / self.Jt) + 2.0 * turned
     }
 
     /// φ at time `t` [s], whole turns included: spin plus swept solid angle (ORACLES.md, `paper`), where

@@ -1,5 +1,7 @@
 //! Derivatives, integrals, roots and slopes of what is known in closed form.
 
+use nalgebra::Complex;
+
 /// The derivative of f at x by central differences of the steps h, h/2, h/4, …, extrapolated to zero step.
 ///
 /// Source: Richardson (1911), Neville's scheme in h². Truncation O(h^(2·levels)); rounding about ε|f|/(h/2^(levels−1)).
@@ -61,4 +63,24 @@ pub fn log_slope(points: &[(f64, f64)]) -> f64 {
     let (mx, my) = (logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n);
     let up: f64 = logs.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     up / logs.iter().map(|p| (p.0 - mx) * (p.0 - mx)).sum::<f64>()
+}
+
+/// The roots of a x² + b x + c = 0, the one of the larger imaginary part first.
+pub fn quadratic(a: f64, b: Complex<f64>, c: Complex<f64>) -> [Complex<f64>; 2] {
+    let root = square_root(b * b - c * (4.0 * a));
+    let mut roots = [-b + root, -b - root].map(|sum| sum / (2.0 * a));
+    roots.sort_by(|p, q| q.im.total_cmp(&p.im));
+    roots
+}
+
+/// The square root with a real part ≥ 0.
+fn square_root(z: Complex<f64>) -> Complex<f64> {
+    let size = libm::hypot(z.re, z.im);
+    let part = |x: f64| (0.5 * (size + x)).max(0.0).sqrt();
+    Complex::new(part(z.re), libm::copysign(part(-z.re), z.im))
+}
+
+/// exp z.
+pub fn exp(z: Complex<f64>) -> Complex<f64> {
+    Complex::new(libm::cos(z.im), libm::sin(z.im)) * libm::exp(z.re)
 }

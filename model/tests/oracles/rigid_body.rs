@@ -24,6 +24,8 @@ pub struct RigidBody {
     pub d: [f64; 2],
     /// The shaft's torque over time [N·m].
     pub tau: fn(f64) -> f64,
+    /// A force at the support point, and a moment, from outside [N], [N·m].
+    pub pushed: [Vector3<f64>; 2],
 }
 
 /// Where the body is, how it moves, and the work done since the start.
@@ -39,7 +41,7 @@ pub struct Moving {
     pub k: Vector3<f64>,
     /// φ [rad].
     pub phi: f64,
-    /// Work supplied by the shaft, work lost to the dampers [J].
+    /// Work supplied from outside, work lost to the dampers [J].
     pub work: [f64; 2],
 }
 
@@ -92,6 +94,12 @@ impl RigidBody {
         Moving::of(&extrapolation::steps(|t, y| self.rates(t, y), t, &from.numbers(), end - t, steps))
     }
 
+    /// The motion while this torque of the shaft [N·m] is held for `time` [s], in so many steps.
+    pub fn held(&self, tau: f64, from: &Moving, time: f64, steps: u32) -> Moving {
+        let rates = |_: f64, y: &Numbers| self.rates_under(tau, y);
+        Moving::of(&extrapolation::steps(rates, 0.0, &from.numbers(), time, steps))
+    }
+
     /// ω·(e + t)/(1 + e·t) [rad/s].
     pub fn axial_rate(&self, moving: &Moving) -> f64 {
         self.omega(moving).dot(&joint(&moving.axis()))
@@ -112,22 +120,29 @@ impl RigidBody {
     }
 
     fn rates(&self, time: f64, y: &Numbers) -> Numbers {
+        self.rates_under((self.tau)(time), y)
+    }
+
+    fn rates_under(&self, tau: f64, y: &Numbers) -> Numbers {
         let moving = Moving::of(y);
         let (t, omega) = (moving.axis(), self.omega(&moving));
         let t_rate = omega.cross(&t);
         let (r_a, v_a) = (moving.r - t * self.l, moving.v - t_rate * self.l);
-        let support = -r_a * self.c[0] - v_a * self.d[0];
+        let [push, twist] = self.pushed;
+        let support = push - r_a * self.c[0] - v_a * self.d[0];
         let gamma = rotation::gamma(&t);
-        let (n, tau) = (joint(&t), (self.tau)(time));
+        let n = joint(&t);
         let moment = -t.cross(&support) * self.l
             - Vector3::new(0.0, gamma.x, gamma.y) * self.c[1]
             - t.cross(&t_rate) * self.d[1]
-            + n * tau;
+            + n * tau
+            + twist;
         let (w, u) = rotation::product((0.0, omega * 0.5), moving.q);
         let lost = self.d[0] * v_a.norm_squared() + self.d[1] * t_rate.norm_squared();
         let rate = omega.dot(&n);
+        let supplied = tau * rate + push.dot(&v_a) + twist.dot(&omega);
         let acceleration = self.g + support / self.m;
-        Moving { r: moving.v, v: acceleration, q: (w, u), k: moment, phi: rate, work: [tau * rate, lost] }.numbers()
+        Moving { r: moving.v, v: acceleration, q: (w, u), k: moment, phi: rate, work: [supplied, lost] }.numbers()
     }
 }
 

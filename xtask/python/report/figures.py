@@ -135,6 +135,47 @@ def passage(figure, result, scene):
     figure.align_ylabels()
 
 
+@_inline(3.7, "Phase portrait of the tilt: its rate against the tilt")
+def portrait(figure, result, scene):
+    """The tilt θ and its rate: a nodding top goes round a loop."""
+    theta, rate = measure.tilt(result), measure.tilt_rate(result)
+    axes = figure.add_subplot()
+    axes.plot(theta, rate, color=BLUE, linewidth=0.7)
+    axes.plot(theta[0], rate[0], "o", color=BLACK, markersize=8, markerfacecolor="none", label="start")
+    axes.set(xlabel=r"$\theta$ [rad]", ylabel=r"$\dot\theta$ [rad/s]")
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+@_inline(3.4, "Orbits of the stations that probes look at")
+def orbits(figure, result, scene):
+    """The path of each probe's station across the x axis."""
+    probes = measure.probes(result)
+    panels = figure.subplots(1, len(probes), squeeze=False)[0]
+    for panel, probe in zip(panels, probes):
+        y, z = result[f"{probe}.r.y"], result[f"{probe}.r.z"]
+        half = max(np.ptp(y) / 2.0, np.ptp(z) / 2.0, 1e-9)
+        panel.plot(y, z, color=BLUE, linewidth=0.6)
+        panel.plot(y[-1], z[-1], "s", color=VERMILLION, markersize=5)
+        panel.set(title=probe, xlabel="y [m]", xlim=_limits(y, half), ylim=_limits(z, half), aspect="equal")
+    panels[0].set_ylabel("z [m]")
+
+
+@_inline(2.6, "Distance of the mass centre from the x axis against time, on a logarithmic scale")
+def growth(figure, result, scene):
+    """How a whirl grows or dies: a straight line is an exponential."""
+    axes = figure.add_subplot()
+    axes.semilogy(result["time"], np.hypot(result["r_c.y"], result["r_c.z"]), color=BLUE, linewidth=0.8)
+    axes.set(xlabel="time [s]", ylabel=r"$|(r_{cy}, r_{cz})|$ [m]")
+
+
+@_inline(2.8, "Radius of the whirl that lasts against the imposed speed")
+def response(figure, result, scene):
+    """The response to unbalance: the whirl that lasts, over the speed."""
+    axes = figure.add_subplot()
+    axes.plot(result["speed"], result["radius"], color=BLUE, marker="o", markersize=2.5, linewidth=0.8)
+    axes.set(xlabel=r"imposed $\omega_\varphi$ [rad/s]", ylabel="radius of the whirl [m]", ylim=(0.0, None))
+
+
 @_inline(2.6, "Deviation of the axial rate from its start value against time")
 def spin(figure, result, scene):
     """How far ω_φ strays from its start value (the paper's Figure 6)."""

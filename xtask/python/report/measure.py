@@ -77,3 +77,15 @@ def around_largest_tilt(result):
 def tilt(result):
     """θ = |γ|, the angle between rotor axis and reference axis [rad]."""
     return np.hypot(result["gamma.y"], result["gamma.z"])
+
+
+def tilt_rate(result):
+    """dθ/dt = −e·(ω×t)/sin θ [rad/s], not a number where θ = 0."""
+    sine = np.hypot(result["axis.y"], result["axis.z"])
+    along = result["omega.y"] * result["axis.z"] - result["omega.z"] * result["axis.y"]
+    return np.divide(-along, sine, out=np.full_like(sine, np.nan), where=sine > 0.0)
+
+
+def probes(result):
+    """The names of the probes: `probe[1]`, …"""
+    return [f"probe[{index}]" for index in range(1, 5) if f"probe[{index}].r.y" in result.dtype.names]

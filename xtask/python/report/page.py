@@ -26,7 +26,7 @@ def render(scene, run):
         scene=scene,
         step=run.step,
         blocks=[(name, list(rows)) for name, rows in groupby(scene.parameters.values(), lambda p: p.block)],
-        figures={draw.__name__: Markup(draw(run.result, scene)) for draw in _drawn(run)},
+        figures={draw.__name__: Markup(draw(result, scene)) for draw, result in _drawn(scene, run)},
         energy=measure.energy_balance(run.result, scene.relative_tolerance),
         largest_tilt=measure.tilt(run.result).max(),
         comparisons=list(paper.comparisons(run.result)) if scene.identifier == paper.IDENTIFIER else [],
@@ -37,12 +37,23 @@ def render(scene, run):
     )
 
 
-def _drawn(run):
-    """The figures that suit the run."""
+LEANING = 0.2
+"""A top that leans by more than this [rad] shows how it nods."""
+
+
+def _drawn(scene, run):
+    """The figures that suit the run, each with what it shows."""
     drawn = [figures.trajectory, figures.spin, figures.energy, figures.attitude]
+    if measure.probes(run.result):
+        drawn.append(figures.orbits)
+    if "rotating_damping.d" in scene.parameters:
+        drawn.append(figures.growth)
+    if measure.tilt(run.result).max() > LEANING:
+        drawn.append(figures.portrait)
     if measure.tilt(run.result).max() > np.pi / 2.0:
         drawn.append(figures.passage)
-    return drawn
+    shown = [(draw, run.result) for draw in drawn]
+    return shown if run.response is None else [*shown, (figures.response, run.response)]
 
 
 def _costs(scene, run):

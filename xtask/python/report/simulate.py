@@ -34,6 +34,8 @@ class Run:
     """From the set-up of the experiment to its end, fmpy's own work included [s]."""
     log: list[str]
     """What the FMU logged, `status category: message`."""
+    response: np.ndarray | None = None
+    """Of a scene that answers to an imposed speed, columns `speed` [rad/s] and `radius` [m] of the whirl that lasts."""
 
     @property
     def experiment(self):
@@ -78,6 +80,44 @@ def simulate(fmu_path, description, scene):
     if not np.isclose(reached, scene.stop):
         raise _failed(f"the FMU stopped at {reached:g} s of {scene.stop:g} s", log)
     return Run(result, step, stride, wall_time, log)
+
+
+SPEED = "imposed_speed.w"
+SPEEDS = np.linspace(0.4, 2.0, 49)
+"""Of the scene's own speed."""
+LASTING = 0.9
+"""After this part of a run, what lasts is left."""
+
+
+def responds(description):
+    """Whether a mass out of balance turns at a given speed."""
+    names = {variable.name for variable in description.modelVariables}
+    return SPEED in names and "unbalance[1].mass" in names and not any(name.startswith("effects.") for name in names)
+
+
+def respond(fmu_path, description, scene):
+    """The whirl that lasts at each speed, by a run of the whole experiment."""
+    own = next(float(variable.start) for variable in description.modelVariables if variable.name == SPEED)
+    radii = [_whirl(fmu_path, description, scene, own * speed) for speed in SPEEDS]
+    return np.rec.fromarrays([own * SPEEDS, radii], names="speed,radius")
+
+
+def _whirl(fmu_path, description, scene, speed):
+    try:
+        result = simulate_fmu(
+            fmu_path,
+            model_description=description,
+            start_time=scene.start,
+            stop_time=scene.stop,
+            output_interval=scene.step,
+            start_values={SPEED: speed},
+            output=["r_c.y", "r_c.z"],
+        )
+    except FMICallException as failure:
+        raise _failed(f"at {speed:g} rad/s: {failure}", []) from failure
+    last = result[result["time"] >= scene.start + LASTING * (scene.stop - scene.start)]
+    y, z = (last[name] - last[name].mean() for name in ("r_c.y", "r_c.z"))
+    return np.sqrt(np.mean(y**2 + z**2))
 
 
 def _failed(reason, log):

@@ -2,8 +2,8 @@
 
 use super::motion::Errors;
 use super::row::{Measured, OURS, Row};
-use super::sweep::TOLERANCE;
-use super::table::{about, methods, power, short};
+use super::sweep::{AUTO, TOLERANCE};
+use super::table::{about, methods, power, setting, short};
 
 /// Axis errors at the end that a user may want [rad].
 pub const GOALS: [f64; 3] = [1e-3, 1e-6, 1e-9];
@@ -27,7 +27,7 @@ const MEANT: std::ops::RangeInclusive<f64> = 1e-12..=1e-6;
 /// cannot be told.
 pub fn meaning(rows: &[Row], l: f64, floor: Errors) -> Option<String> {
     let mut parts: Vec<String> = Vec::new();
-    for (tool, method) in methods(rows).into_iter().filter(|(tool, _)| *tool == OURS) {
+    for (tool, method) in methods(rows).into_iter().filter(|(tool, method)| *tool == OURS && *method != AUTO) {
         let own = || {
             let adaptive = |row: &&Row| row.parameter == TOLERANCE && MEANT.contains(&row.value);
             measured(rows.iter().filter(|row| row.tool == tool && row.method == method).filter(adaptive))
@@ -60,13 +60,14 @@ fn measured<'r>(rows: impl IntoIterator<Item = &'r Row>) -> impl Iterator<Item =
 
 /// One sentence a goal, of our own methods; `floor` [rad]: no smaller error can be told. `stop` [s].
 pub fn sentences(rows: &[Row], floor: f64, simulated: f64, stop: f64) -> Vec<String> {
-    let ours = || rows.iter().filter(|row| row.tool == OURS);
+    // `auto` is one of the others.
+    let ours = || rows.iter().filter(|row| row.tool == OURS && row.method != AUTO);
     let sentence = |goal: f64| {
         let wanted = format!("For an axis error of at most {} rad at t = {stop} s", power(goal));
         if floor >= goal {
             return format!("{wanted} nothing can be said: the two references agree to {} rad only.", short(floor));
         }
-        let name = |row: &Row| format!("{} with {} = {}", row.method, row.parameter, power(row.value));
+        let name = |row: &Row| format!("{} with {}", row.method, setting(row));
         if let Some((row, m)) = cheapest(ours(), goal) {
             let factor = about(simulated / m.cpu_time);
             let (error, time) = (at_least(m.end.axis, floor), short(1e3 * m.cpu_time));

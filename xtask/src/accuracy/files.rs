@@ -27,10 +27,11 @@ pub fn write(scene: &Scene, result: &Accuracy) -> Result<()> {
 }
 
 fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
-    let Accuracy { reference, rows, scale, sentences, left_out } = result;
+    let Accuracy { reference, rows, scale, sentences, left_out, .. } = result;
     let row = |row: &super::Row| -> Map<String, Value> {
         row.columns(*scale).into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     };
+    let experiment = result.experiment;
     let setting = |setting: &Setting| json!({ "method": setting.method, setting.parameter: setting.value });
     let [end, worst] = reference
         .agreement
@@ -39,7 +40,7 @@ fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
         "scene": scene.name,
         "title": scene.title,
         "machine": machine::described()?,
-        "experiment": { "start_s": scene.experiment.start, "stop_s": scene.experiment.stop, "points": POINTS },
+        "experiment": { "start_s": experiment.start, "stop_s": experiment.stop, "points": POINTS },
         "reference": {
             "by": setting(&reference.setting),
             "checked_by": setting(&reference.check),

@@ -11,7 +11,7 @@ use crate::run::{cargo, fed, run};
 use crate::{paths, python};
 use anyhow::{Context, Result};
 use indicatif::ProgressBar;
-use model::scene::Scene;
+use model::scene::{Experiment, Scene};
 use serde_json::{Map, Value, json};
 use std::process::Command;
 
@@ -89,11 +89,11 @@ fn refusal(scene: &Scene) -> Option<String> {
 }
 
 /// Runs them all.
-pub fn measure(scene: &Scene, reference: &Reference, progress: &ProgressBar) -> Result<Peers> {
+pub fn measure(scene: &Scene, experiment: &Experiment, reference: &Reference, progress: &ProgressBar) -> Result<Peers> {
     if let Some(why) = refusal(scene) {
         return Ok(Peers { rows: Vec::new(), left_out: vec![why] });
     }
-    let task = task(scene, reference).to_string();
+    let task = task(scene, experiment, reference).to_string();
     let (mut rows, mut left_out) = (Vec::new(), Vec::new());
     for (name, program) in PEERS {
         super::tell(progress, name);
@@ -116,12 +116,12 @@ pub fn measure(scene: &Scene, reference: &Reference, progress: &ProgressBar) -> 
 }
 
 /// What every peer reads.
-fn task(scene: &Scene, reference: &Reference) -> Value {
+fn task(scene: &Scene, experiment: &Experiment, reference: &Reference) -> Value {
     let named = scene.variables.iter().filter_map(|variable| {
         let start = scene.starts.get(&variable.place.value_reference())?;
         Some((variable.name.clone(), json!(start)))
     });
-    let times: Vec<_> = (0..=POINTS).map(|n| run::time(&scene.experiment, n, POINTS)).collect();
+    let times: Vec<_> = (0..=POINTS).map(|n| run::time(experiment, n, POINTS)).collect();
     json!({
         "values": named.collect::<Map<_, _>>(),
         "times": times,
@@ -142,7 +142,7 @@ fn row(tool: &str, line: &str, reference: &Reference) -> Result<Row> {
     };
     let value = line["value"].as_f64().context("it lacks value")?;
     let [version, method, parameter] = [text("version")?, text("method")?, text("parameter")?];
-    Ok(Row { tool: tool.into(), version, method, parameter, value, outcome })
+    Ok(Row { tool: tool.into(), version, method, order: None, parameter, value, outcome })
 }
 
 fn measured(line: &Value, reference: &Reference) -> Result<Measured> {

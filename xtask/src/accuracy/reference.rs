@@ -52,7 +52,9 @@ fn tightest(subject: &Subject, method: &'static str) -> (Setting, Result<Run>) {
         let setting = sweep::with_tolerance(method, tolerance);
         (
             setting,
-            subject.run(&setting, 1).with_context(|| format!("no method can run {} to its end", subject.scene.name)),
+            subject
+                .run(&setting, 1, f64::INFINITY)
+                .with_context(|| format!("no method can run {} to its end", subject.scene.name)),
         )
     });
     let mut last = runs.next().expect("there are tolerances");

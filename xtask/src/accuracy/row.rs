@@ -2,6 +2,7 @@
 //! of the JSON.
 
 use super::motion::Errors;
+use crate::sheets;
 use serde_json::{Value, json};
 
 /// The tool's name in our own rows.
@@ -16,6 +17,8 @@ pub struct Row {
     pub version: String,
     /// The method.
     pub method: String,
+    /// Its order, where that was chosen.
+    pub order: Option<i32>,
     /// What chooses the accuracy.
     pub parameter: String,
     /// Its value.
@@ -62,6 +65,7 @@ impl Row {
             ("tool", json!(self.tool)),
             ("version", json!(self.version)),
             ("method", json!(self.method)),
+            ("order", json!(self.order)),
             ("parameter", json!(self.parameter)),
             ("value", json!(self.value)),
             ("axis_error_rad", number(&|m| m.end.axis)),
@@ -86,19 +90,7 @@ impl Row {
 
 /// The rows as comma-separated values, with a header.
 pub fn csv(rows: &[Row], scale: Scale) -> String {
-    let rows: Vec<_> = rows.iter().map(|row| row.columns(scale)).collect();
-    let header = rows.first().into_iter().map(|row| line(row.iter().map(|(name, _)| json!(name))));
-    header.chain(rows.iter().map(|row| line(row.iter().map(|(_, value)| value.clone())))).collect()
-}
-
-fn line(fields: impl Iterator<Item = Value>) -> String {
-    let field = |value| match value {
-        Value::Null => String::new(),
-        Value::String(text) if text.contains([',', '"', '\n']) => format!("\"{}\"", text.replace('"', "\"\"")),
-        Value::String(text) => text,
-        value => value.to_string(),
-    };
-    fields.map(field).collect::<Vec<_>>().join(",") + "\n"
+    sheets::csv(&rows.iter().map(|row| row.columns(scale)).collect::<Vec<_>>())
 }
 
 #[cfg(test)]
@@ -111,7 +103,7 @@ pub mod tests {
         let measured =
             Measured { end: errors, worst: errors, cpu_time, repeats: 5, steps: Some(7.0), evaluations: None };
         let (tool, version, method, parameter) = (tool.into(), "1.0".into(), method.into(), "tolerance".into());
-        Row { tool, version, method, parameter, value, outcome: Ok(measured) }
+        Row { tool, version, method, order: None, parameter, value, outcome: Ok(measured) }
     }
 
     #[test]
@@ -121,10 +113,10 @@ pub mod tests {
         let text = csv(&[row("split-rotor", "m", 1e-3, 1e-6, 0.5), failed], scale);
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[0].starts_with("tool,version,method,parameter,value,axis_error_rad,axis_error_told,"));
+        assert!(lines[0].starts_with("tool,version,method,order,parameter,value,axis_error_rad,axis_error_told,"));
         let ours: Vec<_> = lines[1].split(',').collect();
         assert_eq!(ours.len(), lines[0].split(',').count());
-        assert_eq!(ours[..7], ["split-rotor", "1.0", "m", "tolerance", "0.001", "1e-6", "true"]);
+        assert_eq!(ours[..8], ["split-rotor", "1.0", "m", "", "tolerance", "0.001", "1e-6", "true"]);
         let column = |name| ours[lines[0].split(',').position(|column| column == name).unwrap()];
         assert_eq!(column("phi_error_rad"), "");
         assert_eq!(column("energy_drift_relative"), "5e-7");

@@ -2,7 +2,7 @@
 
 use super::motion::Point;
 use crate::fmu::{Fmu, Instance, Reference};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
 use model::scene::{Experiment, Scene};
 use model::variables::METHODS;
@@ -35,6 +35,8 @@ const COSTS: [&str; 3] = ["solver.steps", "solver.rejected", "solver.evaluations
 pub struct Setting {
     /// The method's name.
     pub method: &'static str,
+    /// Its order, where that can be chosen.
+    pub order: Option<i32>,
     /// The parameter's name.
     pub parameter: &'static str,
     /// The parameter's value.
@@ -46,6 +48,8 @@ pub struct Subject<'s> {
     fmu: Fmu,
     /// The scene.
     pub scene: &'s Scene,
+    /// Start and stop of its runs: those of the scene, or a part of it.
+    pub experiment: Experiment,
     outputs: [Reference; OUTPUTS.len()],
     costs: [Reference; COSTS.len()],
 }
@@ -64,26 +68,42 @@ impl<'s> Subject<'s> {
     /// The FMU of this scene, whose library lies here.
     pub fn load(scene: &'s Scene, library: &Path) -> Result<Self> {
         let fmu = Fmu::load(library, &xml::guid(scene))?;
-        Ok(Self { fmu, scene, outputs: references(scene, OUTPUTS)?, costs: references(scene, COSTS)? })
+        let (outputs, costs) = (references(scene, OUTPUTS)?, references(scene, COSTS)?);
+        Ok(Self { fmu, scene, experiment: scene.experiment, outputs, costs })
     }
 
-    /// A run with this setting; between two points that are read, `substeps` communication steps.
-    pub fn run(&self, setting: &Setting, substeps: usize) -> Result<Run> {
-        let mut instance = self.fmu.instantiate()?;
-        self.set(&mut instance, setting)?;
-        instance.initialize(self.scene.experiment.start, self.scene.experiment.stop)?;
+    /// A run with this setting; between two points that are read, `substeps` communication steps. An error once it takes
+    /// longer than `patience` [s of CPU time].
+    pub fn run(&self, setting: &Setting, substeps: usize, patience: f64) -> Result<Run> {
+        let mut instance = self.started(setting)?;
         let steps = POINTS * substeps;
-        let time = |n| time(&self.scene.experiment, n, steps);
+        let time = |n| time(&self.experiment, n, steps);
         let mut points = Vec::with_capacity(POINTS);
         let began = ThreadTime::now();
         for n in 1..=steps {
             instance.do_step(time(n - 1), time(n) - time(n - 1))?;
             if n % substeps == 0 {
                 points.push(point(instance.get_real(&self.outputs)?));
+                if began.elapsed().as_secs_f64() > patience {
+                    bail!("takes more than {patience} s: stopped at t = {} s", time(n));
+                }
             }
         }
         let cpu_time = began.elapsed().as_secs_f64();
         Ok(Run { points, cpu_time, costs: instance.get_real(&self.costs)? })
+    }
+
+    /// The step that this setting begins with [s].
+    pub fn first_step(&self, setting: &Setting) -> Result<f64> {
+        let [step] = self.started(setting)?.get_real(&references(self.scene, ["solver.next_step"])?)?;
+        Ok(step)
+    }
+
+    fn started(&self, setting: &Setting) -> Result<Instance<'_>> {
+        let mut instance = self.fmu.instantiate()?;
+        self.set(&mut instance, setting)?;
+        instance.initialize(self.experiment.start, self.experiment.stop)?;
+        Ok(instance)
     }
 
     fn set(&self, instance: &mut Instance, setting: &Setting) -> Result<()> {
@@ -91,6 +111,10 @@ impl<'s> Subject<'s> {
             references(self.scene, ["solver.method", "solver.absolute_tolerance", setting.parameter])?;
         let chosen = METHODS.items.iter().find(|item| item.1 == setting.method);
         instance.set_integer(method, chosen.context("a method of the list")?.0)?;
+        if let Some(order) = setting.order {
+            let [reference] = references(self.scene, ["solver.order"])?;
+            instance.set_integer(reference, order)?;
+        }
         // A positive one would stand in for the relative tolerance, and all runs would be alike.
         instance.set_real(absolute, 0.0)?;
         instance.set_real(parameter, setting.value)

@@ -5,11 +5,32 @@ use super::reference::Reference;
 use super::repeats::least_time;
 use super::row::{Measured, OURS, Row};
 use super::run::{Run, Setting, Subject};
+use super::table::power;
 use anyhow::Result;
 use model::variables::METHODS;
 
 /// What chooses the accuracy of an adaptive method.
 pub const TOLERANCE: &str = "solver.relative_tolerance";
+
+/// What chooses that of a method with steps of one size.
+pub const STEP: &str = "solver.step_size";
+
+/// The method with steps of one size, and its orders.
+const SYMPLECTIC: &str = "symplectic";
+const ORDERS: [i32; 4] = [2, 4, 6, 8];
+
+/// The method that is one of the others.
+pub const AUTO: &str = "auto";
+
+/// A run that takes longer is left out [s of CPU time].
+const PATIENCE: f64 = 20.0;
+
+/// Where a run takes longer [s of CPU time], one tolerance in a decade must do.
+const SLOW: f64 = 1.0;
+
+/// Steps are so many halves of a halving apart, from four times what the method would choose for a tolerance of 1e-6 to
+/// about a fifteenth of it.
+const STEPS: std::ops::RangeInclusive<i32> = -4..=8;
 
 /// 1e-3, 5e-4, 2e-4, 1e-4, … 1e-14: so many of them as fill the powers of ten in between.
 pub fn tolerances() -> Vec<f64> {
@@ -26,23 +47,65 @@ pub fn swept_tolerances() -> Vec<f64> {
 
 /// A method with a tolerance.
 pub fn with_tolerance(method: &'static str, value: f64) -> Setting {
-    Setting { method, parameter: TOLERANCE, value }
+    Setting { method, order: None, parameter: TOLERANCE, value }
 }
 
-/// The settings of all methods.
-pub fn settings() -> Vec<Setting> {
-    // `auto` is one of the others.
-    let methods = METHODS.items.iter().map(|item| item.1).filter(|method| *method != "auto");
-    methods.flat_map(|method| swept_tolerances().into_iter().map(move |value| with_tolerance(method, value))).collect()
+/// The settings of all methods, a curve each, from loose to tight.
+pub fn curves(subject: &Subject) -> Result<Vec<Vec<Setting>>> {
+    let mut curves = Vec::new();
+    // `auto`, which is one of the others, comes last.
+    let methods = METHODS.items.iter().map(|item| item.1).filter(|method| *method != AUTO);
+    for method in methods.chain([AUTO]) {
+        if method == SYMPLECTIC {
+            for order in ORDERS {
+                curves.push(with_steps(order, step_of(subject, order)?));
+            }
+        } else {
+            curves.push(swept_tolerances().into_iter().map(|value| with_tolerance(method, value)).collect());
+        }
+    }
+    Ok(curves)
 }
 
-/// One row: a setting's time and errors, or why it cannot be run.
-pub fn measure(subject: &Subject, setting: &Setting, reference: &Reference) -> Row {
-    let outcome = try_measure(subject, setting, reference).map_err(|error| format!("{error:#}"));
+/// The step that `symplectic` would choose at its order for a tolerance of 1e-6 [s].
+fn step_of(subject: &Subject, order: i32) -> Result<f64> {
+    subject.first_step(&Setting { order: Some(order), ..with_tolerance(SYMPLECTIC, 1e-6) })
+}
+
+/// `symplectic` with steps about this one [s], two digits each.
+fn with_steps(order: i32, step: f64) -> Vec<Setting> {
+    let size = |n: i32| format!("{:.1e}", step * 0.5_f64.powf(0.5 * f64::from(n))).parse().expect("a number");
+    STEPS.map(|n| Setting { method: SYMPLECTIC, order: Some(order), parameter: STEP, value: size(n) }).collect()
+}
+
+/// The rows of a curve. Beyond the first that takes too long none is tried.
+pub fn measure(subject: &Subject, curve: &[Setting], reference: &Reference, done: impl Fn()) -> Vec<Row> {
+    let (mut is_slow, mut too_slow) = (false, None);
+    let mut rows = Vec::new();
+    for setting in curve {
+        let skipped = is_slow && setting.parameter == TOLERANCE && !power(setting.value).starts_with("1e");
+        if !skipped {
+            let outcome = match &too_slow {
+                Some(value) => Err(format!("left out: {} takes more than {PATIENCE} s", power(*value))),
+                None => try_measure(subject, setting, reference).map_err(|error| format!("{error:#}")),
+            };
+            if outcome.as_ref().is_err_and(|why| why.contains("takes more than")) {
+                too_slow = too_slow.or(Some(setting.value));
+            }
+            is_slow |= outcome.as_ref().is_ok_and(|measured| measured.cpu_time > SLOW);
+            rows.push(row(setting, outcome));
+        }
+        done();
+    }
+    rows
+}
+
+fn row(setting: &Setting, outcome: Result<Measured, String>) -> Row {
     Row {
         tool: OURS.into(),
         version: env!("CARGO_PKG_VERSION").into(),
         method: setting.method.into(),
+        order: setting.order,
         parameter: setting.parameter.into(),
         value: setting.value,
         outcome,
@@ -50,9 +113,8 @@ pub fn measure(subject: &Subject, setting: &Setting, reference: &Reference) -> R
 }
 
 fn try_measure(subject: &Subject, setting: &Setting, reference: &Reference) -> Result<Measured> {
-    // The first run also warms the machine up.
-    let Run { points, costs, .. } = subject.run(setting, 1)?;
-    let (cpu_time, repeats) = least_time(|| Ok(subject.run(setting, 1)?.cpu_time))?;
+    let Run { points, costs, cpu_time } = subject.run(setting, 1, PATIENCE)?;
+    let (cpu_time, repeats) = least_time(cpu_time, || Ok(subject.run(setting, 1, PATIENCE)?.cpu_time))?;
     let [end, worst] = Errors::of(&points, &reference.points);
     let [steps, _, evaluations] = costs;
     Ok(Measured { end, worst, cpu_time, repeats, steps: Some(steps), evaluations: Some(evaluations) })
@@ -60,11 +122,12 @@ fn try_measure(subject: &Subject, setting: &Setting, reference: &Reference) -> R
 
 /// How much more a run costs whose communication steps are `substeps` times as many, with as many outputs read.
 pub fn cost_of_substeps(subject: &Subject, setting: &Setting, substeps: usize) -> Result<f64> {
-    let mut fine = f64::INFINITY;
+    let run = |substeps| Ok(subject.run(setting, substeps, f64::INFINITY)?.cpu_time);
+    let mut fine = run(substeps)?;
     // Both in turn, so that a busy machine is unfair to both.
-    let (coarse, _) = least_time(|| {
-        fine = fine.min(subject.run(setting, substeps)?.cpu_time);
-        Ok(subject.run(setting, 1)?.cpu_time)
+    let (coarse, _) = least_time(run(1)?, || {
+        fine = fine.min(run(substeps)?);
+        run(1)
     })?;
     Ok(fine / coarse)
 }
@@ -82,10 +145,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_every_method_is_swept() {
-        let swept = settings();
-        for (_, method, _) in METHODS.items.iter().filter(|item| item.1 != "auto") {
-            assert!(swept.iter().any(|setting| setting.method == *method), "{method}");
-        }
+    fn exact_steps_are_those_that_a_user_types() {
+        let steps: Vec<_> = with_steps(4, 0.01).iter().map(|setting| setting.value).collect();
+        assert_eq!((steps.len(), &steps[..5]), (13, [0.04, 0.028, 0.02, 0.014, 0.01].as_slice()));
+        assert!(steps.is_sorted_by(|longer, shorter| longer > shorter));
     }
 }

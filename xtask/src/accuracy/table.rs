@@ -3,13 +3,15 @@
 use super::Accuracy;
 use super::advice::{self, GOALS, at_least};
 use super::row::{OURS, Row, Scale};
+use super::run::Setting;
+use super::sweep::STEP;
 use std::fmt::Write;
 
 /// Everything, for people.
 pub fn report(result: &Accuracy) -> String {
     let Accuracy { reference, rows, scale, .. } = result;
     let [end, worst] = &reference.agreement;
-    let name = |setting: &super::run::Setting| format!("{} at {}", setting.method, power(setting.value));
+    let name = |setting: &Setting| format!("{} at {}", setting.method, power(setting.value));
     let mut text = format!(
         "The reference is {}, checked by {}: at the end they agree to {} rad in the axis, {} m in r_c and {} rad in φ \
          (at worst {}, {} and {}). No smaller error can be told: it is given as `<`.\n",
@@ -38,12 +40,12 @@ fn overview(rows: &[Row], scale: Scale) -> String {
     for (tool, method) in methods(rows) {
         let own = || rows.iter().filter(|row| row.tool == tool && row.method == method);
         let cell = |goal: f64| match advice::cheapest(own(), goal) {
-            Some((row, m)) if goal > scale.floor => format!(" | {} ({})", short(1e3 * m.cpu_time), power(row.value)),
+            Some((row, m)) if goal > scale.floor => format!(" | {} ({})", short(1e3 * m.cpu_time), shown(row)),
             _ => " | -".into(),
         };
         writeln!(text, "| {tool} {method}{} |", GOALS.map(cell).concat()).expect("a String can be written to");
     }
-    text + "\nIn brackets the setting: a tolerance, or a step [s] where a method has a fixed one.\n"
+    text + "\nIn brackets the setting: a tolerance, or a step [s] where a method has a fixed one, after the order.\n"
 }
 
 /// Tools and methods in the order of the rows.
@@ -57,10 +59,14 @@ pub fn methods(rows: &[Row]) -> Vec<(&str, &str)> {
 fn decades(result: &Accuracy) -> String {
     let Accuracy { rows, scale, reference, .. } = result;
     let floor = &reference.floor();
-    let mut text = "| method | tolerance | axis [rad] | r_c [m] | φ [rad] | energy [J] | relative | evaluations \
+    let mut text = "| method | setting | axis [rad] | r_c [m] | φ [rad] | energy [J] | relative | evaluations \
                     | CPU time [ms] | × real time |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
         .to_owned();
-    for row in rows.iter().filter(|row| row.tool == OURS && power(row.value).starts_with("1e")) {
+    let is_shown = |row: &&Row| match row.parameter.as_str() {
+        STEP => is_best(row, rows),
+        _ => power(row.value).starts_with("1e"),
+    };
+    for row in rows.iter().filter(|row| row.tool == OURS).filter(is_shown) {
         let cells = match &row.outcome {
             Ok(m) => [
                 at_least(m.end.axis, floor.axis),
@@ -75,9 +81,29 @@ fn decades(result: &Accuracy) -> String {
             .join(" | "),
             Err(why) => why.replace('|', "\\|"),
         };
-        writeln!(text, "| {} | {} | {cells} |", row.method, power(row.value)).expect("a String can be written to");
+        writeln!(text, "| {} | {} | {cells} |", row.method, shown(row)).expect("a String can be written to");
     }
     text
+}
+
+/// Whether no other row of the same method is better in both error and time.
+fn is_best(row: &Row, rows: &[Row]) -> bool {
+    let told = |row: &Row| row.outcome.as_ref().ok().map(|m| (m.cpu_time, m.end.axis));
+    let Some((time, error)) = told(row) else { return false };
+    let better = |other: &&Row| told(other).is_some_and(|(t, e)| t < time && e <= error);
+    !rows.iter().filter(|other| other.tool == row.tool && other.method == row.method).any(|other| better(&other))
+}
+
+/// How the setting of a row stands in a table: `1e-7`, or `order 4, 2e-3`.
+fn shown(row: &Row) -> String {
+    let value = power(row.value);
+    row.order.map_or(value.clone(), |order| format!("order {order}, {value}"))
+}
+
+/// The setting of a row in words: `solver.order = 4, solver.step_size = 2e-3`.
+pub fn setting(row: &Row) -> String {
+    let order = row.order.map(|order| format!("solver.order = {order}, ")).unwrap_or_default();
+    format!("{order}{} = {}", row.parameter, power(row.value))
 }
 
 /// A number with two digits or a whole one: `4.6e-7`, `0.50`, `31`.

@@ -1,6 +1,5 @@
 //! The linear equations of a step of Radau IIA: one real and one complex system of N instead of one of 3N.
 
-use super::super::System;
 use super::lu::Lu;
 use super::radau::{GAMMA, PAIR, STAGES, T_INVERSE, combined};
 use nalgebra::Complex;
@@ -14,8 +13,8 @@ pub struct Collocation<const N: usize> {
 }
 
 impl<const N: usize> Collocation<N> {
-    /// For a step of size `h` [s] of a system F.
-    pub fn new<F: System<N>>(jacobian: &[[f64; N]; N], h: f64) -> Self {
+    /// For a step of size `h` [s] of a system that depends on the first `size` components.
+    pub fn new(jacobian: &[[f64; N]; N], h: f64, size: usize) -> Self {
         let (gamma, pair) = (GAMMA / h, PAIR / h);
         let real = std::array::from_fn(|i| {
             std::array::from_fn(|j| if i == j { gamma - jacobian[i][j] } else { -jacobian[i][j] })
@@ -26,7 +25,6 @@ impl<const N: usize> Collocation<N> {
                 if i == j { pair - derivative } else { -derivative }
             })
         });
-        let size = F::DEPENDED_ON.min(N);
         Self { h, real: Lu::new(real, size), complex: Lu::new(complex, size) }
     }
 

@@ -1,16 +1,13 @@
 //! Model exchange as a host sees it: states, rates and events, integrated by an independent method, against the motion by
 //! a method of ours.
 
-mod harness;
-mod oracles;
-
-use harness::named::Named;
-use harness::{largest, within};
+use crate::harness::named::Named;
+use crate::harness::{largest, within};
+use crate::oracles::extrapolation::step;
+use crate::oracles::motion::FreeRotor;
 use model::simulation::Integrator;
 use model::state::WITH_WORK;
 use nalgebra::{Vector2, Vector3};
-use oracles::extrapolation::step;
-use oracles::motion::FreeRotor;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
@@ -39,7 +36,7 @@ struct Host {
 impl Host {
     fn start(name: &str, starts: &[(&str, f64)], inputs: &[f64]) -> Self {
         let mut named = begin(name, starts, inputs, Integrator::Host);
-        named.simulation.open().expect("for a host").settle_chart();
+        named.simulation.open().expect("for a host").settle();
         Self { named: RefCell::new(named), t: 0.0, events: 0 }
     }
 
@@ -65,8 +62,8 @@ impl Host {
         assert_eq!(named.get("phi"), phi, "to complete a step changes nothing that is shown");
         if wants_event {
             let open = named.simulation.open().expect("for a host");
-            assert!(open.settle_chart(), "an event that was asked for changes the chart");
-            assert!(!open.settle_chart(), "once");
+            assert!(open.settle().chart, "an event that was asked for changes the chart");
+            assert!(!open.settle().any(), "once");
             self.events += 1;
         }
     }

@@ -1,0 +1,56 @@
+"""Draws scenes/SCENE.svg: of each packaged scene the picture of its report that shows best what it teaches.
+
+Needs what the demo needs:  cargo xtask package SCENE ... && python gallery.py [SCENE ...]
+"""
+
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(ROOT / "xtask" / "python"))
+
+from fmpy import read_model_description  # noqa: E402
+from report import figures  # noqa: E402
+from report.scene import Scene  # noqa: E402
+from report.simulate import respond, simulate  # noqa: E402
+
+PICTURES = {
+    "coupled": figures.trajectory,
+    "driven": figures.spin,
+    "dzhanibekov": figures.portrait,
+    "free_top": figures.attitude,
+    "heavy_top": figures.portrait,
+    "high_spin": figures.attitude,
+    "jeffcott": figures.response,
+    "long_run": figures.energy,
+    "overhung": figures.spin,
+    "paper": figures.trajectory,
+    "rotor": figures.energy,
+    "stiff_support": figures.attitude,
+    "tumbling": figures.passage,
+    "unstable_whirl": figures.growth,
+}
+MOST = 1000
+"""Points of a slow curve; more make the file larger and look the same."""
+
+
+def picture(name):
+    """The SVG of a scene, as text."""
+    fmu = ROOT / "target" / "fmu" / f"{name}.fmu"
+    description = read_model_description(fmu)
+    scene = Scene.of(description)
+    draw = PICTURES[name]
+    if draw is figures.response:
+        result = respond(fmu, description, scene)
+    else:
+        run = simulate(fmu, description, scene)
+        # What is quick in these would be lost between the steps of the experiment.
+        is_quick = draw in (figures.portrait, figures.passage)
+        result = run.result if is_quick else run.experiment[:: max(1, len(run.experiment) // MOST)]
+    return draw(result, scene)
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:] or PICTURES:
+        (HERE / "scenes" / f"{name}.svg").write_text(picture(name), encoding="utf-8")

@@ -1,0 +1,132 @@
+//! `extrapolation`: what inputs will be over the next step, from what they were.
+
+use super::{Effect, Row};
+use crate::signal::Signal;
+use crate::variable::units::ONE;
+use crate::variable::{Access, Bound, Kind, Meta, Role};
+
+/// Every input as a polynomial through its last values, for masters that send no derivatives, or send values late.
+#[derive(Clone, Debug)]
+pub struct Extrapolation {
+    /// Degree of the polynomials: 0, 1 or 2.
+    pub order: i32,
+    /// How many communication steps the values are late.
+    pub lag: i32,
+    /// How many communication points are known; those points, the latest first; the values of each input there.
+    memory: [f64; 1 + POINTS + MOST * NODES],
+}
+
+/// A parabola goes through so many values.
+const NODES: usize = 3;
+
+/// Values may be so many steps late.
+const LATEST: usize = 8;
+
+/// So many communication points are remembered.
+const POINTS: usize = LATEST + 1;
+
+/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come.
+const MOST: usize = 32;
+
+impl Default for Extrapolation {
+    fn default() -> Self {
+        Self { order: 0, lag: 0, memory: [0.0; _] }
+    }
+}
+
+impl Extrapolation {
+    fn known(&self) -> usize {
+        self.memory[0] as usize
+    }
+
+    fn points(&self) -> &[f64] {
+        &self.memory[1..=POINTS]
+    }
+
+    fn values(&mut self, number: usize) -> &mut [f64] {
+        &mut self.memory[1 + POINTS + number * NODES..][..NODES]
+    }
+}
+
+/// A row of a whole number.
+macro_rules! whole {
+    ($field:ident, $bound:expr, $description:expr) => {
+        Row {
+            meta: Meta {
+                name: stringify!($field),
+                description: $description,
+                unit: &ONE,
+                kind: Kind::Integer,
+                role: Role::Parameter { default: Some(0.0), bound: $bound },
+            },
+            access: Access::Parameter { get: |e| f64::from(e.$field), set: |e, value| e.$field = value as i32 },
+        }
+    };
+}
+
+impl Effect for Extrapolation {
+    const ROWS: &'static [Row<Self>] = &[
+        whole!(
+            order,
+            Bound::OneOf(&[0.0, 1.0, 2.0]),
+            "degree of the polynomials through the last values of each input"
+        ),
+        whole!(lag, Bound::Within(0.0, LATEST as f64), "how many communication steps the values of inputs are late"),
+    ];
+
+    const FOLLOWS_PLACE: bool = false;
+
+    const COULD_WORK: bool = false;
+
+    const FORETELLS: bool = true;
+
+    fn begin(&mut self, _start: &crate::state::Kinematics<f64>) {
+        self.memory[0] = 0.0;
+    }
+
+    fn step_from(&mut self, t: f64) {
+        // A step that is done again begins where it began.
+        if self.known() > 0 && self.points()[0] == t {
+            return;
+        }
+        self.memory[1..=POINTS].rotate_right(1);
+        self.memory[1] = t;
+        for number in 0..MOST {
+            let values = self.values(number);
+            values.rotate_right(1);
+            // Who says nothing holds.
+            values[0] = values[1];
+        }
+        self.memory[0] = (self.known() + 1).min(POINTS) as f64;
+    }
+
+    fn foretell(&mut self, number: usize, signal: &mut Signal) {
+        let t = self.points()[0];
+        if number >= MOST {
+            return;
+        }
+        if let Some(value) = signal.set_at(t) {
+            self.values(number)[0] = value;
+        }
+        // What the master says of the derivatives wins.
+        if signal.was_sent_derivatives_at(t) {
+            return;
+        }
+        let known = self.known();
+        let degree = (self.order as usize).min(known - 1);
+        let [t0, t1, t2] = [0, 1, 2].map(|n| self.points()[n]);
+        let ahead = t - self.points()[(self.lag as usize).min(known - 1)];
+        let values = self.values(number);
+        let slope = |n: usize, from: f64, to: f64| (values[n] - values[n + 1]) / (to - from);
+        // eq. 67: P(t) = u₀ + [u₀u₁](t − t₀) + [u₀u₁u₂](t − t₀)(t − t₁)
+        let first = if degree > 0 { slope(0, t1, t0) } else { 0.0 };
+        let second = if degree > 1 { (first - slope(1, t2, t1)) / (t0 - t2) } else { 0.0 };
+        let last_step = if degree > 1 { t0 - t1 } else { 0.0 };
+        let value = values[0] + ahead * (first + second * (ahead + last_step));
+        signal.foretell(t, [value, first + second * (2.0 * ahead + last_step), 2.0 * second]);
+    }
+
+    fn memory(&mut self) -> &mut [f64] {
+        &mut self.memory
+    }
+}

@@ -1,0 +1,26 @@
+//! `probe`: what a sensor at a station sees; it does nothing to the rotor.
+
+use super::{Effect, Row};
+use crate::variable::units::{METRE, METRE_PER_SECOND};
+use crate::variable::{Bound, output, parameter};
+
+/// A pair of sensors across the x axis.
+#[derive(Clone, Debug, Default)]
+pub struct Probe {
+    /// Where it looks, along t from c [m].
+    pub position: f64,
+}
+
+impl Effect for Probe {
+    const ROWS: &'static [Row<Self>] = &[
+        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        output!("r.y", &METRE, "position of the station, y", |p, m| m.station(p.position).y),
+        output!("r.z", &METRE, "position of the station, z", |p, m| m.station(p.position).z),
+        output!("v.y", &METRE_PER_SECOND, "velocity of the station, y", |p, m| m.station_velocity(p.position).y),
+        output!("v.z", &METRE_PER_SECOND, "velocity of the station, z", |p, m| m.station_velocity(p.position).z),
+    ];
+
+    const FOLLOWS_PLACE: bool = false;
+
+    const COULD_WORK: bool = false;
+}

@@ -1,0 +1,66 @@
+//! `rotating_damping`: a damper that turns with the rotor.
+
+use super::{Effect, Row, Wrench};
+use crate::scalar::Scalar;
+use crate::state::Kinematics;
+use crate::variable::units::{METRE, NEWTON_SECOND_PER_METRE};
+use crate::variable::{Bound, parameter};
+use nalgebra::Vector3;
+
+/// What damps the motion of a station as seen from axes that turn with the shaft.
+#[derive(Clone, Debug, Default)]
+pub struct RotatingDamping {
+    /// Damping d [N·s/m].
+    pub d: f64,
+    /// Where it is, along t from c [m].
+    pub position: f64,
+}
+
+impl RotatingDamping {
+    /// dq/dt − ω_φ e×q, the velocity of the station in the turning axes [m/s].
+    #[inline(always)]
+    fn slip<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+        let (q, v, speed) =
+            (motion.station(self.position), motion.station_velocity(self.position), motion.axial_rate());
+        Vector3::new(S::zero(), v.y + speed * q.z, v.z - speed * q.y)
+    }
+}
+
+impl Effect for RotatingDamping {
+    const ROWS: &'static [Row<Self>] = &[
+        parameter!(
+            d,
+            &NEWTON_SECOND_PER_METRE,
+            Some(0.0),
+            Bound::NotNegative,
+            "damping in axes that turn with the rotor"
+        ),
+        parameter!(position, &METRE, Some(0.0), Bound::Finite, "place along t from c"),
+    ];
+
+    const FOLLOWS_PLACE: bool = false;
+
+    #[inline(always)]
+    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        let (q, slip) = (motion.station(self.position), self.slip(motion));
+        // eq. 64: F = −d (dq/dt − ω_φ e×q), τ = −e·(q×F)
+        let force = slip * S::constant(-self.d);
+        let tau = -q.yz().perp(&force.yz());
+        Wrench::at_station(motion, self.position, force) + Wrench::couple(motion.tilt.joint_axis() * tau)
+    }
+
+    #[inline(always)]
+    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+        let slip = self.slip(motion);
+        // eq. 64: P = d |dq/dt − ω_φ e×q|²
+        slip.dot(&slip) * S::constant(self.d)
+    }
+
+    fn needs_gamma(&self) -> bool {
+        self.d != 0.0
+    }
+
+    fn works(&self) -> bool {
+        self.d != 0.0
+    }
+}

@@ -1,0 +1,47 @@
+//! `unbalance`: a point mass on the rotor.
+
+use super::{Effect, Row};
+use crate::body::Shape;
+use crate::variable::units::{KILOGRAM, METRE, RADIAN};
+use crate::variable::{Bound, parameter};
+use nalgebra::Vector3;
+
+/// A point mass that turns with the rotor. c stays the mass centre of the balanced rotor, a point on its axis.
+#[derive(Clone, Debug, Default)]
+pub struct Unbalance {
+    /// Its mass [kg].
+    pub mass: f64,
+    /// Its distance from the axis [m].
+    pub radius: f64,
+    /// Where it stands about the axis, from y towards z where φ = 0 and γ = 0 [rad].
+    pub angle: f64,
+    /// Where it stands along t, from c [m].
+    pub position: f64,
+}
+
+impl Effect for Unbalance {
+    const ROWS: &'static [Row<Self>] = &[
+        parameter!(mass, &KILOGRAM, Some(0.0), Bound::NotNegative, "point mass on the rotor"),
+        parameter!(radius, &METRE, None, Bound::NotNegative, "distance of the point mass from the axis"),
+        parameter!(
+            angle,
+            &RADIAN,
+            Some(0.0),
+            Bound::Finite,
+            "angle of the point mass about the axis, from y towards z at phi = 0, gamma = 0"
+        ),
+        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+    ];
+
+    const FOLLOWS_PLACE: bool = false;
+
+    const COULD_WORK: bool = false;
+
+    const SHAPES: bool = true;
+
+    fn shape(&self, body: &mut Shape) {
+        let (sine, cosine) = libm::sincos(self.angle);
+        // eq. 71: s = (p, ρ cos α, ρ sin α)
+        body.add(self.mass, &Vector3::new(self.position, self.radius * cosine, self.radius * sine));
+    }
+}

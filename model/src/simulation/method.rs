@@ -1,0 +1,159 @@
+//! The methods that can drive a rotor, behind one interface.
+
+use super::plan::Plan;
+use crate::effects::Effects;
+use crate::integrate::composition::Composed;
+use crate::integrate::explicit::Explicit;
+use crate::integrate::stiff::Stiff;
+use crate::integrate::{Cost, Fault, Tolerance};
+use crate::rotor::Rotor;
+use crate::stored::{Damaged, Stored, Walk};
+
+/// A method at work.
+#[derive(Clone)]
+#[allow(clippy::large_enum_variant, reason = "a method is kept in place, so that it needs no allocation")]
+pub(super) enum Method<const N: usize> {
+    Explicit(Explicit<N>),
+    Composed(Composed<N>),
+    Stiff(Stiff<N>),
+}
+
+use Method::{Composed as OfComposition, Explicit as OfPair, Stiff as OfCollocation};
+
+/// The same call, whichever method it is.
+macro_rules! each {
+    ($self:ident, $method:ident => $call:expr) => {
+        match $self {
+            OfPair($method) => $call,
+            OfComposition($method) => $call,
+            OfCollocation($method) => $call,
+        }
+    };
+}
+
+impl<const N: usize> Method<N> {
+    /// The method of the plan, at time `t` [s] and state `y`.
+    pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance<N>, rotor: &Rotor<E>, t: f64, y: [f64; N]) -> Self {
+        match plan {
+            Plan::Explicit(tableau) => OfPair(Explicit::start(tableau, tolerance, rotor, t, y)),
+            Plan::Composed(composition, size) => OfComposition(Composed::start(composition, size, t, y)),
+            Plan::Stiff => OfCollocation(Stiff::start(tolerance, rotor, t, y)),
+        }
+    }
+
+    /// Nothing yet: a place for what was stored.
+    pub fn blank() -> Self {
+        OfPair(Explicit::blank())
+    }
+
+    /// Whether its steps follow φ with all the turns that φ from e gains; else those beside the chart are counted from γ.
+    pub fn counts_turns(&self) -> bool {
+        matches!(self, OfComposition(_))
+    }
+
+    /// The time reached [s].
+    #[inline(always)]
+    pub fn time(&self) -> f64 {
+        each!(self, method => method.time())
+    }
+
+    /// The state at the time reached.
+    pub fn state(&self) -> &[f64; N] {
+        each!(self, method => method.state())
+    }
+
+    /// Its rate there; None where the method needs none.
+    pub fn rate(&self) -> Option<&[f64; N]> {
+        match self {
+            OfPair(method) => Some(method.rate()),
+            OfComposition(_) => None,
+            OfCollocation(method) => Some(method.rate()),
+        }
+    }
+
+    /// Where the last step began [s].
+    pub fn start_time(&self) -> f64 {
+        each!(self, method => method.start_time())
+    }
+
+    /// The state where the last step began.
+    pub fn start_state(&self) -> &[f64; N] {
+        each!(self, method => method.start_state())
+    }
+
+    /// The next step will be no longer than this [s].
+    pub fn limit_step(&mut self, h: f64) {
+        each!(self, method => method.limit_step(h));
+    }
+
+    /// The size of the next step [s], unless it is limited.
+    pub fn next_step(&self) -> f64 {
+        each!(self, method => method.next_step())
+    }
+
+    /// Goes back to a time `t` [s] within the last step, where the state is `y`.
+    pub fn go_back<E: Effects>(&mut self, rotor: &Rotor<E>, t: f64, y: [f64; N]) {
+        match self {
+            OfPair(method) => method.go_back(rotor, t, y),
+            OfComposition(method) => method.go_back(t, y),
+            OfCollocation(method) => method.go_back(rotor, t, y),
+        }
+    }
+
+    /// Goes on from another description `y` of the state reached. What the last step's dense output needs of the old one
+    /// must have been prepared.
+    pub fn go_on_from<E: Effects>(&mut self, rotor: &Rotor<E>, y: [f64; N]) {
+        match self {
+            OfPair(method) => method.go_on_from(rotor, y),
+            OfComposition(method) => method.go_on_from(y),
+            OfCollocation(method) => method.go_on_from(rotor, y),
+        }
+    }
+
+    /// Replaces a component of the state on which the rates do not depend.
+    pub fn replace(&mut self, component: usize, value: f64) {
+        each!(self, method => method.replace(component, value));
+    }
+
+    /// What the run has cost so far.
+    pub fn cost(&self) -> Cost {
+        each!(self, method => method.cost())
+    }
+
+    /// One step forward of the method's own choice, but not past time `until` [s]. Where none is possible, the method stands
+    /// as before. Steps below `least` [s] get nowhere.
+    pub fn step<E: Effects>(&mut self, rotor: &Rotor<E>, least: f64, until: f64) -> Result<(), Fault> {
+        each!(self, method => method.step(rotor, least, until))
+    }
+
+    /// Prepares the last step for [`Method::dense`] where the rotor will be written in another chart.
+    pub fn prepare_dense<E: Effects>(&mut self, rotor: &Rotor<E>) {
+        if let OfPair(method) = self {
+            method.prepare_dense(rotor);
+        }
+    }
+
+    /// The state at a time `t` [s] within the last step, of the rotor in the chart of that step.
+    pub fn dense<E: Effects>(&mut self, rotor: &Rotor<E>, t: f64) -> [f64; N] {
+        each!(self, method => method.dense(rotor, t))
+    }
+}
+
+impl<const N: usize> Stored for Method<N> {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let mut kind = match self {
+            OfPair(_) => 0,
+            OfComposition(_) => 1,
+            OfCollocation(_) => 2,
+        };
+        kind.walk(walk)?;
+        match (kind, &self) {
+            (0, OfPair(_)) | (1, OfComposition(_)) | (2, OfCollocation(_)) => {}
+            (0, _) => *self = OfPair(Explicit::blank()),
+            (1, _) => *self = OfComposition(Composed::blank()),
+            (2, _) => *self = OfCollocation(Stiff::blank()),
+            _ => return Err(Damaged),
+        }
+        each!(self, method => method.walk(walk))
+    }
+}

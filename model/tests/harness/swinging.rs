@@ -1,0 +1,60 @@
+//! What observed orders are measured on: a rotor without small angles, and one that is damped and driven besides.
+
+use super::{Driven, Method, Scene};
+use model::effects::{Effects, named};
+use model::integrate::explicit::Explicit;
+use model::integrate::{System, Tolerance};
+use model::rotor::Rotor;
+use model::state::WITH_WORK;
+use model::variables::of_scene;
+use nalgebra::{Vector2, Vector3};
+
+/// The paper's rotor, heavily tilted and swinging: no small angle, no steady state.
+pub fn swinging() -> Scene {
+    Scene {
+        gamma: Vector2::new(0.9, 1.1),
+        omega: Vector3::new(5.0, 4.0, -7.0),
+        r_c: Vector3::new(0.3, 0.4, -0.5),
+        v_c: Vector3::new(1.0, -2.0, 0.5),
+        c1: 200.0,
+        c2: 20.0,
+        ..Scene::paper()
+    }
+}
+
+/// The same with dampers d1 [N·s/m] and d2 [N·m·s/rad] and a torque that changes with time, and its state.
+pub fn driven(d1: f64, d2: f64) -> (Rotor<Driven>, [f64; WITH_WORK]) {
+    let scene = Scene { d1, d2, ..swinging() };
+    let mut effects = Driven::default();
+    let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
+    for (name, value) in scene.values().iter().filter(|(name, _)| name.contains("gravity") || name.contains("support"))
+    {
+        let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
+        assert!(effects.set_parameter(variable.place, *value));
+    }
+    effects.for_each_signal(&mut |tau| {
+        tau.set(0.0, 2.0);
+        tau.set_derivative(0.0, 1, -3.0);
+        tau.set_derivative(0.0, 2, 5.0);
+    });
+    let mut y = [0.0; WITH_WORK];
+    y[..12].copy_from_slice(&scene.state());
+    (Rotor { body: scene.body.into(), effects, ..Rotor::default() }, y)
+}
+
+/// Error of the whole state, each component by its nominal size [1].
+pub fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    let nominal = [0.75, 0.75, 0.75, 1.0, 1.0, 1.0, 0.15625, 0.15625, 0.15625, 1.0, 1.0, 1.0, 1.0, 1.0];
+    (0..N).map(|n| ((a[n] - b[n]) / nominal[n]) * ((a[n] - b[n]) / nominal[n])).sum::<f64>().sqrt()
+}
+
+/// dop853 in so many steps: exact to rounding.
+pub fn reference<const N: usize>(system: &impl System<N>, y: [f64; N], end: f64, steps: u32) -> [f64; N] {
+    // Fixed steps ask for no tolerance.
+    let tolerance = Tolerance { absolute: [1.0; N], relative: [0.0; N] };
+    let mut method = Explicit::start(Method::Dop853.tableau(), tolerance, system, 0.0, y);
+    for _ in 0..steps {
+        method.fixed_step(system, end / f64::from(steps));
+    }
+    *method.state()
+}

@@ -1,0 +1,109 @@
+//! Rotors that are unbalanced or not symmetric, as an oracle and as a scene.
+
+use super::named::Named;
+use crate::oracles::uneven::{Moving, Uneven};
+use model::variables::Reading;
+use nalgebra::{Vector2, Vector3};
+
+/// A rotor, how it starts, and the same as a scene.
+#[derive(Clone, Debug)]
+#[allow(missing_docs, reason = "the names of the variables")]
+pub struct Case {
+    pub body: Uneven,
+    pub r: Vector3<f64>,
+    pub v: Vector3<f64>,
+    pub phi: f64,
+    pub gamma: Vector2<f64>,
+    pub omega: Vector3<f64>,
+}
+
+impl Case {
+    /// The paper's rotor, of another Jt2, with two masses that balance nothing, on its damped springs.
+    pub fn held() -> Self {
+        let masses = vec![(0.3, Vector3::new(0.1, 0.05, 0.0)), (0.2, Vector3::new(-0.2, -0.03, 0.08))];
+        Self {
+            body: Uneven {
+                m: 5.0,
+                moments: Vector3::new(0.15625, 0.078125, 0.1),
+                masses,
+                l: 0.75,
+                g: Vector3::new(0.0, 0.0, -9.81),
+                c: [2000.0, 500.0],
+                d: [20.0, 0.5],
+                imposed: None,
+            },
+            r: Vector3::new(0.75, 0.0, 0.0),
+            v: Vector3::zeros(),
+            phi: 0.3,
+            gamma: Vector2::new(0.1, -0.2),
+            omega: Vector3::new(50.0, 0.0, 0.0),
+        }
+    }
+
+    /// The same without dampers.
+    pub fn undamped() -> Self {
+        let mut case = Self::held();
+        case.body.d = [0.0; 2];
+        case
+    }
+
+    /// The same with nothing acting on it, tumbling past −e.
+    pub fn tumbling() -> Self {
+        let mut case = Self::held();
+        (case.body.g, case.body.c, case.body.d) = (Vector3::zeros(), [0.0; 2], [0.0; 2]);
+        Self { gamma: Vector2::new(1.2, 0.3), omega: Vector3::new(4.0, 9.0, -3.0), ..case }
+    }
+
+    /// As a scene's TOML.
+    pub fn text(&self, solver: &str) -> String {
+        let Self { body, r, v, phi, gamma, omega } = self;
+        let vector = |v: &Vector3<f64>| format!("{{ x = {:?}, y = {:?}, z = {:?} }}", v.x, v.y, v.z);
+        let mut text = format!(
+            "title = \"uneven\"\n[rotor]\nm = {:?}\nJa = {:?}\nJt = {:?}\nl = {:?}\n[start]\nr_c = {}\nv_c = {}\nphi = {:?}\n\
+             gamma = {{ y = {:?}, z = {:?} }}\nomega = {}\n[effects.gravity]\ng = {}\n[effects.support]\nc1 = {:?}\nc2 = {:?}\n\
+             d1 = {:?}\nd2 = {:?}\n[effects.asymmetry]\nJt2 = {:?}\n[solver]\n{solver}\n",
+            body.m,
+            body.moments.x,
+            body.moments.y,
+            body.l,
+            vector(r),
+            vector(v),
+            phi,
+            gamma.x,
+            gamma.y,
+            vector(omega),
+            vector(&body.g),
+            body.c[0],
+            body.c[1],
+            body.d[0],
+            body.d[1],
+            body.moments.z,
+        );
+        for (mass, place) in &body.masses {
+            let (radius, angle) = (libm::hypot(place.y, place.z), libm::atan2(place.z, place.y));
+            text += &format!(
+                "[[effects.unbalance]]\nmass = {mass:?}\nradius = {radius:?}\nangle = {angle:?}\nposition = {:?}\n",
+                place.x
+            );
+        }
+        text
+    }
+
+    /// Its simulation, started.
+    pub fn started(&self, solver: &str) -> Named {
+        let mut named = Named::written(&self.text(solver));
+        named.start();
+        named
+    }
+
+    /// Its start, for the oracle.
+    pub fn start(&self) -> Moving {
+        self.body.start(self.r, self.v, self.phi, self.gamma, self.omega)
+    }
+}
+
+/// What it shows at time `t` [s].
+pub fn at(named: &mut Named, t: f64) -> Reading {
+    named.simulation.advance(t).expect("a possible motion");
+    *named.simulation.read().expect("possible parameters")
+}

@@ -1,0 +1,25 @@
+//! Runs of scenes whose parameters go by name: over the list of all effects, which takes long to compile, so one program.
+
+#[path = "../harness/mod.rs"]
+mod harness;
+#[path = "../oracles/mod.rs"]
+mod oracles;
+
+mod auto;
+mod between_steps;
+mod exact_bearing;
+mod exact_dependencies;
+mod exact_each_method;
+mod exact_extrapolation;
+mod exact_heavy_top;
+mod exact_honest_tolerance;
+mod exact_imposed_speed;
+mod exact_open;
+mod exact_port;
+mod exact_stored;
+mod exact_tangents;
+mod exact_uneven;
+mod general;
+mod ledger;
+mod scenes;
+mod symplectic;

@@ -1,0 +1,97 @@
+//! What the general FMU costs beside a scene of the same effects, and what an effect costs that is switched off.
+
+use super::sets::{self, Set};
+use super::spending::{packaged, spent};
+use super::{head, target};
+use crate::unpacked::{Unpacked, unpack};
+use crate::{package, paths, scenes};
+use anyhow::{Context, Result, ensure};
+use model::effects;
+use model::scene::Scene;
+use model::variable::Place;
+
+/// fmi2DoStep of the general FMU over that of the scene of the same effects [1].
+const GENERAL: f64 = 1.3;
+
+/// So many sets are drawn.
+const SETS: usize = 5;
+
+/// With which seed, where none is given.
+pub const SEED: u64 = 8;
+
+/// Instructions of an evaluation that an effect costs which is switched off.
+const OFF: f64 = 4.0;
+
+/// Prints what a second of each set drawn with this seed takes in the general FMU and in its own, and what is off; what is
+/// beyond its limit.
+pub fn print(seed: u64) -> Result<Vec<String>> {
+    let mut broken = Vec::new();
+    let folder = paths::target().join("general");
+    let general = unpack(&package::package(&["rotor".into()], None)?[0])?;
+    println!("{}", head(&["a second of", "scene", "general", "ratio", "at most"]));
+    for (number, set) in (1..).zip(sets::drawn(seed).take(SETS)) {
+        let file = sets::written(&folder, &format!("set{number}"), "", &set)?;
+        let values = values(&scenes::find("rotor")?, &scenes::find(&file.display().to_string())?)?;
+        let [own, all] = [spent(&packaged(&file)?, &[])?, spent(&general, &values)?];
+        let (words, ratio) = (sets::words(&set), all.instructions / own.instructions);
+        let target = target(Some(GENERAL), ratio);
+        println!("| {words} | {} | {} | {ratio:.3} | {target} |", own.instructions, all.instructions);
+        ensure!(own.evaluations == all.evaluations, "{words}: other steps, {} evaluations", all.evaluations);
+        if ratio > GENERAL {
+            broken.push(format!("the general FMU with {words}: {ratio:.3} times its scene"));
+        }
+    }
+    Ok(broken)
+}
+
+/// General FMUs with so many bearings and ports, all of them off: what there may be several of and has a law.
+const FEWER: usize = 2;
+const MORE: usize = 4;
+
+/// What acts meanwhile: one pass over the list or both, at a place or not.
+const ACTING: [&[&str]; 3] = [&["gravity"], &["drag"], &["support", "drag"]];
+
+/// Prints what an effect costs that is switched off, as what more of them cost more; what is beyond its limit.
+pub fn print_off() -> Result<Vec<String>> {
+    let mut broken = Vec::new();
+    let folder = paths::target().join("general");
+    let [fewer, more] = [("fewer", FEWER), ("more", MORE)].map(|(name, number)| {
+        let set = set(&[("bearing", number), ("port", number)]);
+        let file = sets::written(&folder, name, "general = true\n", &set)?;
+        anyhow::Ok((scenes::find(&file.display().to_string())?, packaged(&file)?))
+    });
+    let (fewer, more) = (fewer?, more?);
+    println!("{}", head(&["a bearing or port that is off beside", "instructions an evaluation", "at most"]));
+    for names in ACTING {
+        let acting = set(&names.iter().map(|name| (*name, 1)).collect::<Vec<_>>());
+        let scene = scenes::find(&sets::written(&folder, "acting", "", &acting)?.display().to_string())?;
+        let each = |(general, fmu): &(Scene, Unpacked)| Ok(spent(fmu, &values(general, &scene)?)?.each());
+        let [fewer, more]: [Result<f64>; 2] = [each(&fewer), each(&more)];
+        let each = (more? - fewer?) / (2 * (MORE - FEWER)) as f64;
+        let words = sets::words(&acting);
+        println!("| {words} | {each:.2} | {} |", target(Some(OFF), each));
+        if each > OFF {
+            broken.push(format!("an effect that is off beside {words}: {each:.2} instructions"));
+        }
+    }
+    Ok(broken)
+}
+
+/// These effects, each so many times.
+fn set(names: &[(&str, usize)]) -> Set {
+    names.iter().filter_map(|(name, number)| Some((effects::named(name)?, *number))).collect()
+}
+
+/// What a general FMU must be told to be this scene.
+fn values(general: &Scene, scene: &Scene) -> Result<Vec<String>> {
+    let named = |place: Place| general.variables.iter().find(|variable| variable.place == place);
+    let switches = general.effects.iter().map(|(info, index)| {
+        let is_on = scene.effects.iter().any(|(called, number)| (called.number, number) == (info.number, index));
+        format!("{}={}", info.switch_name(*index), u8::from(is_on))
+    });
+    let starts = scene.starts.iter().map(|(reference, value)| {
+        let variable = named(Place::of(*reference)).context("the general scene lacks a variable")?;
+        Ok(format!("{}={value:?}", variable.name))
+    });
+    switches.map(Ok).chain(starts).collect()
+}

@@ -1,0 +1,77 @@
+//! What a second of motion takes, in instructions of fmi2DoStep, counted by callgrind (`benches/spend.c`): of each scene,
+//! and of each effect alone.
+
+use super::head;
+use super::sets::{self, Set};
+use crate::unpacked::{Unpacked, unpack};
+use crate::{c, package, paths};
+use anyhow::{Context, Result, ensure};
+use model::effects::CATALOGUE;
+use model::scene::Scene;
+use std::path::{Path, PathBuf};
+
+/// A second, in so many communication steps.
+const STEPS: u32 = 10;
+const STEP: f64 = 0.1;
+
+/// What a run spent.
+pub struct Spent {
+    pub instructions: f64,
+    pub evaluations: f64,
+}
+
+impl Spent {
+    /// Instructions an evaluation, the method's own among them.
+    pub fn each(&self) -> f64 {
+        self.instructions / self.evaluations
+    }
+}
+
+/// Runs an FMU for a second with these values set, `NAME=VALUE`.
+pub fn spent(fmu: &Unpacked, values: &[String]) -> Result<Spent> {
+    let sources = ["benches/spend.c", "tests/c/library.c", "tests/c/sheet.c"].map(PathBuf::from);
+    let program = c::compile("spend", &sources, &[])?;
+    let mut command = c::tool("valgrind", "valgrind")?;
+    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=fmi2DoStep"]);
+    command.arg(program).arg(&fmu.sheet).arg(&fmu.library).args([STEPS.to_string(), STEP.to_string()]).args(values);
+    let run = command.output().context("cannot run valgrind")?;
+    let said = String::from_utf8(run.stderr)?;
+    ensure!(run.status.success(), "{}: {said}", fmu.name);
+    let sum = said.lines().find_map(|line| line.split("Collected :").nth(1));
+    Ok(Spent {
+        instructions: sum.with_context(|| format!("callgrind tells no sum: {said}"))?.trim().parse()?,
+        evaluations: String::from_utf8(run.stdout)?.trim().parse()?,
+    })
+}
+
+/// Packages the scene in this file, beside it.
+pub fn packaged(file: &Path) -> Result<Unpacked> {
+    let folder = file.parent().context("a file lies in a folder")?;
+    unpack(&package::package(&[file.display().to_string()], Some(folder))?[0])
+}
+
+/// Prints what a second of each scene takes, by the method that it names.
+pub fn print_scenes() -> Result<()> {
+    println!("{}", head(&["a second of", "instructions", "evaluations", "instructions an evaluation"]));
+    for fmu in package::package(&Scene::names(&paths::scenes()), None)? {
+        row(&unpack(&fmu)?)?;
+    }
+    Ok(())
+}
+
+/// Prints what a second of a rotor takes on which nothing acts, or one effect alone.
+pub fn print_effects() -> Result<()> {
+    println!("{}", head(&["a second of", "instructions", "evaluations", "instructions an evaluation"]));
+    let folder = paths::target().join("alone");
+    let alone = CATALOGUE.iter().map(|info| (info.name, vec![(info, 1)]));
+    for (name, set) in std::iter::once(("nothing", Set::new())).chain(alone) {
+        row(&packaged(&sets::written(&folder, name, "", &set)?)?)?;
+    }
+    Ok(())
+}
+
+fn row(fmu: &Unpacked) -> Result<()> {
+    let spent = spent(fmu, &[])?;
+    println!("| {} | {} | {} | {:.0} |", fmu.name, spent.instructions, spent.evaluations, spent.each());
+    Ok(())
+}

@@ -1,0 +1,76 @@
+//! What is tried on a copy of the project: that effects which a scene does not call for leave no trace in its machine code,
+//! and that an effect is added as `docs/adding-an-effect.md` says.
+
+use crate::run::{cargo, output, run};
+use crate::{c, package, paths, scenes};
+use anyhow::{Context, Result, ensure};
+use model::effects::CATALOGUE;
+use model::scene::Scene;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A fresh copy of what git knows, as it stands here, in target/copies/`name`.
+fn copied(name: &str) -> Result<PathBuf> {
+    let copy = paths::target().join("copies").join(name);
+    if copy.exists() {
+        fs::remove_dir_all(&copy)?;
+    }
+    let files = output(Command::new("git").current_dir(paths::root()).args(["ls-files", "--cached", "--deduplicate"]))?;
+    for file in files.lines().filter(|file| paths::root().join(file).is_file()) {
+        let to = copy.join(file);
+        fs::create_dir_all(to.parent().context("a file lies in a folder")?)?;
+        fs::copy(paths::root().join(file), to).with_context(|| file.to_owned())?;
+    }
+    Ok(copy)
+}
+
+/// The machine code of a scene's library, built in this copy.
+fn text(copy: &Path, scene: &Scene) -> Result<Vec<u8>> {
+    let target = paths::target().join("copies/target");
+    let library = package::build_in(copy, scene, &target)?;
+    let section = target.join("text");
+    run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).arg(library).arg(&section))?;
+    Ok(fs::read(section)?)
+}
+
+/// The machine code of `paper` is the same to the byte where every effect that it does not call for is taken out of the
+/// catalogue, at the same path.
+pub fn absence_is_free() -> Result<()> {
+    let copy = copied("absence")?;
+    let scene = scenes::find(&copy.join("scenes/paper.toml").display().to_string())?;
+    let all = text(&copy, &scene)?;
+    let effects = copy.join("model/src/effects");
+    let catalogue = effects.with_extension("rs");
+    let mut source = fs::read_to_string(&catalogue)?;
+    for info in CATALOGUE.iter().filter(|info| !scene.effects.iter().any(|(called, _)| called.name == info.name)) {
+        fs::remove_file(effects.join(format!("{}.rs", info.name)))?;
+        let start = format!("    {} {} ", info.number, info.name);
+        let line = source.lines().find(|line| line.starts_with(&start)).context("an effect is a line")?.to_owned();
+        source = source.replace(&format!("{line}\n"), "");
+    }
+    fs::write(&catalogue, source)?;
+    let few = text(&copy, &scene)?;
+    println!("machine code of {}: {} bytes with every effect, {} with its own alone", scene.name, all.len(), few.len());
+    ensure!(!all.is_empty() && all == few, "effects that {} does not call for changed its machine code", scene.name);
+    Ok(())
+}
+
+/// Adds the effect of the page, and runs the test that holds every effect to its power.
+pub fn example_is_right() -> Result<()> {
+    let page = fs::read_to_string(paths::root().join("docs/adding-an-effect.md"))?;
+    let block = |language: &str| {
+        let after = page.split_once(&format!("```{language}\n")).with_context(|| format!("no block of {language}"))?.1;
+        Ok(after.split_once("```").context("a block ends")?.0)
+    };
+    let (file, line): (&str, Result<&str>) = (block("rust")?, block("text"));
+    let copy = copied("example")?;
+    let catalogue = copy.join("model/src/effects.rs");
+    let source = fs::read_to_string(&catalogue)?;
+    fs::write(&catalogue, source.replace("catalogue! {\n", &format!("catalogue! {{\n    {}", line?)))?;
+    fs::write(copy.join("model/src/effects/tether.rs"), file)?;
+    run(cargo()
+        .current_dir(&copy)
+        .args(["test", "--quiet", "--package", "split-rotor-model", "--test", "exact_power", "--target-dir"])
+        .arg(paths::target().join("copies/target")))
+}

@@ -1,0 +1,113 @@
+//! `hard-cases`: the gallery of hard cases, each against an exact or independent answer, with a mutant that must make it
+//! fail. The cases stand in `hard_cases/`, one file a family; they drive packaged FMUs as a host does.
+
+mod antipode;
+mod asymmetric;
+mod bench;
+mod case;
+mod files;
+mod free;
+mod inputs;
+mod method;
+mod refusals;
+mod row;
+mod spin;
+mod stiffness;
+mod table;
+mod times;
+mod top;
+mod whirl;
+mod whirling;
+
+use crate::package;
+use anyhow::{Result, bail, ensure};
+use bench::{Bench, Stages};
+use case::Case;
+use indicatif::{ProgressBar, ProgressStyle};
+use row::{Outcome, Row};
+use std::time::Instant;
+
+/// Which cases, how long the long ones are, and whether the mutants run too.
+#[derive(Clone, Debug, Default)]
+pub struct Extent {
+    /// Only cases whose names hold this.
+    pub part: Option<String>,
+    /// Long cases in full.
+    pub whole: bool,
+    /// Each row once more with its mutant, which must fail.
+    pub mutants: bool,
+}
+
+/// Packages the scenes that the gallery needs and runs it.
+pub fn hard_cases(extent: &Extent) -> Result<()> {
+    package::package(&scenes().map(str::to_owned), None)?;
+    run(extent)
+}
+
+/// The scenes whose FMUs the cases run in: no effects, gravity and support, those with a shaft, asymmetry, unbalance at an
+/// imposed speed, bearings with rotating damping.
+fn scenes() -> [&'static str; 6] {
+    ["free_top", "paper", "driven", "dzhanibekov", "jeffcott", "unstable_whirl"]
+}
+
+/// Runs the gallery with the FMUs that were packaged last; an error where a bound is broken.
+pub fn run(extent: &Extent) -> Result<()> {
+    let stages = Stages::load(&scenes())?;
+    let mut cases = gallery(extent.whole);
+    cases.retain(|case| extent.part.as_ref().is_none_or(|part| case.name.contains(part)));
+    ensure!(!cases.is_empty(), "no case is called {:?}", extent.part);
+    let rows = measure(&stages, &cases, extent.mutants)?;
+    files::write(&rows, extent)?;
+    let broken: Vec<_> = rows.iter().filter_map(Row::complaint).collect();
+    if !broken.is_empty() {
+        bail!("{} of {} rows:\n{}", broken.len(), rows.len(), broken.join("\n"));
+    }
+    Ok(())
+}
+
+/// All cases; the long ones in full, or shortened.
+fn gallery(whole: bool) -> Vec<Case> {
+    let families = [
+        free::cases(whole),
+        asymmetric::cases(whole),
+        antipode::cases(),
+        whirl::cases(whole),
+        whirling::cases(),
+        spin::cases(),
+        times::cases(),
+        stiffness::cases(),
+        top::cases(),
+        inputs::cases(),
+        refusals::cases(),
+    ];
+    families.into_iter().flatten().collect()
+}
+
+fn measure(stages: &Stages, cases: &[Case], mutants: bool) -> Result<Vec<Row>> {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
+    let progress = ProgressBar::new(cases.len() as u64).with_style(style);
+    let mut rows = Vec::new();
+    for case in cases {
+        progress.set_message(case.name.clone());
+        if progress.is_hidden() {
+            println!("{}", case.name);
+        }
+        for (method, bound) in &case.methods {
+            let stage = stages.of(case.scene)?;
+            let (bench, began) = (Bench::new(stage, method, None), Instant::now());
+            let outcome = outcome(case, &bench);
+            let seconds = began.elapsed().as_secs_f64();
+            let wrong = Bench::new(stage, method, Some(&case.mutant));
+            let mutated = mutants.then(|| self::outcome(case, &wrong));
+            ensure!(!mutants || wrong.is_changed(), "{}: its mutant changes nothing", case.name);
+            rows.push(Row::new(case, method, *bound, outcome, mutated, bench.spent(), seconds));
+        }
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    Ok(rows)
+}
+
+fn outcome(case: &Case, bench: &Bench) -> Outcome {
+    (case.task)(bench).map_err(|error| format!("{error:#}"))
+}

@@ -1,0 +1,195 @@
+//! The FMUs of the gallery, and rotors in them: set by name, stepped, read.
+
+use super::case::Setting;
+use super::method::Method;
+use crate::fmu::{Fmu, Instance, Reference};
+use crate::unpacked::unpack;
+use crate::{paths, scenes};
+use anyhow::{Context, Result, ensure};
+use model::variable::Kind;
+use model::xml;
+use nalgebra::Vector3;
+use std::cell::Cell;
+use std::collections::BTreeMap;
+
+/// What is read at a communication point.
+const SHOWN: [&str; 10] = [
+    "r_c.x",
+    "r_c.y",
+    "r_c.z",
+    "axis.x",
+    "axis.y",
+    "axis.z",
+    "turns",
+    "angle",
+    "energy.residual",
+    "solver.evaluations",
+];
+
+/// The loaded FMU of a scene.
+pub struct Stage {
+    fmu: Fmu,
+    /// Value reference of each variable, and whether it is an Integer.
+    variables: BTreeMap<String, (Reference, bool)>,
+    shown: [Reference; SHOWN.len()],
+}
+
+/// The stages, by their scenes.
+pub struct Stages(BTreeMap<&'static str, Stage>);
+
+impl Stages {
+    /// The FMUs of these scenes as they were packaged last.
+    pub fn load(names: &[&'static str]) -> Result<Self> {
+        let stages = names.iter().map(|name| Ok((*name, Stage::load(name)?)));
+        Ok(Self(stages.collect::<Result<_>>()?))
+    }
+
+    /// That of a scene.
+    pub fn of(&self, scene: &str) -> Result<&Stage> {
+        self.0.get(scene).with_context(|| format!("no FMU of {scene} was loaded"))
+    }
+}
+
+impl Stage {
+    fn load(name: &str) -> Result<Self> {
+        let scene = scenes::find(name)?;
+        let fmu = paths::target().join("fmu").join(format!("{name}.fmu"));
+        let unpacked = unpack(&fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
+        let fmu = Fmu::load(&unpacked.library, &xml::guid(&scene))?;
+        let is_integer = |kind: &Kind| !matches!(kind, Kind::Real);
+        let variables: BTreeMap<_, _> = scene
+            .variables
+            .iter()
+            .map(|v| (v.name.clone(), (v.place.value_reference(), is_integer(&v.meta.kind))))
+            .collect();
+        let shown = SHOWN.map(|name| variables[name].0);
+        Ok(Self { fmu, variables, shown })
+    }
+}
+
+/// The rotor at a communication point.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown {
+    /// Position of the mass centre [m].
+    pub r_c: Vector3<f64>,
+    /// The axis.
+    pub axis: Vector3<f64>,
+    /// φ = 2π `turns` + `angle` [rad].
+    pub turns: f64,
+    /// See `turns`.
+    pub angle: f64,
+    /// What the energy ledger leaves over [J].
+    pub residual: f64,
+}
+
+/// Where a task gets its rotors: an FMU, a method, and what a mutant changes.
+pub struct Bench<'s> {
+    stage: &'s Stage,
+    method: &'s Method,
+    mutant: Option<&'s Setting>,
+    evaluations: Cell<f64>,
+    changed: Cell<bool>,
+}
+
+impl<'s> Bench<'s> {
+    /// A bench; the mutant multiplies what is set under its name.
+    pub fn new(stage: &'s Stage, method: &'s Method, mutant: Option<&'s Setting>) -> Self {
+        Self { stage, method, mutant, evaluations: Cell::new(0.0), changed: Cell::new(false) }
+    }
+
+    /// A new instance with these parameters, and with the method.
+    pub fn rotor(&self, settings: &[Setting]) -> Result<Rotor<'_>> {
+        let mut rotor = Rotor { bench: self, instance: self.stage.fmu.instantiate()?, t: 0.0, spent: Cell::new(0.0) };
+        rotor.instance.set_integer(self.reference("solver.method")?, self.method.number()?)?;
+        for (name, value) in self.method.settings.iter().chain(settings) {
+            rotor.set(name, *value)?;
+        }
+        Ok(rotor)
+    }
+
+    /// Evaluations of the right-hand side so far.
+    pub fn spent(&self) -> f64 {
+        self.evaluations.get()
+    }
+
+    /// A number of this name, as the mutant has it.
+    pub fn number(&self, name: &str, value: f64) -> f64 {
+        let wrong = self.mutant.filter(|mutant| mutant.0 == name).map_or(value, |(_, factor)| value * factor);
+        self.changed.set(self.changed.get() || wrong != value);
+        wrong
+    }
+
+    /// Whether the mutant changed anything.
+    pub fn is_changed(&self) -> bool {
+        self.changed.get()
+    }
+
+    fn reference(&self, name: &str) -> Result<Reference> {
+        Ok(self.stage.variables.get(name).with_context(|| format!("the scene has no variable {name}"))?.0)
+    }
+}
+
+/// An instance on its bench.
+pub struct Rotor<'b> {
+    bench: &'b Bench<'b>,
+    instance: Instance<'b>,
+    /// The communication point [s].
+    t: f64,
+    /// Evaluations that the bench has heard of.
+    spent: Cell<f64>,
+}
+
+impl Rotor<'_> {
+    /// Sets a parameter or an input.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
+        let value = self.bench.number(name, value);
+        let Some((reference, is_integer)) = self.bench.stage.variables.get(name) else {
+            ensure!(value == 0.0, "the scene has no variable {name}");
+            return Ok(());
+        };
+        if *is_integer {
+            self.instance.set_integer(*reference, value as i32)
+        } else {
+            self.instance.set_real(*reference, value)
+        }
+    }
+
+    /// Starts a run between these times [s].
+    pub fn start(&mut self, t: f64, stop: f64) -> Result<()> {
+        self.t = t;
+        self.instance.initialize(t, stop)
+    }
+
+    /// A communication step of `h` [s].
+    pub fn step(&mut self, h: f64) -> Result<()> {
+        self.instance.do_step(self.t, h)?;
+        self.t += h;
+        Ok(())
+    }
+
+    /// A communication step to time `t` [s].
+    pub fn advance(&mut self, t: f64) -> Result<()> {
+        self.instance.do_step(self.t, t - self.t)?;
+        self.t = t;
+        Ok(())
+    }
+
+    /// What the communication point shows.
+    pub fn shown(&self) -> Result<Shown> {
+        let [x, y, z, t_x, t_y, t_z, turns, angle, residual, evaluations] =
+            self.instance.get_real(&self.bench.stage.shown)?;
+        self.bench.evaluations.set(self.bench.evaluations.get() + evaluations - self.spent.replace(evaluations));
+        let (r_c, axis) = (Vector3::new(x, y, z), Vector3::new(t_x, t_y, t_z));
+        Ok(Shown { r_c, axis, turns, angle, residual })
+    }
+
+    /// The communication point [s].
+    pub fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// The communication point [s] as the FMU has it.
+    pub fn last_successful_time(&self) -> Result<f64> {
+        self.instance.last_successful_time()
+    }
+}

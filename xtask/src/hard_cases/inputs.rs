@@ -1,0 +1,116 @@
+//! Steps and spikes of the shaft's torque.
+
+use super::case::{Case, Exact, Found, Phi, Setting, start, support, times};
+use super::method::at;
+use crate::oracles::rigid_body::{Moving, RigidBody};
+use anyhow::Result;
+use nalgebra::{Vector2, Vector3};
+
+/// A torque [N·m] that is held for a time [s].
+type Held = (f64, f64);
+
+/// The family.
+pub fn cases() -> Vec<Case> {
+    vec![
+        upright("steps of ±10⁴ N·m, upright", "the torque jumps at each communication point", steps()),
+        upright("spikes of 10⁹ N·m for 1 ns, upright", "all of the impulse in a nanosecond", spikes(1e-9)),
+        tilted(),
+    ]
+}
+
+fn steps() -> Vec<Held> {
+    (0..40).map(|n| (if n % 2 == 0 { 1e4 } else { -1e4 + 10.0 * f64::from(n) }, 0.01)).collect()
+}
+
+/// An impulse of 1 N·m·s within `width` [s], ten times, a tenth of a second between them.
+fn spikes(width: f64) -> Vec<Held> {
+    (0..10).flat_map(|n| [(0.0, 0.1), (if n % 2 == 0 { 1.0 } else { -0.5 } / width, width)]).collect()
+}
+
+/// Without tilt the axial rate is ∫τdt/Ja: φ exactly.
+fn upright(name: &'static str, hard: &'static str, torques: Vec<Held>) -> Case {
+    let axial = 0.15625;
+    let mut settings = support(2000.0, 500.0, Vector3::zeros());
+    let place = Vector3::new(0.75, 0.0, 0.0);
+    settings.extend(start(&place, &Vector3::zeros(), 0.0, &Vector2::zeros(), &(Vector3::x() * 50.0)));
+    Case {
+        name: name.into(),
+        hard,
+        oracle: "φ̈ = τ/Ja, torque by torque",
+        scene: "driven",
+        methods: vec![(at("dop853", 1e-12), 8e-13), (at("dopri5", 1e-12), 8e-13), (at("stiff", 1e-10), 8e-13)],
+        mutant: ("shaft.tau", 1.0 + 1e-6),
+        task: Box::new(move |bench| {
+            let (mut phi, mut rate) = (0.0, 50.0);
+            driven(bench, &settings, &torques, |(tau, time)| {
+                phi += (rate + 0.5 * tau / axial * time) * time;
+                rate += tau / axial * time;
+                Exact { r_c: Some(place), axis: Vector3::x(), phi: Phi::Whole(phi) }
+            })
+        }),
+    }
+}
+
+/// A tilted rotor without springs: the torque acts along e + t, so the axis goes with it.
+fn tilted() -> Case {
+    let (gamma, omega) = (Vector2::new(0.5, -0.8), Vector3::new(40.0, 6.0, -3.0));
+    let mut settings = support(0.0, 0.0, Vector3::zeros());
+    settings.extend(start(&Vector3::zeros(), &Vector3::zeros(), 0.0, &gamma, &omega));
+    let torques: Vec<Held> = times(1.0, 20).into_iter().map(|t| (20.0 * libm::sin(37.0 * t), 0.02)).collect();
+    let spiky = torques.into_iter().flat_map(|held| [held, (1e4, 1e-5)]).collect::<Vec<_>>();
+    Case {
+        name: "steps of 20 N·m and spikes of 10⁴ N·m for 10 µs, tilted by 0.9 rad".into(),
+        hard: "the joint passes the torque on across the tilt",
+        oracle: "a rigid body by quaternions, extrapolated to order 16",
+        scene: "driven",
+        methods: vec![(at("dop853", 1e-12), 1e-11), (at("dopri5", 1e-12), 2e-10), (at("stiff", 1e-10), 4e-8)],
+        mutant: ("shaft.tau", 1.0 + 1e-6),
+        task: Box::new(move |bench| {
+            let free = RigidBody {
+                m: 5.0,
+                Ja: 0.15625,
+                Jt: 0.078125,
+                l: 0.75,
+                g: Vector3::zeros(),
+                c: [0.0; 2],
+                d: [0.0; 2],
+                tau: |_| 0.0,
+                pushed: [Vector3::zeros(); 2],
+            };
+            let mut moving = free.start(Vector3::zeros(), Vector3::zeros(), 0.0, &gamma, &omega);
+            driven(bench, &settings, &spiky, |held| {
+                moving = pushed(&free, &moving, held);
+                Exact { r_c: Some(moving.r), axis: moving.axis(), phi: Phi::Whole(moving.phi) }
+            })
+        }),
+    }
+}
+
+/// The body after a torque was held.
+fn pushed(body: &RigidBody, from: &Moving, (tau, time): Held) -> Moving {
+    body.held(tau, from, time, 8)
+}
+
+/// Holds one torque after the other; `exact` is asked after each.
+fn driven(
+    bench: &super::bench::Bench,
+    settings: &[Setting],
+    torques: &[Held],
+    mut exact: impl FnMut(Held) -> Exact,
+) -> Result<Found> {
+    let mut rotor = bench.rotor(settings)?;
+    for name in ["support.d1", "support.d2", "shaft.tau"] {
+        rotor.set(name, 0.0)?;
+    }
+    rotor.start(0.0, 100.0)?;
+    let (mut found, mut t) = (Found::nothing(), 0.0);
+    for held in torques {
+        rotor.set("shaft.tau", held.0)?;
+        // The step that the rounded times really span.
+        let end = t + held.1;
+        rotor.advance(end)?;
+        found = exact((held.0, end - t)).error(&rotor.shown()?, 1.0, found);
+        t = end;
+    }
+    Ok(found)
+}
