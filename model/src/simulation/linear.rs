@@ -73,7 +73,9 @@ impl Linear {
     pub fn fading(&self) -> [f64; 2] {
         let slower = self.slower().unwrap_or(0.0);
         let fast = self.rates.iter().filter(|rate| rate.norm() > slower).map(|rate| -rate.re);
-        [fast.clone().next().unwrap_or(0.0), fast.fold(f64::INFINITY, f64::min)].map(|fading| fading.max(0.0))
+        // Not `max`, which takes either zero of 0 and −0, each build its own.
+        let decays = |fading: f64| if fading > 0.0 { fading } else { 0.0 };
+        [fast.clone().next().unwrap_or(0.0), fast.fold(f64::INFINITY, f64::min)].map(decays)
     }
 
     /// How far the start excites the motions above the first gap, in r [length] and γ [rad].
