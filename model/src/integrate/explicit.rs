@@ -1,11 +1,13 @@
 //! Explicit Runge–Kutta pairs with adaptive steps and dense output, for any [`Tableau`]. No allocation.
 
+mod dense;
+mod stages;
+
 use super::answer::Answer;
 use super::control::Controller;
-use super::lanes::{both, nothing, pair, pairs, put};
 use super::power::power;
 use super::segment::Segment;
-use super::tableau::{Combination, DOP853, Dop853, Dopri5, ErrorRule, MOST_STAGES, Pair, Stage, Tableau};
+use super::tableau::{DOP853, MOST_STAGES, Tableau};
 use super::{Cost, Fault, Refusal, System, Tolerance, end_of_step, mean_square};
 use crate::scalar::ulp;
 use crate::stored::stored;
@@ -38,10 +40,6 @@ const REFUSED: f64 = 0.6;
 
 /// A first step spans at least so many units in the last place of the time.
 const LEAST_FIRST: f64 = 100.0;
-
-/// A step whose polynomial ends in a term of so many tolerances is of no use between its ends: one that spans many turns of a
-/// motion too small to matter there. In sound steps that term is 3 to 30.
-const ROUGH: f64 = 100.0;
 
 /// So many attempts in a row may be shorter than what gets anywhere: a first step may start tiny and grow. Steps that
 /// succeed are borne with twice as long, so that the reason told is that of one that did not.
@@ -206,151 +204,9 @@ impl<const N: usize> Explicit<N> {
         self.h = h;
     }
 
-    /// The state at a time `t` [s] within the last step.
-    pub fn dense(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
-        if t == self.segment.t || self.segment.h == 0.0 {
-            return self.segment.y;
-        }
-        self.prepare_dense(system);
-        if !self.segment.rough {
-            return self.segment.at(t, self.terms());
-        }
-        let known = self.segment.answer.at(t);
-        known.unwrap_or_else(|| {
-            let y = self.stepped(system, t);
-            self.segment.answer.keep(t, y)
-        })
-    }
-
-    /// The same by steps from where the last one began, for one whose polynomial says nothing.
-    fn stepped(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
-        let Segment { t: start, y, .. } = self.segment;
-        let mut again = Self::start(self.tableau, self.tolerance, system, start, y);
-        while again.t < t {
-            if again.step(system, 0.0, t).is_err() {
-                // The step as a whole was possible, so what stands in the way of its parts is not worth a word.
-                return self.segment.at(t, self.terms());
-            }
-        }
-        self.cost.evaluations += again.cost.evaluations;
-        again.y
-    }
-
     fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {
         self.cost.evaluations += 1.0;
         system.rates(t, y)
-    }
-
-    /// All stages of a step of size h from (t, y); the state at its end, and the norm of its error in units of the
-    /// tolerance [1], or 0 where it is not asked for.
-    fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> ([f64; N], f64) {
-        if self.tableau == Dop853::TABLEAU {
-            self.attempt_with::<Dop853, _, ERROR>(system)
-        } else {
-            self.attempt_with::<Dopri5, _, ERROR>(system)
-        }
-    }
-
-    /// [`Explicit::attempt`] with the coefficients as constants: every sum is written out by the compiler.
-    #[inline(never)]
-    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> ([f64; N], f64) {
-        let (t, h, start) = (self.t, self.h, self.y);
-        let mut newest = self.k[0];
-        macro_rules! stages {
-            ($($i:literal)*) => {$(
-                if $i < P::TABLEAU.last {
-                    newest = self.stage(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
-                    self.k[$i] = newest;
-                }
-            )*};
-        }
-        stages! { 1 2 3 4 5 6 7 8 9 10 11 12 }
-        // The last stage stands at the end of the step.
-        let y = self.ended(&start, h, const { P::TABLEAU.stage(P::TABLEAU.last) }.a);
-        // Where the error does not need that stage, it is begun before it: the next step's size waits for it.
-        let early = const { ERROR && !P::TABLEAU.error.needs(P::TABLEAU.last) };
-        let late = const { ERROR && P::TABLEAU.error.needs(P::TABLEAU.last) };
-        let mut error = if early { self.error_norm::<P>(&y) } else { 0.0 };
-        self.k[P::TABLEAU.last] = self.evaluate(system, t + h, &y);
-        if late {
-            error = self.error_norm::<P>(&y);
-        }
-        (y, error)
-    }
-
-    /// A stage of a step of size h from (t, y), of those before it; `newest` is the last of them.
-    #[inline(always)]
-    fn stage<F: System<N>>(
-        &mut self,
-        system: &F,
-        (t, h, y): (f64, f64, &[f64; N]),
-        stage: &Stage,
-        newest: &[f64; N],
-    ) -> [f64; N] {
-        let there = self.advanced::<F>(y, h, stage.a, newest);
-        // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
-        self.evaluate(system, t + stage.c * h, &there)
-    }
-
-    /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
-    /// is not 1: a uniform rotation would run away from its angle by 3e-9 rad in 10⁶ turns.
-    #[inline(always)]
-    fn ended(&self, y: &[f64; N], h: f64, b: Combination) -> [f64; N] {
-        let mut end = [0.0; N];
-        for p in 0..pairs(N) {
-            let first = pair(&self.k[0], p);
-            let mut sum = nothing();
-            for &(j, coefficient) in &b[1..] {
-                sum += both(coefficient) * (pair(&self.k[j], p) - first);
-            }
-            put(&mut end, p, pair(y, p) + both(h) * (first + sum));
-        }
-        end
-    }
-
-    /// y + h Σ a_j k_j of what the rates depend on; the last stage of the sum, which is `newest`, comes last, for it is the
-    /// one that is waited for.
-    #[inline(always)]
-    fn advanced<F: System<N>>(&self, y: &[f64; N], h: f64, a: Combination, newest: &[f64; N]) -> [f64; N] {
-        let (&(_, last), older) = a.split_last().expect("a stage depends on those before it");
-        let mut there = *y;
-        for p in 0..pairs(F::DEPENDED_ON) {
-            let mut sum = nothing();
-            for &(j, coefficient) in older {
-                sum += both(h * coefficient) * pair(&self.k[j], p);
-            }
-            put(&mut there, p, pair(y, p) + (sum + both(h * last) * pair(newest, p)));
-        }
-        there
-    }
-
-    /// Σ a_j k_j.
-    #[inline(always)]
-    fn combined(&self, a: Combination) -> [f64; N] {
-        let mut combined = [0.0; N];
-        for p in 0..pairs(N) {
-            let mut sum = nothing();
-            for &(j, coefficient) in a {
-                sum += both(coefficient) * pair(&self.k[j], p);
-            }
-            put(&mut combined, p, sum);
-        }
-        combined
-    }
-
-    /// The norm of the error of the step that ends at `y`, in units of the tolerance [1].
-    #[inline(always)]
-    fn error_norm<P: Pair>(&self, y: &[f64; N]) -> f64 {
-        let weights = self.tolerance.weights(&std::array::from_fn(|n| self.y[n].abs().max(y[n].abs())));
-        let mean_square = |e: Combination| mean_square(&self.combined(e), &weights, self.share);
-        let estimate = match const { &P::TABLEAU.error } {
-            ErrorRule::Single(e) => mean_square(e).sqrt(),
-            ErrorRule::Blend { fine, coarse } => {
-                let (fine, coarse) = (mean_square(fine), mean_square(coarse));
-                if fine == 0.0 { 0.0 } else { fine / (fine + 0.01 * coarse).sqrt() }
-            }
-        };
-        self.h * P::TABLEAU.calibration * estimate
     }
 
     fn accept(&mut self, end: f64, y: [f64; N], error: f64) {
@@ -367,63 +223,6 @@ impl<const N: usize> Explicit<N> {
         self.cost.steps += 1.0;
         self.cost.error_estimate += error;
         self.h *= self.controller.accepted(error);
-    }
-
-    /// Prepares the last step for [`Explicit::dense`], which otherwise does so when first asked.
-    pub fn prepare_dense(&mut self, system: &impl System<N>) {
-        if self.segment.dense {
-            return;
-        }
-        if self.tableau == Dop853::TABLEAU {
-            self.prepare_dense_with::<Dop853, _>(system);
-        } else {
-            self.prepare_dense_with::<Dopri5, _>(system);
-        }
-        self.segment.dense = true;
-        self.segment.rough = self.roughness() > ROUGH;
-    }
-
-    /// The last term of the polynomial in the middle of the step, in units of the tolerance [1].
-    fn roughness(&self) -> f64 {
-        let Segment { y, r, .. } = &self.segment;
-        let terms = self.terms();
-        let size = std::array::from_fn(|i| y[i].abs().max((y[i] + r[0][i]).abs()));
-        // eq. 24: σ and 1 − σ are 1/2 in each of its factors
-        self.tolerance.norm(&r[terms - 1], &size) / f64::from(1_u32 << terms)
-    }
-
-    /// How many terms the polynomial of eq. 24 has after y.
-    fn terms(&self) -> usize {
-        3 + self.tableau.dense.len()
-    }
-
-    /// [`Explicit::prepare_dense`] with the coefficients as constants.
-    #[inline(never)]
-    fn prepare_dense_with<P: Pair, F: System<N>>(&mut self, system: &F) {
-        let (t, h, start) = (self.segment.t, self.segment.h, self.segment.y);
-        let mut newest = self.k[P::TABLEAU.last];
-        macro_rules! stages {
-            ($($i:literal)*) => {$(
-                if P::TABLEAU.last < $i && $i < const { P::TABLEAU.count() } {
-                    newest = self.stage(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
-                    self.k[$i] = newest;
-                }
-            )*};
-        }
-        stages! { 13 14 15 }
-        let (first, last) = (self.k[0], self.k[P::TABLEAU.last]);
-        let difference = self.segment.r[0];
-        // eq. 24: r₃ = h k₁ − Δy, r₄ = 2Δy − h(k₁ + k_last)
-        self.segment.r[1] = std::array::from_fn(|n| h * first[n] - difference[n]);
-        self.segment.r[2] = std::array::from_fn(|n| 2.0 * difference[n] - h * (first[n] + last[n]));
-        macro_rules! rows {
-            ($($i:literal)*) => {$(
-                if $i < P::TABLEAU.dense.len() {
-                    self.segment.r[3 + $i] = self.combined(const { P::TABLEAU.row($i) }).map(|sum| h * sum);
-                }
-            )*};
-        }
-        rows! { 0 1 2 3 }
     }
 
     /// A first step from the sizes of y, dy/dt and the change of dy/dt (Hairer, Nørsett and Wanner I, section II.4).

@@ -1,0 +1,120 @@
+//! The stages of a step, their sums, and the error that they tell.
+
+use super::Explicit;
+use crate::integrate::lanes::{both, nothing, pair, pairs, put};
+use crate::integrate::tableau::{Combination, Dop853, Dopri5, ErrorRule, Pair, Stage};
+use crate::integrate::{System, mean_square};
+
+impl<const N: usize> Explicit<N> {
+    /// All stages of a step of size h from (t, y); the state at its end, and the norm of its error in units of the
+    /// tolerance [1], or 0 where it is not asked for.
+    pub(super) fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> ([f64; N], f64) {
+        if self.tableau == Dop853::TABLEAU {
+            self.attempt_with::<Dop853, _, ERROR>(system)
+        } else {
+            self.attempt_with::<Dopri5, _, ERROR>(system)
+        }
+    }
+
+    /// [`Explicit::attempt`] with the coefficients as constants: every sum is written out by the compiler.
+    #[inline(never)]
+    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> ([f64; N], f64) {
+        let (t, h, start) = (self.t, self.h, self.y);
+        let mut newest = self.k[0];
+        macro_rules! stages {
+            ($($i:literal)*) => {$(
+                if $i < P::TABLEAU.last {
+                    newest = self.stage(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
+                    self.k[$i] = newest;
+                }
+            )*};
+        }
+        stages! { 1 2 3 4 5 6 7 8 9 10 11 12 }
+        // The last stage stands at the end of the step.
+        let y = self.ended(&start, h, const { P::TABLEAU.stage(P::TABLEAU.last) }.a);
+        // Where the error does not need that stage, it is begun before it: the next step's size waits for it.
+        let early = const { ERROR && !P::TABLEAU.error.needs(P::TABLEAU.last) };
+        let late = const { ERROR && P::TABLEAU.error.needs(P::TABLEAU.last) };
+        let mut error = if early { self.error_norm::<P>(&y) } else { 0.0 };
+        self.k[P::TABLEAU.last] = self.evaluate(system, t + h, &y);
+        if late {
+            error = self.error_norm::<P>(&y);
+        }
+        (y, error)
+    }
+
+    /// A stage of a step of size h from (t, y), of those before it; `newest` is the last of them.
+    #[inline(always)]
+    pub(super) fn stage<F: System<N>>(
+        &mut self,
+        system: &F,
+        (t, h, y): (f64, f64, &[f64; N]),
+        stage: &Stage,
+        newest: &[f64; N],
+    ) -> [f64; N] {
+        let there = self.advanced::<F>(y, h, stage.a, newest);
+        // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
+        self.evaluate(system, t + stage.c * h, &there)
+    }
+
+    /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
+    /// is not 1: a uniform rotation would run away from its angle by 3e-9 rad in 10⁶ turns.
+    #[inline(always)]
+    fn ended(&self, y: &[f64; N], h: f64, b: Combination) -> [f64; N] {
+        let mut end = [0.0; N];
+        for p in 0..pairs(N) {
+            let first = pair(&self.k[0], p);
+            let mut sum = nothing();
+            for &(j, coefficient) in &b[1..] {
+                sum += both(coefficient) * (pair(&self.k[j], p) - first);
+            }
+            put(&mut end, p, pair(y, p) + both(h) * (first + sum));
+        }
+        end
+    }
+
+    /// y + h Σ a_j k_j of what the rates depend on; the last stage of the sum, which is `newest`, comes last, for it is the
+    /// one that is waited for.
+    #[inline(always)]
+    fn advanced<F: System<N>>(&self, y: &[f64; N], h: f64, a: Combination, newest: &[f64; N]) -> [f64; N] {
+        let (&(_, last), older) = a.split_last().expect("a stage depends on those before it");
+        let mut there = *y;
+        for p in 0..pairs(F::DEPENDED_ON) {
+            let mut sum = nothing();
+            for &(j, coefficient) in older {
+                sum += both(h * coefficient) * pair(&self.k[j], p);
+            }
+            put(&mut there, p, pair(y, p) + (sum + both(h * last) * pair(newest, p)));
+        }
+        there
+    }
+
+    /// Σ a_j k_j.
+    #[inline(always)]
+    pub(super) fn combined(&self, a: Combination) -> [f64; N] {
+        let mut combined = [0.0; N];
+        for p in 0..pairs(N) {
+            let mut sum = nothing();
+            for &(j, coefficient) in a {
+                sum += both(coefficient) * pair(&self.k[j], p);
+            }
+            put(&mut combined, p, sum);
+        }
+        combined
+    }
+
+    /// The norm of the error of the step that ends at `y`, in units of the tolerance [1].
+    #[inline(always)]
+    fn error_norm<P: Pair>(&self, y: &[f64; N]) -> f64 {
+        let weights = self.tolerance.weights(&std::array::from_fn(|n| self.y[n].abs().max(y[n].abs())));
+        let mean_square = |e: Combination| mean_square(&self.combined(e), &weights, self.share);
+        let estimate = match const { &P::TABLEAU.error } {
+            ErrorRule::Single(e) => mean_square(e).sqrt(),
+            ErrorRule::Blend { fine, coarse } => {
+                let (fine, coarse) = (mean_square(fine), mean_square(coarse));
+                if fine == 0.0 { 0.0 } else { fine / (fine + 0.01 * coarse).sqrt() }
+            }
+        };
+        self.h * P::TABLEAU.calibration * estimate
+    }
+}
