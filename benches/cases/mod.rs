@@ -54,7 +54,7 @@ pub fn rotor<const N: usize>() -> At<Rotor<Effects>, N> {
     let (state, nominals) = (simulation.state().expect("possible parameters"), simulation.nominals());
     let chart = simulation.read().expect("possible parameters").motion.tilt.chart();
     At {
-        system: Rotor { body: parameters.shape().inertia(), effects: parameters.effects, chart, turns: 0.0 },
+        system: Rotor::new(parameters.shape().inertia(), parameters.effects, chart, 0.0),
         t: MOVED,
         y: std::array::from_fn(|n| state[n]),
         tolerance: Tolerance { absolute: std::array::from_fn(|n| TOLERANCE * nominals[n]), relative: [0.0; N] },

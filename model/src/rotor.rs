@@ -23,6 +23,8 @@ pub struct Rotor<E> {
     pub chart: Chart,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
+    /// Whether none of its effects follows where it is: asked once, not in each evaluation.
+    placeless: bool,
 }
 
 /// |γ| [rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
@@ -85,9 +87,9 @@ fn rates<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Coordinates<S> {
 
 /// The rates of the coordinates and of the work integrals.
 #[inline(always)]
-fn working_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
+fn working_rates<S: Scalar, E: Effects, const PLACE: bool>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
     let mut whole = [S::zero(); WITH_WORK];
-    let Action { load, damping, supply, loss } = effects.action(motion);
+    let Action { load, damping, supply, loss } = effects.action_of::<S, PLACE>(motion);
     let load = load + damping;
     rates(motion, load).write(&mut whole);
     whole[SUPPLIED] = imposing(effects, motion, load).map_or(supply, |power| supply + power);
@@ -110,7 +112,7 @@ pub fn whole_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -
         return [S::constant(f64::NAN); WITH_WORK];
     }
     if effects.works() {
-        return working_rates(effects, motion);
+        return working_rates::<S, E, true>(effects, motion);
     }
     let mut whole = [S::zero(); WITH_WORK];
     rates(motion, effects.load(motion)).write(&mut whole);
@@ -118,6 +120,12 @@ pub fn whole_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -
 }
 
 impl<E: Effects> Rotor<E> {
+    /// A body under effects that stay switched as they are, its state written in this chart, φ beyond these `turns`.
+    pub fn new(body: Inertia, effects: E, chart: Chart, turns: f64) -> Self {
+        let placeless = !effects.follows_place();
+        Self { body, effects, chart, turns, placeless }
+    }
+
     /// The motion at time `t` [s], from a state.
     #[inline(always)]
     pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
@@ -152,33 +160,41 @@ impl<E: Effects> Rotor<E> {
 
     /// The rates of a state of N numbers; once for each chart, so that neither asks again which one it is.
     #[inline(always)]
-    fn known_rates<const N: usize, const EVEN: bool, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+    fn known_rates<const N: usize, const EVEN: bool, const FREE: bool, const PLACE: bool>(
+        &self,
+        t: f64,
+        y: &[f64; N],
+    ) -> [f64; N] {
         match self.chart {
-            Chart::FromE => self.rates_in::<f64, N, EVEN, FREE>(Chart::FromE, t, y),
-            Chart::FromMinusE => self.rates_in::<f64, N, EVEN, FREE>(Chart::FromMinusE, t, y),
+            Chart::FromE => self.rates_in::<f64, N, EVEN, FREE, PLACE>(Chart::FromE, t, y),
+            Chart::FromMinusE => self.rates_in::<f64, N, EVEN, FREE, PLACE>(Chart::FromMinusE, t, y),
         }
     }
 
     /// [`Rotor::known_rates`], called: laws of all effects are too long to stand in every stage.
     #[inline(never)]
-    fn called_rates<const N: usize, const EVEN: bool, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        self.known_rates::<N, EVEN, FREE>(t, y)
+    fn called_rates<const N: usize, const EVEN: bool, const FREE: bool, const PLACE: bool>(
+        &self,
+        t: f64,
+        y: &[f64; N],
+    ) -> [f64; N] {
+        self.known_rates::<N, EVEN, FREE, PLACE>(t, y)
     }
 
-    /// [`Rotor::called_rates`] of a body that is even. What its effects may be is asked for once here: where none follows the
-    /// place, the compiler knows that those which could are off.
+    /// [`Rotor::called_rates`] of a body that is even. Where no effect follows the place, the compiler is told that those which
+    /// could are off.
     #[inline(never)]
     fn even_rates<const N: usize, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        if self.effects.follows_place() {
-            self.called_rates::<N, true, FREE>(t, y)
+        if self.placeless {
+            self.known_rates::<N, true, FREE, false>(t, y)
         } else {
-            self.known_rates::<N, true, FREE>(t, y)
+            self.called_rates::<N, true, FREE, true>(t, y)
         }
     }
 
     /// The rates of a state of N numbers in this chart.
     #[inline(always)]
-    fn rates_in<S: Scalar, const N: usize, const EVEN: bool, const FREE: bool>(
+    fn rates_in<S: Scalar, const N: usize, const EVEN: bool, const FREE: bool, const PLACE: bool>(
         &self,
         chart: Chart,
         t: f64,
@@ -188,9 +204,9 @@ impl<E: Effects> Rotor<E> {
         let mut some = [S::zero(); N];
         debug_assert!(N == WITH_WORK || !self.effects.works(), "what works is solved with its work");
         if N == WITH_WORK {
-            some.copy_from_slice(&working_rates(&self.effects, &motion));
+            some.copy_from_slice(&working_rates::<S, E, PLACE>(&self.effects, &motion));
         } else {
-            rates(&motion, self.effects.load(&motion)).write(&mut some);
+            rates(&motion, self.effects.load_of::<S, PLACE>(&motion)).write(&mut some);
         }
         some
     }
@@ -208,7 +224,7 @@ impl<E: Effects> Rotor<E> {
     }
 }
 
-stored!(Rotor<E: Effects> { body, effects, chart, turns });
+stored!(Rotor<E: Effects> { body, effects, chart, turns, placeless });
 
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     /// The work integrals are quadratures: no law depends on them. φ is one too where no effect follows it.
@@ -221,14 +237,14 @@ impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     #[inline(always)]
     fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         if !E::SWITCHED {
-            return self.known_rates::<N, false, false>(t, y);
+            return self.known_rates::<N, false, false, true>(t, y);
         }
-        // What could be switched on, and is not, is asked for once here instead of all along the laws.
+        // What could be switched on, and is not, is told here instead of asked for all along the laws.
         match (self.body.uneven.is_none(), self.effects.imposed::<f64>(t).is_none()) {
             (true, true) => self.even_rates::<N, true>(t, y),
             (true, false) => self.even_rates::<N, false>(t, y),
-            (false, true) => self.called_rates::<N, false, true>(t, y),
-            (false, false) => self.called_rates::<N, false, false>(t, y),
+            (false, true) => self.called_rates::<N, false, true, true>(t, y),
+            (false, false) => self.called_rates::<N, false, false, true>(t, y),
         }
     }
 
@@ -251,7 +267,8 @@ impl<E: Effects> Rotor<E> {
     /// The derivatives along the first D numbers of the state: nothing depends on the others, the quadratures.
     fn jacobian_along<const D: usize, const N: usize>(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
         let moving = |n: usize| if n < D { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
-        let rates: [Dual<D>; N] = self.rates_in::<_, N, false, false>(self.chart, t, &std::array::from_fn(moving));
+        let rates: [Dual<D>; N] =
+            self.rates_in::<_, N, false, false, true>(self.chart, t, &std::array::from_fn(moving));
         rates.map(|rate| std::array::from_fn(|n| if n < D { rate.eps[n] } else { 0.0 }))
     }
 }

@@ -60,9 +60,19 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// What they make of the body.
     fn shape(&self, body: &mut Shape);
     /// Force on the rotor and moment about c [N, N·m], without what damps.
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S>;
+    #[inline(always)]
+    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        self.load_of::<S, true>(motion)
+    }
     /// What they do where any of them works, in one pass, so that each switch is asked once.
-    fn action<S: Scalar>(&self, motion: &Kinematics<S>) -> Action<S>;
+    #[inline(always)]
+    fn action<S: Scalar>(&self, motion: &Kinematics<S>) -> Action<S> {
+        self.action_of::<S, true>(motion)
+    }
+    /// [`Effects::load`]; without `PLACE`, of those that do not follow the place: the others are known to be off.
+    fn load_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Wrench<S>;
+    /// [`Effects::action`] of the same.
+    fn action_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Action<S>;
     /// Potential energy [J].
     fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
     /// Whether any of them follows φ.

@@ -46,8 +46,7 @@ impl<E: Effects> Motion<E> {
         }
         let mut state = [0.0; WITH_WORK];
         coordinates.write(&mut state);
-        let effects = parameters.effects.clone();
-        let mut rotor = Rotor { body, effects, chart, turns: phi.turns };
+        let mut rotor = Rotor::new(body, parameters.effects.clone(), chart, phi.turns);
         let motion = rotor.motion(t, &state);
         rotor.effects.begin(&motion);
         Self { rotor, state }

@@ -31,12 +31,12 @@ impl Effects for () {
     fn shape(&self, _body: &mut Shape) {}
 
     #[inline(always)]
-    fn load<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
+    fn load_of<S: Scalar, const PLACE: bool>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
         Wrench::zero()
     }
 
     #[inline(always)]
-    fn action<S: Scalar>(&self, _motion: &Kinematics<S>) -> Action<S> {
+    fn action_of<S: Scalar, const PLACE: bool>(&self, _motion: &Kinematics<S>) -> Action<S> {
         Action { load: Wrench::zero(), damping: Wrench::zero(), supply: S::zero(), loss: S::zero() }
     }
 
@@ -49,7 +49,6 @@ impl Effects for () {
         false
     }
 
-    #[inline(always)]
     fn follows_place(&self) -> bool {
         false
     }

@@ -11,7 +11,7 @@ use crate::state::{Kinematics, Whole};
 use crate::variable::{Access, Meta, Place, Readable};
 
 #[inline(always)]
-fn action_of<E: Effect, S: Scalar>(effect: &E, motion: &Kinematics<S>) -> Action<S> {
+fn acted<E: Effect, S: Scalar>(effect: &E, motion: &Kinematics<S>) -> Action<S> {
     Action {
         load: effect.load(motion),
         damping: effect.damping(motion),
@@ -22,7 +22,7 @@ fn action_of<E: Effect, S: Scalar>(effect: &E, motion: &Kinematics<S>) -> Action
 
 #[inline(never)]
 fn called_action<E: Effect, S: Scalar>(effect: &E, motion: &Kinematics<S>) -> Action<S> {
-    action_of(effect, motion)
+    acted(effect, motion)
 }
 
 #[inline(never)]
@@ -50,9 +50,10 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     }
 
     #[inline(always)]
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        let rest = self.1.load(motion);
+    fn load_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+        let rest = self.1.load_of::<S, PLACE>(motion);
         match self.0.active() {
+            _ if H::Effect::FOLLOWS_PLACE && !PLACE => rest,
             Some(effect) if S::LONG => called_load(effect, motion) + rest,
             Some(effect) => effect.load(motion) + rest,
             None => rest,
@@ -60,11 +61,12 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     }
 
     #[inline(always)]
-    fn action<S: Scalar>(&self, motion: &Kinematics<S>) -> Action<S> {
-        let rest = self.1.action(motion);
+    fn action_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Action<S> {
+        let rest = self.1.action_of::<S, PLACE>(motion);
         match self.0.active() {
+            _ if H::Effect::FOLLOWS_PLACE && !PLACE => rest,
             Some(effect) if S::LONG => called_action(effect, motion) + rest,
-            Some(effect) => action_of(effect, motion) + rest,
+            Some(effect) => acted(effect, motion) + rest,
             None => rest,
         }
     }
@@ -82,7 +84,6 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         (H::Effect::FOLLOWS_PHI && self.0.active().is_some()) || self.1.follows_phi()
     }
 
-    #[inline(always)]
     fn follows_place(&self) -> bool {
         (H::Effect::FOLLOWS_PLACE && self.0.active().is_some()) || self.1.follows_place()
     }
