@@ -13,6 +13,7 @@ use model::effects::support::Support;
 use model::effects::{Called, Effects, Entry, Info, named};
 use model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use model::integrate::{Tolerance, explicit::Explicit};
+use model::rotation::Chart;
 use model::rotor::{Rotor, whole_rates};
 use model::scalar::Scalar;
 use model::simulation::Simulation;
@@ -192,7 +193,7 @@ impl Scene {
             let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
             assert!(effects.set_parameter(variable.place, *value));
         }
-        Rotor { body: self.body.into(), effects, ..Rotor::default() }
+        Rotor::new(self.body.into(), effects, Chart::FromE, 0.0)
     }
 
     /// The rates of these coordinates.

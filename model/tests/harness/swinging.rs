@@ -4,6 +4,7 @@ use super::{Driven, Method, Scene};
 use model::effects::{Effects, named};
 use model::integrate::explicit::Explicit;
 use model::integrate::{System, Tolerance};
+use model::rotation::Chart;
 use model::rotor::Rotor;
 use model::state::WITH_WORK;
 use model::variables::of_scene;
@@ -39,7 +40,7 @@ pub fn driven(d1: f64, d2: f64) -> (Rotor<Driven>, [f64; WITH_WORK]) {
     });
     let mut y = [0.0; WITH_WORK];
     y[..12].copy_from_slice(&scene.state());
-    (Rotor { body: scene.body.into(), effects, ..Rotor::default() }, y)
+    (Rotor::new(scene.body.into(), effects, Chart::FromE, 0.0), y)
 }
 
 /// Error of the whole state, each component by its nominal size [1].

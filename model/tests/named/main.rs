@@ -21,5 +21,6 @@ mod exact_tangents;
 mod exact_uneven;
 mod general;
 mod ledger;
+mod lost_energy;
 mod scenes;
 mod symplectic;
