@@ -70,9 +70,13 @@ const DAMPED: f64 = 30.0;
 /// And a wobble so many times again: the damper pushes with whatever speed the nod has at a kick [1].
 const WOBBLING_DAMPED: f64 = 100.0;
 
-/// Forces change the rate at which a wobbling axis nods, which steps over the nods do not see; dop853 loses as much where the
-/// wobble times (swing/nutation)² is so many tolerances [1]: measured from 3·10³ to 10⁵ rad/s.
+/// Kicks that step over the nods of a wobbling axis find it anywhere: r_c errs by up to 50 s times the wobble. They are taken
+/// where s times the wobble is at most so many tolerances [1]: measured from 10⁴ to 10⁶ rad/s, up to wobbles of 0.3 rad.
 const WOBBLES: f64 = 0.2;
+
+/// Forces also change the rate of the nods, which such steps do not see. Where the axis is off by that anyway, they may err as
+/// much, up to so many tolerances [1].
+const LOOSER: f64 = 10.0;
 
 /// A conservative run is long beyond so many radians of its fastest motion: then energy counts, which only `symplectic` keeps.
 const LONG: f64 = 1e6;
@@ -181,7 +185,8 @@ impl Outlook {
         let way = |tolerance: f64| pow(tolerance / coefficient, 1.0 / order);
         let most = (COMPOSED / self.decay).min(LONGEST);
         if let Some(rate) = self.precessing.filter(|_| self.lets_nods_pass()) {
-            let over = (way(self.tolerance.max(self.unseen())).min(COMPOSED) / rate).min(most);
+            let over =
+                (way(self.tolerance.max(self.unseen().min(LOOSER * self.tolerance))).min(COMPOSED) / rate).min(most);
             if over * self.nutation > PI {
                 return (over, true);
             }
@@ -203,8 +208,7 @@ impl Outlook {
     /// Whether steps over the nods err no more than steps of dop853, which follow them.
     fn lets_nods_pass(&self) -> bool {
         let nods = if self.works { DAMPED * self.nods.max(WOBBLING_DAMPED * self.wobble) } else { self.nods };
-        let strength = self.strength();
-        nods <= NODS * self.tolerance && strength * strength * self.wobble <= WOBBLES * self.tolerance
+        nods <= NODS * self.tolerance && self.strength() * self.wobble <= WOBBLES * self.tolerance
     }
 
     /// How far the axis is off in the end where steps over the nods do not see how forces change their rate [rad].

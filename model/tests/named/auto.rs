@@ -12,28 +12,29 @@ const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 const AUTO: f64 = 1.0;
 
 /// A scene, what is changed in it, and its stop [s].
-type Case = (&'static str, &'static [(&'static str, f64)], f64);
+type Case<'c> = (&'c str, &'c [(&'c str, f64)], f64);
 
-const PAPER: Case = ("paper", &[], 10.0);
-const SOFT: Case = ("paper", &[("support.c1", 20.0), ("support.c2", 5.0)], 10.0);
-const FASTER: Case = ("paper", &[("start.omega.x", 1e3)], 2.0);
-const DAMPED: Case = ("paper", &[("support.d1", 20.0), ("support.d2", 1.0)], 1000.0);
-const TUMBLING: Case = ("tumbling", &[], 10.0);
-const DRIVEN: Case = ("driven", &[], 10.0);
-const FAST: Case = ("high_spin", &[("start.omega.x", 1e4)], 1.0);
-const FAST_DAMPED: Case = ("high_spin", &[("start.omega.x", 1e4), ("support.d1", 3.0), ("support.d2", 0.2)], 1.0);
-const FASTISH: Case = ("high_spin", &[("start.omega.x", 1e3)], 1.0);
+const PAPER: Case<'static> = ("paper", &[], 10.0);
+const SOFT: Case<'static> = ("paper", &[("support.c1", 20.0), ("support.c2", 5.0)], 10.0);
+const FASTER: Case<'static> = ("paper", &[("start.omega.x", 1e3)], 2.0);
+const DAMPED: Case<'static> = ("paper", &[("support.d1", 20.0), ("support.d2", 1.0)], 1000.0);
+const TUMBLING: Case<'static> = ("tumbling", &[], 10.0);
+const DRIVEN: Case<'static> = ("driven", &[], 10.0);
+const FAST: Case<'static> = ("high_spin", &[("start.omega.x", 1e4)], 1.0);
+const FAST_DAMPED: Case<'static> =
+    ("high_spin", &[("start.omega.x", 1e4), ("support.d1", 3.0), ("support.d2", 0.2)], 1.0);
+const FASTISH: Case<'static> = ("high_spin", &[("start.omega.x", 1e3)], 1.0);
 /// Starts whose axis is off K, by 5e-6, 1e-3 and 1.7e-3 rad, and nods from then on.
-const WOBBLING: Case = ("high_spin", &[("start.omega.y", 1.0)], 1.0);
-const NODDING: Case = ("high_spin", &[("start.omega.x", 1e4), ("start.omega.y", 20.0)], 1.0);
-const SLOWLY_NODDING: Case = ("high_spin", &[("start.omega.x", 3e3), ("start.omega.y", 10.0)], 1.0);
-const HIGH_SPIN: Case = ("high_spin", &[], 1.0);
-const STIFF: Case = ("stiff_support", &[], 1.0);
-const RINGING: Case = ("stiff_support", &[("support.d1", 1_414.213_562_373_095)], 1.0);
-const STIFFISH: Case = ("stiff_support", &[("support.c1", 1e6), ("support.d1", 4_472.135_954_999_579)], 1.0);
-const SOFTER: Case = ("stiff_support", &[("support.c1", 1e5), ("support.d1", 1_414.213_562_373_095)], 1.0);
-const HARDER: Case = ("stiff_support", &[("support.c1", 1e8), ("support.d1", 0.0)], 1.0);
-const HARD: Case = ("stiff_support", &[("support.c1", 1e6), ("support.d1", 0.0)], 1.0);
+const WOBBLING: Case<'static> = ("high_spin", &[("start.omega.y", 1.0)], 1.0);
+const NODDING: Case<'static> = ("high_spin", &[("start.omega.x", 1e4), ("start.omega.y", 20.0)], 1.0);
+const SLOWLY_NODDING: Case<'static> = ("high_spin", &[("start.omega.x", 3e3), ("start.omega.y", 10.0)], 1.0);
+const HIGH_SPIN: Case<'static> = ("high_spin", &[], 1.0);
+const STIFF: Case<'static> = ("stiff_support", &[], 1.0);
+const RINGING: Case<'static> = ("stiff_support", &[("support.d1", 1_414.213_562_373_095)], 1.0);
+const STIFFISH: Case<'static> = ("stiff_support", &[("support.c1", 1e6), ("support.d1", 4_472.135_954_999_579)], 1.0);
+const SOFTER: Case<'static> = ("stiff_support", &[("support.c1", 1e5), ("support.d1", 1_414.213_562_373_095)], 1.0);
+const HARDER: Case<'static> = ("stiff_support", &[("support.c1", 1e8), ("support.d1", 0.0)], 1.0);
+const HARD: Case<'static> = ("stiff_support", &[("support.c1", 1e6), ("support.d1", 0.0)], 1.0);
 
 fn scene((name, changed, _): Case, [method, tolerance, order, step]: Setting) -> Named {
     let mut named = Named::new(name, Integrator::Method);
@@ -70,7 +71,7 @@ fn exact_choice_in_each_scene() {
         (FAST, [two, four, stiff, stiff]),
         (FAST_DAMPED, [two, stiff, stiff, stiff]),
         (HIGH_SPIN, [two, four, six, stiff]),
-        (WOBBLING, [two, four, four, four]),
+        (WOBBLING, [two, four, two, four]),
         (NODDING, [two, two, four, eight]),
         (SLOWLY_NODDING, [two, four, six, eight]),
         (STIFF, [stiff; 4]),
@@ -235,6 +236,27 @@ fn exact_no_method_does_much_better_where_the_axis_nods() {
     for (case, nutation) in [(WOBBLING, 2e5), (NODDING, 2e4), (SLOWLY_NODDING, 6e3)] {
         let settings: Vec<_> = adaptive(&[3.0]).into_iter().chain(composed(0.05)).chain(following(nutation)).collect();
         never_much_dearer(case, [4.0, 1e-8, 8.0, 0.8 / nutation], &settings);
+    }
+}
+
+/// The worst of all points of `auto` over the tolerance [1], or over that of `dop853` at the same one, where the axis nods widely:
+/// measured up to 65 tolerances, or 0.33 of the other; 3·10⁵ tolerances when such nods were stepped over.
+const WIDE: [f64; 2] = [80.0, 1.0];
+
+#[test]
+fn exact_wide_nods_are_followed_where_they_show() {
+    for (spin, stop) in [(1e4, 0.3), (1e5, 0.1), (1e6, 0.01)] {
+        for tilt in [0.3, 0.01, 1e-4] {
+            let start =
+                [("start.omega.x", spin), ("start.omega.y", 1.0), ("start.gamma.y", tilt), ("start.r_c.y", 0.0)];
+            let run = |setting| run(("paper", &start, stop), setting).expect("a possible motion");
+            let exact = run([3.0, 1e-13, 6.0, 0.0]);
+            for tolerance in [1e-4, 1e-6, 1e-8] {
+                let [found, pair] = [AUTO, 3.0].map(|method| error(&run([method, tolerance, 6.0, 0.0]), &exact));
+                println!("{spin:e} rad/s off by {tilt} rad at {tolerance:e}: {found:.1e}, dop853 {pair:.1e}");
+                within("auto", found, (WIDE[0] * tolerance).max(WIDE[1] * pair));
+            }
+        }
     }
 }
 

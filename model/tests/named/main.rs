@@ -21,6 +21,5 @@ mod exact_tangents;
 mod exact_uneven;
 mod general;
 mod ledger;
-mod lost_energy;
 mod scenes;
 mod symplectic;
