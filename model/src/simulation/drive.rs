@@ -80,6 +80,14 @@ const LONGEST_WHIRL: f64 = 1.0;
 /// error estimate has lost the motion [1].
 const LOST: f64 = 0.1;
 
+/// So many evaluations of the rates in one communication step are enough: one that would take hours ends after a minute or some.
+const MOST: f64 = 1e9;
+
+const TOO_MUCH: Refusal = Refusal(
+    "this communication step has taken more than 1e9 evaluations, so what moves here is too fast to be followed for so long: take shorter \
+     communication steps, a looser solver.relative_tolerance or another solver.method",
+);
+
 const TOO_LONG: Refusal = Refusal(
     "the energy is not kept, so the steps of the symplectic method are too long for these forces: shorten \
              solver.step_size, or where it is 0, tighten solver.relative_tolerance or take another solver.method",
@@ -147,7 +155,12 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let until = if news.is_some() { t } else { f64::INFINITY };
         let mut reached = self.method.time();
         let wanted = t - reached;
+        let most = self.method.cost().evaluations + MOST;
         while reached < t {
+            if self.method.cost().evaluations > most {
+                self.t = reached;
+                return Err(Fault::Refused { t: reached, reason: TOO_MUCH });
+            }
             let least = LEAST_PART * wanted.max(self.longest);
             if let Err(fault) = self.step(least, until) {
                 self.t = self.method.time();

@@ -7,6 +7,7 @@ mod oracles;
 
 mod auto;
 mod between_steps;
+mod endless;
 mod exact_bearing;
 mod exact_dependencies;
 mod exact_each_method;

@@ -122,7 +122,7 @@ fn needle() -> Case {
         scene: "free_top",
         methods: vec![
             (at("dop853", 1e-12), 1.2e-5),
-            (at("dopri5", 1e-12), 4e-5),
+            (at("dopri5", 1e-12), 4e-6),
             (at("stiff", 1e-10), 6e-4),
             (symplectic(6, 0.1), 3e-6),
         ],

@@ -12,8 +12,13 @@ type Held = (f64, f64);
 /// The family.
 pub fn cases() -> Vec<Case> {
     vec![
-        upright("steps of ±10⁴ N·m, upright", "the torque jumps at each communication point", steps()),
-        upright("spikes of 10⁹ N·m for 1 ns, upright", "all of the impulse in a nanosecond", spikes(1e-9)),
+        upright(
+            "steps of ±10⁴ N·m, upright",
+            "the torque jumps at each communication point",
+            steps(),
+            [8e-13, 3e-13, 3e-13],
+        ),
+        upright("spikes of 10⁹ N·m for 1 ns, upright", "all of the impulse in a nanosecond", spikes(1e-9), [3e-14; 3]),
         tilted(),
     ]
 }
@@ -28,8 +33,9 @@ fn spikes(width: f64) -> Vec<Held> {
 }
 
 /// Without tilt the axial rate is ∫τdt/Ja: φ exactly.
-fn upright(name: &'static str, hard: &'static str, torques: Vec<Held>) -> Case {
+fn upright(name: &'static str, hard: &'static str, torques: Vec<Held>, bounds: [f64; 3]) -> Case {
     let axial = 0.15625;
+    let methods = [at("dop853", 1e-12), at("dopri5", 1e-12), at("stiff", 1e-10)];
     let mut settings = support(2000.0, 500.0, Vector3::zeros());
     let place = Vector3::new(0.75, 0.0, 0.0);
     settings.extend(start(&place, &Vector3::zeros(), 0.0, &Vector2::zeros(), &(Vector3::x() * 50.0)));
@@ -38,7 +44,7 @@ fn upright(name: &'static str, hard: &'static str, torques: Vec<Held>) -> Case {
         hard,
         oracle: "φ̈ = τ/Ja, torque by torque",
         scene: "driven",
-        methods: vec![(at("dop853", 1e-12), 8e-13), (at("dopri5", 1e-12), 8e-13), (at("stiff", 1e-10), 8e-13)],
+        methods: methods.into_iter().zip(bounds).collect(),
         mutant: ("shaft.tau", 1.0 + 1e-6),
         task: Box::new(move |bench| {
             let (mut phi, mut rate) = (0.0, 50.0);
