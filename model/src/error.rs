@@ -2,23 +2,31 @@
 
 use std::fmt;
 
-/// A parameter whose value cannot be simulated.
+/// A parameter that cannot be simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Invalid {
     /// The variable's name, as in modelDescription.xml.
     pub variable: String,
-    /// Its value, in its unit.
-    pub value: f64,
-    /// Whether that is a whole number, which is written without a point.
-    pub whole: bool,
-    /// What would be right.
-    pub bound: String,
+    /// What is wrong with it, and what would be right.
+    pub reason: String,
 }
 
 impl Invalid {
     /// The Real `variable` = `value` breaks `bound`.
-    pub fn new(variable: impl Into<String>, value: f64, bound: impl Into<String>) -> Self {
-        Self { variable: variable.into(), value, whole: false, bound: bound.into() }
+    pub fn new(variable: impl Into<String>, value: f64, bound: impl fmt::Display) -> Self {
+        Self::out_of_bound(variable, &written(value, false), bound)
+    }
+
+    /// The `variable`, whose value is written so, breaks `bound`.
+    pub fn out_of_bound(variable: impl Into<String>, value: &str, bound: impl fmt::Display) -> Self {
+        let reason = format!("= {value} is not possible: it must be {bound}");
+        Self { variable: variable.into(), reason }
+    }
+
+    /// The switch `variable` is on, and `other` too.
+    pub fn excluded(variable: impl Into<String>, other: &str) -> Self {
+        let reason = format!("and {other} exclude each other: only one of them can act");
+        Self { variable: variable.into(), reason }
     }
 }
 
@@ -29,8 +37,7 @@ pub fn written(value: f64, whole: bool) -> String {
 
 impl fmt::Display for Invalid {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { variable, value, whole, bound } = self;
-        write!(f, "{variable} = {} is not possible: it must be {bound}", written(*value, *whole))
+        write!(f, "{} {}", self.variable, self.reason)
     }
 }
 

@@ -75,7 +75,9 @@ impl Scene {
         if file.is_file() {
             return Self::read(&file);
         }
-        let message = if is_path {
+        let message = if file.is_dir() {
+            "is a folder: a scene is a TOML file".into()
+        } else if is_path {
             "there is no such file".into()
         } else {
             let names = Self::names(folder).join(", ");
@@ -106,6 +108,10 @@ impl Scene {
     /// The scene in this text; `file` names it.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
         let file_error = |line, message| SceneError { file: file.into(), line, message };
+        if !is_one_line(&name_of(file)) {
+            let message = "cannot be the name of a model: a file of a scene has no control characters in its name";
+            return Err(file_error(None, message.into()));
+        }
         let found = toml_reader::read(text).map_err(|(line, message)| file_error(line, message))?;
         let scene = Self {
             file: file.into(),
@@ -148,6 +154,11 @@ impl Scene {
         }
         identifier
     }
+}
+
+/// Whether there is nothing but what a line of XML can hold.
+fn is_one_line(text: &str) -> bool {
+    !text.contains(|c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}'))
 }
 
 fn name_of(file: &Path) -> String {

@@ -314,12 +314,12 @@ impl Meta {
         };
         match self.kind {
             Kind::Enumeration(of) if !of.items.iter().any(|item| f64::from(item.0) == value) => {
-                Err(Invalid { whole: self.kind != Kind::Real, ..Invalid::new(full_name(), value, of.words()) })
+                Err(Invalid::out_of_bound(full_name(), &written(value, true), of.words()))
             }
-            Kind::Real | Kind::Integer | Kind::Boolean if !bound.holds(value) => Err(Invalid {
-                whole: self.kind != Kind::Real,
-                ..Invalid::new(full_name(), value, bound.words(self.kind))
-            }),
+            Kind::Real | Kind::Integer | Kind::Boolean if !bound.holds(value) => {
+                let value = written(value, self.kind != Kind::Real);
+                Err(Invalid::out_of_bound(full_name(), &value, bound.words(self.kind)))
+            }
             _ => Ok(()),
         }
     }

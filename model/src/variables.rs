@@ -439,7 +439,7 @@ impl<E: Effects> Parameters<E> {
         let is_symplectic = self.setup.solver.method == numbers::SYMPLECTIC;
         if is_symplectic && E::IMPOSES && self.effects.imposed::<f64>(0.0).is_some() {
             let bound = "another method: drifts and kicks do not keep an imposed speed";
-            return Err(Invalid::new("solver.method", f64::from(numbers::SYMPLECTIC), bound));
+            return Err(Invalid::out_of_bound("solver.method", "symplectic", bound));
         }
         self.shape().check()
     }

@@ -130,7 +130,7 @@ CASES = {
         ", line 17: bearing[1].cyz = 1.0 is not possible: it must be such that (cyz + czy)/2 is at most "
         "sqrt(cyy czz) = 0.0 in size, or the bearing would drive what it damps",
     ),
-    "same key twice": ("m = 5.0", "m = 5.0\nm = 6.0", ", line 7: is not TOML: duplicate key"),
+    "same key twice": ("m = 5.0", "m = 5.0\nm = 6.0", ", line 7: is not TOML: duplicate key `m`"),
 }
 
 

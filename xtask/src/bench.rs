@@ -34,6 +34,12 @@ pub fn bench(part: &str, seed: Option<u64>) -> Result<()> {
         ("counts", &|| counts::print().map(drop)),
         ("times", &times::print),
     ];
+    let names = tables.map(|(name, _)| name);
+    ensure!(
+        names.iter().any(|name| name.contains(part)),
+        "no table's name holds {part:?}: there are {}",
+        names.join(", ")
+    );
     for (name, print) in tables.iter().filter(|(name, _)| name.contains(part)) {
         // What is missing is told with the remedy, and the rest is measured all the same.
         print().unwrap_or_else(|error| println!("\n{name} not measured: {error:#}"));
@@ -70,5 +76,15 @@ fn target(at_most: Option<f64>, measured: f64) -> String {
         None => "-".into(),
         Some(at_most) if measured > at_most => format!("{at_most} (missed)"),
         Some(at_most) => at_most.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn exact_a_table_that_is_not_there_is_an_error() {
+        let refused = super::bench("nosuchtable", None).expect_err("nothing to measure").to_string();
+        let names = "calls, scenes, effects, general, off, counts, times";
+        assert_eq!(refused, format!("no table's name holds \"nosuchtable\": there are {names}"));
     }
 }

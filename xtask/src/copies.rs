@@ -56,21 +56,25 @@ pub fn absence_is_free() -> Result<()> {
     Ok(())
 }
 
-/// Adds the effect of the page, and runs the test that holds every effect to its power.
+/// Adds the effect of the page, runs the test that holds every effect to its power, and packages the page's scene.
 pub fn example_is_right() -> Result<()> {
     let page = fs::read_to_string(paths::root().join("docs/adding-an-effect.md"))?;
-    let block = |language: &str| {
+    let block = |language: &str| -> Result<&str> {
         let after = page.split_once(&format!("```{language}\n")).with_context(|| format!("no block of {language}"))?.1;
         Ok(after.split_once("```").context("a block ends")?.0)
     };
-    let (file, line): (&str, Result<&str>) = (block("rust")?, block("text"));
+    let (file, line, scene) = (block("rust")?, block("text")?, block("toml")?);
     let copy = copied("example")?;
     let catalogue = copy.join("model/src/effects.rs");
     let source = fs::read_to_string(&catalogue)?;
-    fs::write(&catalogue, source.replace("catalogue! {\n", &format!("catalogue! {{\n    {}", line?)))?;
+    fs::write(&catalogue, source.replace("catalogue! {\n", &format!("catalogue! {{\n    {line}")))?;
     fs::write(copy.join("model/src/effects/tether.rs"), file)?;
-    run(cargo()
-        .current_dir(&copy)
-        .args(["test", "--quiet", "--package", "split-rotor-model", "--test", "exact_power", "--target-dir"])
-        .arg(paths::target().join("copies/target")))
+    fs::write(copy.join("scenes/tethered.toml"), scene)?;
+    let target = paths::target().join("copies/target");
+    let within = |arguments: &[&str]| {
+        let (command, rest) = arguments.split_first().context("a command")?;
+        run(cargo().current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest))
+    };
+    within(&["test", "--package", "split-rotor-model", "--test", "exact_power"])?;
+    within(&["run", "--package", "xtask", "--", "package", "tethered"])
 }

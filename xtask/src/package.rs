@@ -8,7 +8,7 @@ use model::scene::Scene;
 use model::xml;
 use std::collections::BTreeSet;
 use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use zip::ZipWriter;
@@ -22,7 +22,7 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
         bail!("{} and {} would both become {}.fmu", first.file.display(), second.file.display(), first.name);
     }
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
-    std::fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
+    fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
     let progress = ProgressBar::new(scenes.len() as u64).with_style(style);
     let mut packaged = Vec::new();
@@ -92,17 +92,28 @@ fn flags(root: &Path) -> Result<String> {
         .join("\x1f"))
 }
 
+/// The FMU: whole, or as it was before.
 fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
-    let mut zip = ZipWriter::new(File::create(fmu)?);
+    let beside = fmu.with_extension("fmu.part");
+    let written = write_archive(scene, library, &beside).and_then(|()| Ok(fs::rename(&beside, fmu)?));
+    if written.is_err() {
+        // Where it cannot be removed either, what went wrong says more.
+        let _ = fs::remove_file(&beside);
+    }
+    written
+}
+
+fn write_archive(scene: &Scene, library: &Path, file: &Path) -> Result<()> {
+    let mut zip = ZipWriter::new(File::create(file)?);
     let mut add = |name: String, bytes: &[u8]| -> Result<()> {
         // The options carry no time: the same source gives the same bytes.
         zip.start_file(name, SimpleFileOptions::default())?;
         Ok(zip.write_all(bytes)?)
     };
     add("modelDescription.xml".into(), xml::model_description(scene).as_bytes())?;
-    let icon = std::fs::read(paths::root().join("modelDescription/model.png"))?;
+    let icon = fs::read(paths::root().join("modelDescription/model.png"))?;
     add("model.png".into(), &icon)?;
-    add(library_path(&scene.identifier())?, &std::fs::read(library)?)?;
+    add(library_path(&scene.identifier())?, &fs::read(library)?)?;
     add("documentation/index.html".into(), page::page(scene)?.as_bytes())?;
     add("documentation/licenses/license.txt".into(), licences::own()?.as_bytes())?;
     add("documentation/licenses/third-party.txt".into(), licences::third_party()?.as_bytes())?;
@@ -125,5 +136,22 @@ fn platform() -> Result<&'static str> {
         ("macos", _) => Ok("darwin64"),
         ("windows", "x86_64") => Ok("win64"),
         _ => bail!("FMI 2.0 has no name for the platform {OS} on {ARCH}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{archive, paths, scenes};
+    use std::fs;
+
+    #[test]
+    fn exact_a_package_that_fails_leaves_what_was_there() {
+        let folder = paths::target().join("tests/package");
+        fs::create_dir_all(&folder).unwrap();
+        let fmu = folder.join("paper.fmu");
+        fs::write(&fmu, "as it was").unwrap();
+        archive(&scenes::find("paper").unwrap(), &folder.join("nosuch"), &fmu).expect_err("there is no library");
+        assert_eq!(fs::read_to_string(&fmu).unwrap(), "as it was");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
     }
 }

@@ -3,7 +3,7 @@
 use crate::hard_cases::{self, Extent};
 use crate::run::{cargo, run};
 use crate::{accuracy, bench, c_host, copies, fuzz, memcheck, package, paths, python, sanitize};
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use model::scene::Scene;
 use std::time::Instant;
 
@@ -37,7 +37,16 @@ const LONG: [Job; 11] = [
 /// Runs the short jobs, and the long ones too where they are asked for, those whose names hold `part`; says what each took.
 pub fn test(part: &str, long: bool) -> Result<()> {
     let jobs = SHORT.iter().chain(LONG.iter().filter(|_| long));
-    for (name, job) in jobs.filter(|(name, _)| name.contains(part)) {
+    let jobs: Vec<_> = jobs.filter(|(name, _)| name.contains(part)).collect();
+    let names = |jobs: &[Job]| jobs.iter().map(|(name, _)| format!("\n  {name}")).collect::<String>();
+    // Nothing run would pass for nothing wrong.
+    ensure!(
+        !jobs.is_empty(),
+        "no job's name holds {part:?}: there are{}\nand with --long also{}",
+        names(&SHORT),
+        names(&LONG)
+    );
+    for (name, job) in jobs {
         println!("\n== {name}");
         let start = Instant::now();
         job()?;
@@ -126,4 +135,19 @@ fn peers() -> Result<()> {
 
 fn pytest(arguments: &[&str]) -> Result<()> {
     run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn exact_a_job_that_is_not_there_is_an_error() {
+        for part in ["nosuchjob", "absence is free"] {
+            let refused = super::test(part, false).expect_err("nothing to run").to_string();
+            assert!(
+                refused.starts_with(&format!("no job's name holds {part:?}: there are\n  Rust's tests\n")),
+                "{refused}"
+            );
+            assert!(refused.contains("and with --long also\n  third-party clients\n"), "{refused}");
+        }
+    }
 }

@@ -1,11 +1,12 @@
 //! From the text of a scene to its values. The known keys are the names of the variables; there is no second list.
 
-use super::{Experiment, defaults};
+use super::{Experiment, defaults, is_one_line};
 use crate::effects::{self, CATALOGUE, Info};
 use crate::error::Invalid;
 use crate::variable::{Bound, Kind, Place};
 use crate::variables::{self, TOLERANCES, Variable};
 use std::collections::BTreeMap;
+use std::fmt::Write;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -64,6 +65,9 @@ fn every_effect(called: &[(&Info, u32)]) -> Vec<(&'static Info, u32)> {
 /// A line from 1, where one is to blame, and what is wrong with it.
 type Wrong = (Option<usize>, String);
 
+/// What the reader of TOML calls a key that stands twice in a table.
+const DUPLICATE: &str = "duplicate key";
+
 const SECTIONS: &str = "title, general, rotor, start, effects, solver, experiment";
 const EXPERIMENT: [&str; 4] = ["start", "stop", "step", "tolerance"];
 
@@ -71,7 +75,12 @@ pub(super) fn read(text: &str) -> Result<Found, Wrong> {
     let reader = Reader { text };
     let root = DeTable::parse(text).map_err(|error| {
         let line = error.span().map(|span| reader.line(span.start));
-        (line, format!("is not TOML: {}", error.message().replace('\n', ", ")))
+        let mut message = format!("is not TOML: {}", error.message().replace('\n', ", "));
+        // Every other message shows what was found.
+        if let (DUPLICATE, Some(span)) = (error.message(), error.span()) {
+            write!(message, " `{}`", &text[span]).expect("a text can be written to");
+        }
+        (line, message)
     })?;
     reader.scene(root.get_ref())
 }
@@ -93,8 +102,11 @@ impl Reader<'_> {
         for (key, value) in root {
             match key.get_ref().as_ref() {
                 "title" => match value.get_ref().as_str() {
-                    Some(text) => title = Some(text.to_owned()),
                     None => return Err(self.wrong_type(value, "title", "a string")),
+                    Some(text) if !is_one_line(text) => {
+                        return Err(self.wrong_type(value, "title", "one line without control characters"));
+                    }
+                    Some(text) => title = Some(text.to_owned()),
                 },
                 "effects" => called = self.effects(self.table(value, "effects")?)?,
                 "general" | "rotor" | "start" | "solver" | "experiment" => {}

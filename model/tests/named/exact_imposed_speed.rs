@@ -107,9 +107,13 @@ fn exact_what_does_not_go_together_is_named() {
         model::scene::Scene::parse(path, &text(effects, solver)).expect_err("not possible").to_string()
     };
     let both = refusal("[effects.shaft]\n[effects.imposed_speed]\n", EXACTLY);
-    assert!(both.contains("shaft") && both.contains("imposed_speed") && both.contains("exclude"), "{both}");
+    let message = ": effects.shaft and effects.imposed_speed exclude each other: only one of them can act";
+    assert!(both.starts_with("test.toml, line ") && both.ends_with(message), "{both}");
+    // The method by its word, as the file has it.
     let symplectic = refusal("[effects.imposed_speed]\n", "method = \"symplectic\"");
-    assert!(symplectic.contains("solver.method") && symplectic.contains("another method"), "{symplectic}");
+    let message = ": solver.method = symplectic is not possible: it must be another method: drifts and kicks do not keep \
+                   an imposed speed";
+    assert!(symplectic.starts_with("test.toml, line ") && symplectic.ends_with(message), "{symplectic}");
 }
 
 /// A constraint that was imposed for long holds still [1].

@@ -55,7 +55,13 @@ fn exact_messages_of_several_effects_that_cannot_be() {
             "bad.toml, line 6: there may be several of bearing: write [[effects.bearing]], once for each, up to 4",
         ),
         (bearings.repeat(5), "bad.toml, line 6: [[effects.bearing]] stands 5 times: there may be up to 4"),
-        (format!("[effects.bearing]\nposition = 0.0\n{bearings}"), "bad.toml, line 8: is not TOML: duplicate key"),
+        (
+            format!("[effects.bearing]\nposition = 0.0\n{bearings}"),
+            "bad.toml, line 8: is not TOML: duplicate key `bearing`",
+        ),
+        (format!("{ROTOR}m = 1.0\n"), "bad.toml, line 6: is not TOML: duplicate key `rotor`"),
+        ("[start]\nphi = 1.0\n\"phi\" = 2.0\n".into(), "bad.toml, line 8: is not TOML: duplicate key `\"phi\"`"),
+        ("[start]\nr_c = { x = 1.0, x = 2.0 }\n".into(), "bad.toml, line 7: is not TOML: duplicate key `x`"),
         (
             "[[effects.support]]\nc1 = 1.0\n".into(),
             "bad.toml, line 6: there is only one support: write [effects.support]",
@@ -90,4 +96,26 @@ fn exact_messages_of_several_effects_that_cannot_be() {
     ] {
         assert_eq!(error(&rest), message);
     }
+}
+
+#[test]
+fn exact_what_no_xml_can_hold_is_refused() {
+    let titled = |title: &str, file: &str| Scene::parse(Path::new(file), &format!("title = {title}\n{ROTOR}"));
+    let says = "is not possible: it must be one line without control characters";
+    for title in [r#""\u0001""#, r#""two\nlines""#, r#""\u007f""#, r#""\ufffe""#] {
+        let refused = titled(title, "bad.toml").expect_err("no line of XML").to_string();
+        assert_eq!(refused, format!("bad.toml, line 1: title = {title} {says}"));
+    }
+    let refused = titled(r#""A rotor""#, "a\u{1}.toml").expect_err("no name in XML").to_string();
+    assert!(refused.ends_with("a file of a scene has no control characters in its name"), "{refused}");
+    // Any other letter is welcome.
+    assert_eq!(titled(r#""Läufer φ <&> 转子""#, "läufer.toml").expect("a scene").title, "Läufer φ <&> 转子");
+}
+
+#[test]
+fn exact_a_folder_is_no_scene() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let given = scenes.display().to_string();
+    let refused = Scene::find(&given, &scenes).expect_err("a folder").to_string();
+    assert_eq!(refused, format!("{given}: is a folder: a scene is a TOML file"));
 }

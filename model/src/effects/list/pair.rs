@@ -110,8 +110,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             let within = |invalid: Invalid| Invalid { variable: full_name::<H>(&invalid.variable), ..invalid };
             effect.check().map_err(within)?;
             if let Some(other) = H::Effect::EXCLUDES.iter().find(|name| self.1.acts(name)) {
-                let bound = format!("off, or effects.{other} off: they exclude each other");
-                return Err(Invalid::new(switch_of::<H>(), 1.0, bound));
+                return Err(Invalid::excluded(switch_of::<H>(), &format!("effects.{other}")));
             }
         }
         self.1.check()
