@@ -3,6 +3,8 @@
 
 mod tumbling;
 
+pub use tumbling::{Beside, Tumbling};
+
 use crate::effects::{Action, Effects};
 use crate::integrate::Refusal;
 use crate::integrate::composition::{Composition, Split, Splitting};

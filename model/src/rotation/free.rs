@@ -62,6 +62,12 @@ impl Turn {
         Self { rho: axes * self.rho, p: axes * self.p, ..*self }
     }
 
+    /// Where it takes a vector.
+    pub fn carried(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        let across = self.p.cross(v);
+        v + (across * self.w + self.p.cross(&across)) * 2.0
+    }
+
     /// Real and imaginary part [1].
     pub fn quaternion(&self) -> (f64, Vector3<f64>) {
         (self.w, self.p)

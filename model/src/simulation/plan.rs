@@ -30,7 +30,7 @@ impl Plan {
         span: Option<f64>,
     ) -> Self {
         let outlook = || Outlook::new(solver, rotor, t, y, span);
-        match solver.method {
+        let plan = match solver.method {
             numbers::AUTO => Choice::new(&outlook()).plan,
             numbers::DOPRI5 => Plan::Explicit(&DOPRI5),
             numbers::SYMPLECTIC => {
@@ -41,6 +41,13 @@ impl Plan {
             }
             numbers::STIFF => Plan::Stiff,
             _ => Plan::Explicit(&DOP853),
+        };
+        match (plan, span) {
+            // What a step does after the run is lost work.
+            (Plan::Composed(composition, size), Some(span)) if span > 0.0 => {
+                Plan::Composed(composition, size.min(span))
+            }
+            _ => plan,
         }
     }
 }

@@ -1,10 +1,10 @@
 //! The drift of an uneven body: its attitude in closed form, and how many turns φ has made on the way.
 
 use super::Flow;
-use crate::body::{Inertia, Uneven};
+use crate::body::{Inertia, Poinsot, Uneven};
 use crate::effects::Effects;
 use crate::rotation::{Tilt, Turn};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
 
 /// Of a path that ends at −e if it goes straight there, so much is gone at once [1].
@@ -13,65 +13,92 @@ const SHARE: f64 = 0.9;
 /// So close to −e [rad] nothing tells on which side the axis passes.
 const LEAST: f64 = 1e-12;
 
+/// By less than half a turn [rad] the shortest turn has the turns of φ of the true one.
+const FARTHEST: f64 = 3.0;
+
 impl<E: Effects, const N: usize> Flow<'_, E, N> {
     /// Follows an uneven body that nothing acts on for a time `h` [s].
     pub(super) fn tumble(&mut self, body: &Inertia, uneven: &Uneven, h: f64) {
         let axes = self.tilt.attitude(self.at.phi) * uneven.principal();
         let along = axes.tr_mul(&self.at.k);
-        let Some(free) = body.free(uneven, &along) else {
+        let Some(tumbling) = Tumbling::new(body, uneven, axes, along) else {
             // eq. 72: ω stays
             let about = Vector3::new(body.spin * along.x, uneven.excess * along.y, 0.0);
             return self.turn((self.at.k * body.per_jt + axes * about) * h);
         };
-        let turn = |h: f64| free.turn(h).seen_from(&axes);
-        let turned = self.tilt.turned(&turn(h));
-        let slowness = Vector3::new(body.spin + body.per_jt, uneven.excess + body.per_jt, body.per_jt);
-        let omega = along.component_mul(&slowness);
-        let gyration = along.cross(&omega).component_mul(&slowness);
-        let speeds = [(axes * omega).cross(&self.tilt.axis).norm(), gyration.norm(), free.bound()];
-        if farthest(speeds, h) > SHARE * to_minus_e(&self.tilt) {
-            self.turns += turns_beside(self.tilt, turn, free.bound(), h, turned.phi + TAU * turned.turns);
-        }
+        let turned = self.tilt.turned(&tumbling.free.turn(h).seen_from(&axes));
+        self.turns += tumbling.beside(self.tilt, h, turned.phi + TAU * turned.turns).turns;
         self.take(turned);
     }
 }
 
-/// How far the axis gets in a time `h` [s] at most [rad]: with its speed |ω×t| [rad/s], |dω/dt| [rad/s²], and an angular velocity
-/// that is not exceeded [rad/s].
-fn farthest([speed, acceleration, bound]: [f64; 3], h: f64) -> f64 {
-    let way = bound * h.abs();
-    if way > 1.0 {
-        return way;
+/// A body that tumbles.
+pub struct Tumbling {
+    free: Poinsot,
+    /// Its principal axes at the start, in O [1].
+    axes: Matrix3<f64>,
+    /// K along them [kg·m²/s].
+    along: Vector3<f64>,
+    /// 1/J about them [1/(kg·m²)].
+    slowness: Vector3<f64>,
+    /// The axis t along them [1].
+    t: Vector3<f64>,
+}
+
+/// What a walk past −e has found.
+pub struct Beside {
+    /// Whole turns by which φ advances more than was thought.
+    pub turns: f64,
+    /// Parts in which it went.
+    pub parts: u32,
+}
+
+impl Tumbling {
+    /// With its principal axes in O [1], and K `along` them [kg·m²/s]; None where it turns steadily.
+    pub fn new(body: &Inertia, uneven: &Uneven, axes: Matrix3<f64>, along: Vector3<f64>) -> Option<Self> {
+        let slowness = Vector3::new(body.spin + body.per_jt, uneven.excess + body.per_jt, body.per_jt);
+        let free = body.free(uneven, &along)?;
+        Some(Self { free, axes, along, slowness, t: uneven.principal().row(0).transpose() })
     }
-    // eq. 95: |ω×t| h + |dω/dt| h² (e^x − 1 − x)/x² at x = 2Ωh ≤ 2, where the last factor is at most 1.1
-    way.min((speed + 1.1 * acceleration * h.abs()) * h.abs())
-}
 
-/// The distance of the axis to −e [1].
-fn to_minus_e(tilt: &Tilt<f64>) -> f64 {
-    (tilt.axis + Vector3::x()).norm()
-}
+    /// For how long the axis, `tilt` now, surely does not reach −e when K is `along` the principal axes now [s]; nearer than
+    /// `least` [rad] it does not count.
+    fn clear(&self, tilt: &Tilt<f64>, along: &Vector3<f64>, least: f64) -> f64 {
+        let (bound, way) = (self.free.bound(), (SHARE * (tilt.axis + Vector3::x()).norm()).max(least));
+        let omega = along.component_mul(&self.slowness);
+        let (speed, growth) = (omega.cross(&self.t).norm(), along.cross(&omega).component_mul(&self.slowness).norm());
+        // eq. 95: |ω×t| τ + ½ |dω/dt| τ² = s, s = 0.9 |t + e|
+        let time = 2.0 * way / (speed + (speed * speed + 2.0 * growth * way).sqrt());
+        // eq. 95: the larger of s/Ω and (2/λ) ln(1 + ½λτ), λ = 2Ω/√3, this 3/Ω at most
+        let half = bound / 3.0_f64.sqrt();
+        (way / bound).max((libm::log1p(half * time) / half).min(FARTHEST / bound))
+    }
 
-/// Whole turns by which φ advances more than by `phi` [rad] when its tilt turns so for `h` [s], never faster than `bound` [rad/s].
-///
-/// In parts too short to reach −e. Any two ways of the axis that do not reach it advance φ alike, so the shortest may stand for
-/// the true one.
-fn turns_beside(mut tilt: Tilt<f64>, turn: impl Fn(f64) -> Turn, bound: f64, h: f64, phi: f64) -> f64 {
-    let (mut at, mut behind, mut advanced) = (0.0, None::<Turn>, 0.0);
-    loop {
-        let clear = (to_minus_e(&tilt) * SHARE).max(LEAST) / bound;
-        let is_last = (h - at).abs() <= clear;
-        if is_last && behind.is_none() {
-            return 0.0;
+    /// How φ advances in a time `h` [s], by `phi` [rad] and so many whole turns, where the start is `tilt`.
+    ///
+    /// In parts too short to reach −e. Any two ways of the axis that do not reach it advance φ alike, so the shortest may
+    /// stand for the true one.
+    pub fn beside(&self, mut tilt: Tilt<f64>, h: f64, phi: f64) -> Beside {
+        // After many turns the attitude is known as well as their angle: no part is then lost in the time's rounding.
+        let least = LEAST.max(4.0 * f64::EPSILON * self.free.bound() * h.abs());
+        let mut clear = self.clear(&tilt, &self.along, least);
+        if h.abs() <= clear {
+            return Beside { turns: 0.0, parts: 0 };
         }
-        at = if is_last { h } else { at + clear.copysign(h) };
-        let here = turn(at);
-        // eq. 95
-        let turned = tilt.turned(&behind.map_or(here, |behind| here.after(&behind.back())));
-        advanced += turned.phi + TAU * turned.turns;
-        if is_last {
-            return ((advanced - phi) / TAU).round();
+        let (mut at, mut behind, mut advanced, mut parts) = (0.0, Turn::of(1.0, Vector3::zeros()), 0.0, 0);
+        loop {
+            let is_last = (h - at).abs() <= clear;
+            at = if is_last { h } else { at + clear.copysign(h) };
+            let turn = self.free.turn(at);
+            let here = turn.seen_from(&self.axes);
+            let turned = tilt.turned(&here.after(&behind.back()));
+            advanced += turned.phi + TAU * turned.turns;
+            parts += 1;
+            if is_last {
+                return Beside { turns: ((advanced - phi) / TAU).round(), parts };
+            }
+            (tilt, behind) = (Tilt::new(tilt.chart(), turned.gamma), here);
+            clear = self.clear(&tilt, &turn.back().carried(&self.along), least);
         }
-        (tilt, behind) = (Tilt::new(tilt.chart(), turned.gamma), Some(here));
     }
 }

@@ -19,6 +19,7 @@ mod exact_open;
 mod exact_port;
 mod exact_stored;
 mod exact_tangents;
+mod exact_turns;
 mod exact_uneven;
 mod general;
 mod ledger;
