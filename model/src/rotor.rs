@@ -138,6 +138,12 @@ impl<E: Effects> Rotor<E> {
         self.known_motion::<S, false, false>(chart, t, y)
     }
 
+    /// [`Rotor::motion_in`] without the speed that is imposed.
+    #[inline(always)]
+    pub fn free_motion_in<S: Scalar>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
+        self.known_motion::<S, false, true>(chart, t, y)
+    }
+
     /// [`Rotor::motion_in`] of a body that is known to be `EVEN`, and `FREE` of an imposed speed: the compiler leaves out
     /// the rest.
     #[inline(always)]

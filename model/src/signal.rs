@@ -61,7 +61,17 @@ impl Signal {
         S::moving(self.value + s * (self.slope + s * (0.5 * self.curvature)), self.seed)
     }
 
+    /// What it sums up to from time `from` to `t` [unit·s].
+    #[inline(always)]
+    pub fn sum<S: Scalar>(&self, from: f64, t: f64) -> S {
+        let s = t - from;
+        let further = s * (0.5 * self.rate_at(from) + s * (self.curvature / 6.0));
+        // eq. 31: ∫u dt = u s + ½ u₁ s² + ⅙ u₂ s³
+        (self.at::<S>(from) + S::constant(further)) * S::constant(s)
+    }
+
     /// Its rate at time `t` [unit/s].
+    #[inline(always)]
     pub fn rate_at(&self, t: f64) -> f64 {
         self.slope + (t - self.origin) * self.curvature
     }
@@ -73,13 +83,18 @@ impl Signal {
 
     /// Whether it is zero at all times.
     pub fn is_zero(&self) -> bool {
-        self.value == 0.0 && self.slope == 0.0 && self.curvature == 0.0
+        self.value == 0.0 && self.is_held()
+    }
+
+    /// Whether it has no derivatives: none were sent, or zeros.
+    #[inline(always)]
+    pub fn is_held(&self) -> bool {
+        self.slope == 0.0 && self.curvature == 0.0
     }
 
     /// Whether it is the same as another: both hold one value.
     pub fn goes_on_like(&self, other: &Self) -> bool {
-        let held = |signal: &Self| signal.slope == 0.0 && signal.curvature == 0.0;
-        held(self) && held(other) && self.value.to_bits() == other.value.to_bits()
+        self.is_held() && other.is_held() && self.value.to_bits() == other.value.to_bits()
     }
 
     /// What was said last, of a signal that goes on as it was.

@@ -113,14 +113,14 @@ impl<E: Effects> Simulation<E> {
         true
     }
 
-    /// A host's motion hears of inputs at once, a method when it goes on.
+    /// A host's motion hears of inputs at once, a method when it goes on. What is shown follows them at once.
     fn tell_of_inputs(&mut self) {
         if let Some(Run::Open(open)) = &mut self.run {
             open.hear(&self.parameters.effects);
-            self.reading = None;
         } else {
             self.news = true;
         }
+        self.reading = None;
     }
 
     /// Starts the motion at time `t` [s]; a relative tolerance [1] given here stands in for that of the parameters.
@@ -260,9 +260,10 @@ impl<E: Effects> Simulation<E> {
     #[inline(always)]
     pub fn read(&mut self) -> Result<&Reading, Invalid> {
         if self.reading.is_none() {
+            let news = self.news.then_some(&self.parameters.effects);
             self.reading = Some(match &mut self.run {
-                Some(Run::Conservative(drive)) => drive.read(),
-                Some(Run::Working(drive)) => drive.read(),
+                Some(Run::Conservative(drive)) => drive.read(news),
+                Some(Run::Working(drive)) => drive.read(news),
                 Some(Run::Open(open)) => open.read(),
                 None => {
                     self.parameters.check()?;

@@ -22,6 +22,16 @@ fn exact_polynomial_about_where_it_was_set() {
 }
 
 #[test]
+fn exact_sum_over_time() {
+    let mut signal = Signal::default();
+    signal.set(2.0, 1.0);
+    signal.set_derivative(2.0, 1, -4.0);
+    signal.set_derivative(2.0, 2, 6.0);
+    // s − 2s² + s³ from s = 0 and from s = 1.
+    assert_eq!([signal.sum::<f64>(2.0, 4.0), signal.sum(3.0, 4.0), signal.sum(3.0, 2.0)], [2.0, 2.0, 0.0]);
+}
+
+#[test]
 fn exact_a_value_alone_is_held() {
     let mut signal = Signal::default();
     signal.set(1.0, 2.0);

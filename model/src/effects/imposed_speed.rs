@@ -1,4 +1,6 @@
 //! `imposed_speed`: a shaft that turns as it is told, whatever torque that takes.
+//!
+//! Both inputs tell one signal: ω_φ, and its rate. Where a host sends derivatives of w, they tell the rate themselves.
 
 use super::{Effect, Row};
 use crate::scalar::Scalar;
@@ -13,7 +15,7 @@ use nalgebra::Vector3;
 pub struct ImposedSpeed {
     /// ω_φ where either was last set [rad/s].
     pub w: Signal,
-    /// Its rate from there on [rad/s²].
+    /// Its rate from there on, where w has no derivatives of its own [rad/s²].
     pub a: Signal,
 }
 
@@ -22,14 +24,30 @@ impl ImposedSpeed {
     fn torque<S: Scalar>(&self, motion: &Kinematics<S>, rates: &Coordinates<S>) -> S {
         // eq. 76: M = dK/dt + λ dn/dt
         let moment = rates.k + motion.carried().unwrap_or_else(Vector3::zeros);
-        motion.torque(self.a.at(motion.t), &moment)
+        motion.torque(self.told(motion.t)[1], &moment)
+    }
+
+    /// ω_φ [rad/s] and its rate [rad/s²] at time `t` [s].
+    #[inline(always)]
+    fn told<S: Scalar>(&self, t: f64) -> [S; 2] {
+        if !self.w.is_held() {
+            return [self.w.at(t), S::constant(self.w.rate_at(t))];
+        }
+        let since = self.w.since().max(self.a.since());
+        // eq. 75: ω_φ = w + ∫a dt
+        [self.w.at::<S>(since) + self.a.sum::<S>(since, t), self.a.at(t)]
     }
 }
 
 impl Effect for ImposedSpeed {
     const ROWS: &'static [Row<Self>] = &[
         input!(w, &RADIAN_PER_SECOND, 0.0, "axial rate that the shaft imposes"),
-        input!(a, &RADIAN_PER_SECOND_SQUARED, 0.0, "rate of w, until either is set again"),
+        input!(
+            a,
+            &RADIAN_PER_SECOND_SQUARED,
+            0.0,
+            "rate of w, until either is set again; does not count where derivatives of w are sent"
+        ),
         output!("tau", &NEWTON_METRE, "torque of the shaft on the rotor", |s, m, rates| {
             s.torque(m, &Coordinates::from_slice(rates))
         }),
@@ -45,9 +63,7 @@ impl Effect for ImposedSpeed {
 
     #[inline(always)]
     fn imposed<S: Scalar>(&self, t: f64) -> Option<[S; 2]> {
-        let (since, a) = (self.w.since().max(self.a.since()), self.a.at::<S>(t));
-        // eq. 75: ω_φ = w + a s
-        Some([self.w.at::<S>(self.w.since()) + a * S::constant(t - since), a])
+        Some(self.told(t))
     }
 
     fn needs_gamma(&self) -> bool {

@@ -8,7 +8,7 @@ use crate::energy::{Ledger, kinetic};
 use crate::integrate::{Cost, Fault, Refusal};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart};
-use crate::rotor::{self, Rotor};
+use crate::rotor::{self, Rotor, imposed};
 use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK};
 use crate::stored::stored;
 use crate::variables::{Reading, Setup};
@@ -198,16 +198,21 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     fn hear(&mut self, effects: &E) -> Result<(), Fault> {
         let (mut y, chart, turns) = self.shown();
         (self.rotor.chart, self.rotor.turns) = (chart, turns);
-        let before = self.rotor.motion(self.t, &y);
+        self.jump(effects, chart, &mut y);
         self.rotor.effects.hear(effects);
-        if E::IMPOSES && N == WITH_WORK {
-            // A jump of the imposed speed supplies the jump of kinetic energy.
-            y[SUPPLIED] += kinetic(&self.rotor.motion(self.t, &y)) - kinetic(&before);
-        }
         self.method.go_back(&self.rotor, self.t, y);
         self.watch_tilt(gamma(&y));
         let reached = self.rotor.reaches(gamma(&y), Chart::REACH);
         reached.map_err(|reason| Fault::Refused { t: self.t, reason })
+    }
+
+    /// A jump of the imposed speed to that of these effects supplies the jump of kinetic energy.
+    fn jump(&self, effects: &E, chart: Chart, y: &mut [f64; N]) {
+        if E::IMPOSES && N == WITH_WORK {
+            let free = self.rotor.free_motion_in(chart, self.t, y);
+            let kinetic = |effects| kinetic(&imposed(effects, free));
+            y[SUPPLIED] += kinetic(effects) - kinetic(&self.rotor.effects);
+        }
     }
 
     /// A step that keeps to what the chart and the counting of turns allow.
@@ -349,10 +354,14 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
     }
 
-    /// What the communication point shows.
-    pub(super) fn read(&mut self) -> Reading {
-        let (y, chart, turns) = self.shown();
-        let motion = self.rotor.motion_in(chart, self.t, &y).when(self.t, turns);
+    /// What the communication point shows, `news` being the effects whose inputs were set there.
+    pub(super) fn read(&mut self, news: Option<&E>) -> Reading {
+        let (mut y, chart, turns) = self.shown();
+        if let Some(effects) = news {
+            self.jump(effects, chart, &mut y);
+        }
+        let free = self.rotor.free_motion_in(chart, self.t, &y).when(self.t, turns);
+        let motion = imposed(news.unwrap_or(&self.rotor.effects), free);
         let spent = self.method.cost();
         let cost = Cost { error_estimate: spent.error_estimate * self.relative_tolerance, ..spent };
         Reading::new(motion, &self.rotor.effects, work(&y), self.total_at_start, cost)

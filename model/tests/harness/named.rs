@@ -39,8 +39,13 @@ impl Named {
 
     /// The scene of this text, not yet started.
     pub fn written(text: &str) -> Self {
+        Self::written_for(text, Integrator::Method)
+    }
+
+    /// The same, for who integrates it.
+    pub fn written_for(text: &str, integrator: Integrator) -> Self {
         let scene = Scene::parse(Path::new("test.toml"), text).unwrap_or_else(|error| panic!("{error}"));
-        Self::of(scene, Integrator::Method)
+        Self::of(scene, integrator)
     }
 
     fn of(scene: Scene, integrator: Integrator) -> Self {
