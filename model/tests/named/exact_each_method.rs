@@ -174,7 +174,7 @@ fn exact_auto_takes_what_costs_least_and_says_why() {
         ("high_spin", "symplectic of order 6", "the free rotor's"),
         ("jeffcott", "dop853", "nothing is stiff"),
         ("long_run", "symplectic of order 8", "the run is"),
-        ("overhung", "dop853", "nothing is stiff"),
+        ("overhung", "stiff", "dies out"),
         ("paper", "dop853", "nothing is stiff"),
         ("rotor", "dop853", "nothing is stiff"),
         ("stiff_support", "stiff", "dies out"),
