@@ -80,12 +80,12 @@ const LONGEST_WHIRL: f64 = 1.0;
 /// error estimate has lost the motion [1].
 const LOST: f64 = 0.1;
 
-/// So many evaluations of the rates in one communication step are enough: one that would take hours ends after a minute or some.
+/// So many evaluations of the rates in one communication step are enough: one that would take hours ends after minutes.
 const MOST: f64 = 1e9;
 
 const TOO_MUCH: Refusal = Refusal(
-    "this communication step has taken more than 1e9 evaluations, so what moves here is too fast to be followed for so long: take shorter \
-     communication steps, a looser solver.relative_tolerance or another solver.method",
+    "this communication step has taken more than 1e9 evaluations, so what moves here is too fast to be followed for so \
+     long: take shorter communication steps, a looser solver.relative_tolerance or another solver.method",
 );
 
 const TOO_LONG: Refusal = Refusal(
@@ -153,6 +153,15 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         }
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
         let until = if news.is_some() { t } else { f64::INFINITY };
+        if self.method.time() < t {
+            self.run_to(t, until)?;
+        }
+        self.t = t;
+        self.keeps_energy()
+    }
+
+    /// Steps up to time `t` [s] or past it, but not past `until` [s].
+    fn run_to(&mut self, t: f64, until: f64) -> Result<(), Fault> {
         let mut reached = self.method.time();
         let wanted = t - reached;
         let most = self.method.cost().evaluations + MOST;
@@ -170,8 +179,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             self.settle(t);
             reached = self.method.time();
         }
-        self.t = t;
-        self.keeps_energy()
+        Ok(())
     }
 
     /// Whether the motion reached has anything to do with the one asked for. Methods that estimate their error know.

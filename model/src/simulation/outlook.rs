@@ -186,7 +186,7 @@ impl Outlook {
         let most = (COMPOSED / self.decay).min(LONGEST);
         if let Some(rate) = self.precessing.filter(|_| self.lets_nods_pass()) {
             let over =
-                (way(self.tolerance.max(self.unseen().min(LOOSER * self.tolerance))).min(COMPOSED) / rate).min(most);
+                (way(self.unseen().clamp(self.tolerance, LOOSER * self.tolerance)).min(COMPOSED) / rate).min(most);
             if over * self.nutation > PI {
                 return (over, true);
             }

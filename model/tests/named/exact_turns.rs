@@ -40,8 +40,7 @@ fn phi(case: &Case, h: f64) -> f64 {
         let phi = 2.0 * (y[3] * v.x - y[4] * w) / (y[3] * y[3] + y[4] * y[4]);
         [growth.x, growth.y, growth.z, w, v.x, v.y, v.z, phi]
     };
-    let transverse = rotation::quaternion(&Vector3::new(0.0, case.gamma.x, case.gamma.y));
-    let (w, v) = rotation::product(transverse, rotation::quaternion(&(Vector3::x() * case.phi)));
+    let (w, v) = rotation::split(case.phi, &case.gamma);
     let omega = rotation::matrix((w, v)).tr_mul(&case.omega);
     let start = [omega.x, omega.y, omega.z, w, v.x, v.y, v.z, case.phi];
     let count = (40.0 * case.omega.norm() * h) as u32;

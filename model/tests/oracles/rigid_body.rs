@@ -61,9 +61,7 @@ impl Moving {
 
     /// The attitude as a matrix.
     pub fn attitude(&self) -> Matrix3<f64> {
-        let (w, u) = self.q;
-        let norm = (w * w + u.norm_squared()).sqrt();
-        rotation::matrix((w / norm, u / norm))
+        rotation::drifted(self.q)
     }
 
     /// The axis t.
@@ -82,8 +80,7 @@ impl RigidBody {
         gamma: &Vector2<f64>,
         omega: &Vector3<f64>,
     ) -> Moving {
-        let tilt = rotation::quaternion(&Vector3::new(0.0, gamma.x, gamma.y));
-        let q = rotation::product(tilt, rotation::quaternion(&(Vector3::x() * phi)));
+        let q = rotation::split(phi, gamma);
         let attitude = rotation::matrix(q);
         let inertia = Matrix3::from_diagonal(&Vector3::new(self.Ja, self.Jt, self.Jt));
         Moving { r, v, q, k: attitude * inertia * attitude.transpose() * omega, phi, work: [0.0; 2] }

@@ -23,6 +23,17 @@ pub fn matrix((w, v): (f64, Vector3<f64>)) -> Matrix3<f64> {
     Matrix3::from_columns(&[column(Vector3::x()), column(Vector3::y()), column(Vector3::z())])
 }
 
+/// The unit quaternion of the attitude with φ [rad] about e, then γ [rad].
+pub fn split(phi: f64, gamma: &Vector2<f64>) -> (f64, Vector3<f64>) {
+    product(quaternion(&Vector3::new(0.0, gamma.x, gamma.y)), quaternion(&(Vector3::x() * phi)))
+}
+
+/// The matrix of a quaternion whose length has drifted.
+pub fn drifted((w, v): (f64, Vector3<f64>)) -> Matrix3<f64> {
+    let norm = (w * w + v.norm_squared()).sqrt();
+    matrix((w / norm, v / norm))
+}
+
 /// v× as a matrix.
 pub fn cross(v: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -v.z, v.y, v.z, 0.0, -v.x, -v.y, v.x, 0.0)

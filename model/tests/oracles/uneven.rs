@@ -60,9 +60,7 @@ impl Moving {
 
     /// The attitude as a matrix.
     pub fn attitude(&self) -> Matrix3<f64> {
-        let (w, u) = self.q;
-        let norm = (w * w + u.norm_squared()).sqrt();
-        rotation::matrix((w / norm, u / norm))
+        rotation::drifted(self.q)
     }
 
     /// The axis t.
@@ -81,9 +79,7 @@ impl Uneven {
         gamma: Vector2<f64>,
         omega: Vector3<f64>,
     ) -> Moving {
-        let tilt = rotation::quaternion(&Vector3::new(0.0, gamma.x, gamma.y));
-        let q = rotation::product(tilt, rotation::quaternion(&(Vector3::x() * phi)));
-        Moving { r, v, q, omega, phi, work: [0.0; 2] }
+        Moving { r, v, q: rotation::split(phi, &gamma), omega, phi, work: [0.0; 2] }
     }
 
     /// The motion from time `t` [s] to `end` [s], in so many steps.
