@@ -5,10 +5,10 @@ Needs matplotlib:  python hard_cases.py
 """
 
 import json
-import re
 from pathlib import Path
 
 import matplotlib.pyplot as plt
+from page import put
 from style import BLUE, GREY, ORANGE, save
 
 HERE = Path(__file__).parent
@@ -41,13 +41,7 @@ def main():
     found = json.loads((FOUND / "hard-cases.json").read_text(encoding="utf-8"))
     assert found["mutants"] and not found["part"], "run `cargo xtask hard-cases --mutants` first"
     picture(found["rows"])
-    page = PAGE.read_text(encoding="utf-8")
-    table = (FOUND / "hard-cases.md").read_text(encoding="utf-8").strip()
-    # What stands between the marks is replaced.
-    block = r"(<!-- gallery -->\n).*?(\n<!-- end -->)"
-    page, count = re.subn(block, lambda match: f"{match[1]}\n{table}\n{match[2]}", page, flags=re.DOTALL)
-    assert count == 1, f"{PAGE.name} has no place for the table"
-    PAGE.write_text(page, encoding="utf-8")
+    put(PAGE, "gallery", (FOUND / "hard-cases.md").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":
