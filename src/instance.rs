@@ -75,8 +75,8 @@ pub struct Memory {
     experiment: Experiment,
     /// What the last fmi2DoStep returned.
     step_status: Status,
-    /// Whether it was said that the tilt is large.
-    warned: bool,
+    /// Whether it was said that the tilt is large, and that the motion grows.
+    warned: [bool; 2],
 }
 
 /// What fmi2SetupExperiment said, and what the host set itself.
@@ -98,7 +98,7 @@ impl Memory {
             simulation: Simulation::with(integrator, parameters),
             experiment: Experiment::default(),
             step_status: Status::Ok,
-            warned: false,
+            warned: [false; 2],
         }
     }
 
@@ -157,11 +157,11 @@ impl Instance {
             Integrator::Host => State::EventMode,
             Integrator::Method => {
                 self.tell_tolerance(tolerance);
-                self.tell_choice(tolerance);
+                self.tell_auto();
                 State::StepComplete
             }
         };
-        self.warn_of_tilt();
+        self.warn();
         Ok(Status::Ok)
     }
 
@@ -176,17 +176,20 @@ impl Instance {
                 }
                 None => (own, "of the scene"),
             };
-            format!("the relative tolerance in force is {value:?}, the one {origin}")
+            let [place, velocity, momentum, tilt] = self.memory.simulation.least_sizes();
+            format!(
+                "the relative tolerance in force is {value:?}, the one {origin}; it is relative to the size of the motion, which \
+                 counts from {place:.1e} m, {velocity:.1e} m/s, {momentum:.1e} kg.m2/s and {tilt:.1e} rad on"
+            )
         });
     }
 
-    /// Says which method `auto` took, and why.
-    fn tell_choice(&self, tolerance: Option<Real>) {
-        let Experiment { start, stop, .. } = self.memory.experiment;
+    /// Says what `auto` does and why.
+    fn tell_auto(&self) {
         if self.logger.hears(Category::Solver)
-            && let Some(choice) = self.memory.simulation.choice(start, tolerance, stop)
+            && let Some(words) = self.memory.simulation.auto()
         {
-            self.logger.log(Status::Ok, Category::Solver, &choice);
+            self.logger.log(Status::Ok, Category::Solver, &words);
         }
     }
 
@@ -230,13 +233,22 @@ impl Instance {
         Err(Failure::error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once that the tilt is large, where that matters.
-    fn warn_of_tilt(&mut self) {
-        if !self.memory.warned && self.memory.simulation.has_tilted() {
-            self.memory.warned = true;
+    /// Says once each that the tilt is large, where that matters, and that the linear motion grows.
+    fn warn(&mut self) {
+        let [of_tilt, of_growth] = &mut self.memory.warned;
+        if !*of_tilt && self.memory.simulation.has_tilted() {
+            *of_tilt = true;
             let message = "the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit at pi, and \
                            beyond 3.1 rad no step is possible";
             self.logger.log(Status::Warning, Category::Warning, message);
+        }
+        if !*of_growth && let Some((rate, t)) = self.memory.simulation.growth() {
+            *of_growth = true;
+            let message = format!(
+                "the rotor is unstable: small motions about its state at t = {t:?} s grow by a factor of e every {:.3e} s",
+                1.0 / rate
+            );
+            self.logger.log(Status::Warning, Category::Warning, &message);
         }
     }
 

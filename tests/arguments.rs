@@ -504,7 +504,7 @@ fn fmi_status_kinds_without_an_answer_are_errors() {
 }
 
 /// Parameters that cannot be simulated, and what the message must name.
-const IMPOSSIBLE: [(&str, Real, [&str; 3]); 24] = [
+const IMPOSSIBLE: [(&str, Real, [&str; 3]); 31] = [
     ("rotor.m", 0.0, ["rotor.m = 0.0", "> 0", ""]),
     ("rotor.m", -1.0, ["rotor.m = -1.0", "> 0", ""]),
     ("rotor.m", Real::NAN, ["rotor.m = NaN", "finite", "> 0"]),
@@ -527,7 +527,14 @@ const IMPOSSIBLE: [(&str, Real, [&str; 3]); 24] = [
     ("solver.relative_tolerance", 1e-15, ["solver.relative_tolerance = 1e-15", "1e-14", "0.1"]),
     ("solver.relative_tolerance", 0.2, ["solver.relative_tolerance = 0.2", "1e-14", "0.1"]),
     ("solver.relative_tolerance", Real::NAN, ["solver.relative_tolerance = NaN", "1e-14", "0.1"]),
-    ("solver.absolute_tolerance", -1e-9, ["solver.absolute_tolerance = -1e-9", "0 or", "at least 1e-20"]),
+    ("solver.absolute_tolerance", -1e-9, ["solver.absolute_tolerance = -1e-9", "0 or", "from 1e-20 to 0.01"]),
+    ("solver.absolute_tolerance", 9e-21, ["solver.absolute_tolerance = 9e-21", "0 or", "from 1e-20 to 0.01"]),
+    ("solver.absolute_tolerance", 0.011, ["solver.absolute_tolerance = 0.011", "0 or", "from 1e-20 to 0.01"]),
+    ("solver.absolute_tolerance", 1e20, ["solver.absolute_tolerance = 1e20", "0 or", "from 1e-20 to 0.01"]),
+    ("solver.absolute_tolerance", Real::NAN, ["solver.absolute_tolerance = NaN", "0 or", "from 1e-20 to 0.01"]),
+    ("solver.max_evaluations", 999.0, ["solver.max_evaluations = 999.0", "from 1000.0 to 1000000000000.0", ""]),
+    ("solver.max_evaluations", 2e12, ["solver.max_evaluations = 2000000000000.0", "from 1000.0", ""]),
+    ("solver.max_evaluations", Real::NAN, ["solver.max_evaluations = NaN", "from 1000.0", ""]),
     ("solver.step_size", -1e-3, ["solver.step_size = -0.001", ">= 0", ""]),
     ("solver.step_size", Real::INFINITY, ["solver.step_size = inf", "finite", ">= 0"]),
 ];
@@ -552,6 +559,12 @@ fn fmi_impossible_parameters_are_named_at_exit_of_initialization_and_can_be_mend
         instance.set_method(method);
         assert_eq!(instance.enter_initialization(), Status::Ok);
         refused(&mut instance, exit, &["solver.method", &method.to_string(), "2 (dopri5)", "3 (dop853)"]);
+    }
+    for number in [-1, 6, Integer::MAX, Integer::MIN] {
+        let mut instance = Instance::quiet();
+        assert_eq!(instance.set_integer(reference("solver.method_number"), number), Status::Ok);
+        assert_eq!(instance.enter_initialization(), Status::Ok);
+        refused(&mut instance, exit, &["solver.method_number", &number.to_string(), "0 or 1 or 2 or 3 or 4 or 5"]);
     }
     for order in [0, 1, 3, 5, 10, -2, Integer::MAX, Integer::MIN] {
         let mut instance = Instance::quiet();

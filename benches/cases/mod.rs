@@ -72,7 +72,7 @@ impl<S: System<N>, const N: usize> At<S, N> {
         let mut method = Explicit::start(tableau, self.tolerance, &self.system, self.t, self.y);
         loop {
             let before = method.clone();
-            method.step(&self.system, 0.0, f64::INFINITY).expect("a possible motion");
+            method.step(&self.system, f64::INFINITY, f64::INFINITY).expect("a possible motion");
             // The first steps find their size.
             if before.cost().steps > 10.0 && method.cost().rejected == before.cost().rejected {
                 return Stepping { method: before, system: self.system };
@@ -90,7 +90,7 @@ pub struct Stepping<S, const N: usize> {
 impl<S: System<N>, const N: usize> Stepping<S, N> {
     /// One step of the method's own choice.
     pub fn step(&mut self) {
-        self.method.step(&self.system, 0.0, f64::INFINITY).expect("a possible motion");
+        self.method.step(&self.system, f64::INFINITY, f64::INFINITY).expect("a possible motion");
     }
 
     /// What the last step's dense output needs.

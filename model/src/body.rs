@@ -74,6 +74,11 @@ impl Inertia {
         Poinsot::new([self.spin, uneven.excess, 0.0], self.per_jt, momentum)
     }
 
+    /// The largest 1/J of an uneven body [1/(kg·m²)]: |ω| is at most this times |K|.
+    pub fn quickest(&self, uneven: &Uneven) -> f64 {
+        [self.spin, uneven.excess, 0.0].into_iter().fold(f64::NEG_INFINITY, f64::max) + self.per_jt
+    }
+
     /// ω [rad/s] of angular momentum K [kg·m²/s] about G, of an uneven body with this attitude.
     #[inline(always)]
     pub fn uneven_angular_velocity<S: Scalar>(

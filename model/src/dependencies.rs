@@ -111,8 +111,8 @@ fn range(variable: &Variable) -> Option<(f64, f64)> {
             // Cross damping of a bearing, whose own damping is then from 1.
             Bound::Finite if variable.place.block >= Place::FIRST_EFFECT => WITHIN_ONE,
             Bound::Finite => ANY,
-            Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => (1.0, 1.5),
-            Bound::Within(low, high) => (low, high),
+            Bound::Positive | Bound::NotNegative => (1.0, 1.5),
+            Bound::Within(low, high) | Bound::ZeroOrWithin(low, high) => (low, high),
             Bound::OneOf(_) => return None,
         }),
         (Kind::Real, Role::Input { .. }) => Some(ANY),

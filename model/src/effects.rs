@@ -39,6 +39,9 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// energy.
     const COULD_WORK: bool = true;
 
+    /// Whether it can act on the rotor at all: apply a load or impose a speed, with any parameters and inputs.
+    const PUSHES: bool = true;
+
     /// Whether it can [shape](Effect::shape) the body. A scene without such effects is compiled for a symmetric rotor.
     const SHAPES: bool = false;
 

@@ -7,11 +7,14 @@ pub mod explicit;
 mod lanes;
 mod power;
 mod segment;
+pub mod sizes;
 pub mod stiff;
 pub mod tableau;
 
 use crate::stored::stored;
-use lanes::{both, nothing, pair, pairs, put, sum};
+use sizes::{GROUPS, Squares};
+
+pub use sizes::Tolerance;
 
 /// N ordinary differential equations dy/dt = f(t, y).
 pub trait System<const N: usize> {
@@ -28,57 +31,33 @@ pub trait System<const N: usize> {
 
     /// Whether a step may end at y; the reason where it may not.
     fn admits(&self, t: f64, y: &[f64; N]) -> Result<(), Refusal>;
+
+    /// How large the motion is at `y`, where its rate is `rate`, if excursions are counted from `origin`: group by group, squared.
+    fn sizes(&self, y: &[f64; N], _rate: &[f64; N], _origin: &[f64; N]) -> Squares {
+        in_one_group(y)
+    }
+
+    /// The parts of a small change of the state at `y`, in the same groups, squared.
+    fn parts(&self, _y: &[f64; N], change: &[f64; N]) -> Squares {
+        in_one_group(change)
+    }
+
+    /// How large the numbers are that a step of size `h` [s] from `y` adds up, in the same groups, squared.
+    fn roundings(&self, y: &[f64; N], _h: f64) -> Squares {
+        in_one_group(y)
+    }
+}
+
+/// All numbers as one group.
+fn in_one_group<const N: usize>(y: &[f64; N]) -> Squares {
+    let mut squares = [0.0; GROUPS];
+    squares[0] = y.iter().map(|y| y * y).sum();
+    squares
 }
 
 /// Why a state cannot be reached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Refusal(pub &'static str);
-
-/// How large the error of a step may be, component by component: absolute + relative·|y|.
-#[derive(Clone, Copy, Debug)]
-pub struct Tolerance<const N: usize> {
-    /// In the component's unit; infinite where the component's error does not count.
-    pub absolute: [f64; N],
-    /// Relative to the component's size [1].
-    pub relative: [f64; N],
-}
-
-stored!(Tolerance<const N: usize> { absolute, relative });
-
-impl<const N: usize> Tolerance<N> {
-    /// The share of each component in an error norm: 1/n of n that count.
-    fn share(&self) -> f64 {
-        1.0 / self.absolute.iter().filter(|absolute| absolute.is_finite()).count() as f64
-    }
-
-    /// What one unit of each component counts in the error norm, at a state of this `size`.
-    #[inline(always)]
-    fn weights(&self, size: &[f64; N]) -> [f64; N] {
-        let mut weights = [0.0; N];
-        for p in 0..pairs(N) {
-            // eq. 22: sc_i = atol_i + rtol_i·max(|y0_i|, |y1_i|)
-            put(&mut weights, p, both(1.0) / (pair(&self.absolute, p) + pair(&self.relative, p) * pair(size, p)));
-        }
-        weights
-    }
-
-    /// The root mean square of `v` in units of the tolerance at a state of this `size` [1].
-    fn norm(&self, v: &[f64; N], size: &[f64; N]) -> f64 {
-        mean_square(v, &self.weights(size), self.share()).sqrt()
-    }
-}
-
-/// The mean square of `v`, each component by its weight, and with this share [1].
-#[inline(always)]
-fn mean_square<const N: usize>(v: &[f64; N], weights: &[f64; N], share: f64) -> f64 {
-    let mut squares = nothing();
-    for p in 0..pairs(N) {
-        let weighted = pair(v, p) * pair(weights, p);
-        squares += weighted * weighted;
-    }
-    // eq. 22: err² = (1/n) Σ (err_i/sc_i)²
-    sum(squares) * share
-}
 
 /// Why a step could not be done; the state is that of the last step that could.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,6 +71,11 @@ pub enum Fault {
     },
     /// The rates overflow or are undefined, however short the step.
     NotFinite {
+        /// The last time reached [s].
+        t: f64,
+    },
+    /// All evaluations that may be spent are.
+    Spent {
         /// The last time reached [s].
         t: f64,
     },
@@ -109,6 +93,12 @@ impl std::fmt::Display for Fault {
             Fault::NotFinite { t } => {
                 write!(f, "no step is possible beyond t = {t:?} s: a force or a rate is infinite or not a number")
             }
+            Fault::Spent { t } => write!(
+                f,
+                "at t = {t:?} s this communication step has taken all the evaluations that solver.max_evaluations allows: what \
+                 moves here is too fast to be followed for so long; take shorter communication steps, a looser \
+                 solver.relative_tolerance, another solver.method or more evaluations"
+            ),
             Fault::Underflow { t } => write!(
                 f,
                 "no step that advances the time beyond t = {t:?} s keeps the tolerance: loosen \
@@ -134,6 +124,12 @@ pub struct Cost {
 }
 
 stored!(Cost { steps, rejected, evaluations, next_step, error_estimate });
+
+/// A first step spans at least so many units in the last place of the time.
+const LEAST_FIRST: f64 = 100.0;
+
+/// A step that was tried in vain is tried again shorter, down to this part of it [1].
+const SHRUNK: f64 = 1e-12;
 
 /// Where a step of size `h` [s] from `t` [s] ends that may not pass `until` [s]: it reaches it, or leaves half of a short
 /// rest.

@@ -1,8 +1,11 @@
 //! The equations of motion of a body under its effects.
 
+pub mod groups;
+
 use crate::body::Inertia;
 use crate::dual::Dual;
 use crate::effects::{Action, Effects, Wrench};
+use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
 use crate::rotation::{Chart, Tilt};
@@ -40,7 +43,8 @@ const BEYOND_CHART: Refusal = Refusal(
      can change it",
 );
 
-const BEYOND_LIMIT: Refusal =
+/// Why an axis may not come near −e.
+pub const BEYOND_LIMIT: Refusal =
     Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi");
 
 /// The rate of K under this load [N·m].
@@ -256,6 +260,21 @@ impl<E: Effects, const N: usize> System<N> for Rotor<E> {
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {
         self.reaches(Coordinates::from_slice(y).gamma, Chart::REACH)
+    }
+
+    #[inline(always)]
+    fn sizes(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
+        self.sizes_of(y, rate, origin)
+    }
+
+    #[inline(always)]
+    fn parts(&self, y: &[f64; N], change: &[f64; N]) -> Squares {
+        self.parts_of(y, change)
+    }
+
+    #[inline(always)]
+    fn roundings(&self, y: &[f64; N], h: f64) -> Squares {
+        self.roundings_of(y, h)
     }
 }
 

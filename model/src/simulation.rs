@@ -1,12 +1,12 @@
 //! A whole run without FMI: the scene's parameters and inputs, a method that steps ahead or a host that integrates, and
 //! what the communication point shows.
 
+mod auto;
 mod drive;
-mod forces;
-mod linear;
+mod growth;
 mod method;
+mod nominals;
 mod open;
-mod outlook;
 mod plan;
 mod start;
 mod tangents;
@@ -16,6 +16,7 @@ pub use tangents::Tangents;
 
 use crate::effects::Effects;
 use crate::error::Invalid;
+use crate::integrate::sizes::LEAST;
 use crate::integrate::{Cost, Fault, Refusal};
 use crate::rotor;
 use crate::signal::Signal;
@@ -24,8 +25,7 @@ use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
 use crate::variables::{Parameters, Reading, numbers};
 use drive::Drive;
-use outlook::Outlook;
-use plan::Choice;
+use nominals::Nominals;
 use start::Motion;
 
 /// Who integrates a motion.
@@ -153,16 +153,23 @@ impl<E: Effects> Simulation<E> {
         Ok(())
     }
 
-    /// What `auto` takes for a run that was started like this, and why; None where the parameters name the method.
-    pub fn choice(&self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Option<String> {
-        let parameters = self.in_force(t, relative_tolerance);
-        let solver = &parameters.setup.solver;
-        if self.integrator == Integrator::Host || solver.method != numbers::AUTO {
-            return None;
+    /// What `auto` does and why; None where the parameters name the method.
+    pub fn auto(&self) -> Option<String> {
+        let is_auto = self.parameters.setup.solver.method_in_force() == numbers::AUTO;
+        match self.run.as_ref().filter(|_| is_auto)? {
+            Run::Conservative(drive) => Some(drive.auto()),
+            Run::Working(drive) => Some(drive.auto()),
+            Run::Open(_) => None,
         }
-        let Motion { rotor, state } = Motion::at_start(&parameters, t);
-        let span = stop.map(|stop| stop - t);
-        Some(Choice::new(&Outlook::new(solver, &rotor, t, &state, span)).to_string())
+    }
+
+    /// How often it has gone on with another method.
+    pub fn changes_of_method(&self) -> u32 {
+        match &self.run {
+            Some(Run::Conservative(drive)) => drive.changes_of_method(),
+            Some(Run::Working(drive)) => drive.changes_of_method(),
+            Some(Run::Open(_)) | None => 0,
+        }
     }
 
     /// The parameters with this tolerance [1], the inputs as they are at time `t` [s].
@@ -230,6 +237,15 @@ impl<E: Effects> Simulation<E> {
             Some(Run::Working(drive)) => drive.has_tilted(),
             Some(Run::Open(open)) => open.has_tilted(),
             None => false,
+        }
+    }
+
+    /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was [s].
+    pub fn growth(&self) -> Option<(f64, f64)> {
+        match self.run.as_ref()? {
+            Run::Conservative(drive) => drive.growth(),
+            Run::Working(drive) => drive.growth(),
+            Run::Open(open) => open.growth(),
         }
     }
 
@@ -322,7 +338,15 @@ impl<E: Effects> Simulation<E> {
 
     /// What a continuous state of the host's counts with, in its unit.
     pub fn nominals(&self) -> Whole<f64> {
-        start::nominals(&self.parameters.setup.rotor)
+        let t = self.time().unwrap_or_default();
+        Nominals::of(&Motion::at_start(&self.parameters, t), t).each()
+    }
+
+    /// Below which place [m], velocity [m/s], angular momentum [kg·m²/s] and tilt [rad] errors are not compared with a smaller
+    /// motion.
+    pub fn least_sizes(&self) -> [f64; 4] {
+        let nominals = self.nominals();
+        [0, 3, 6, 9].map(|n| LEAST * nominals[n])
     }
 
     /// The start as the parameters make it, and what it shows. An error where it overflows.

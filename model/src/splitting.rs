@@ -9,9 +9,9 @@ use crate::effects::{Action, Effects};
 use crate::integrate::Refusal;
 use crate::integrate::composition::{Composition, Split, Splitting};
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
-use crate::rotation::arc::Reduced;
-use crate::rotation::{Angle, Tilt, Turn, Turned};
-use crate::rotor::{LIMIT, Rotor};
+use crate::rotation::arc::{Reduced, atan2};
+use crate::rotation::{Angle, Chart, Tilt, Turn, Turned};
+use crate::rotor::{BEYOND_LIMIT, FORBIDDEN, LIMIT, Rotor};
 use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -29,6 +29,8 @@ pub struct Flow<'r, E, const N: usize> {
     inner: Option<&'static Tableau>,
     /// Whether kicks are spread over the drift.
     spreads: bool,
+    /// Whether a law has no limit at −e, so that the axis must not fly past it.
+    guarded: bool,
     evaluations: f64,
     /// What stood in the way.
     refusal: Option<Refusal>,
@@ -60,6 +62,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
             // Where no effect works, none depends on the speeds.
             inner: self.effects.works().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
             spreads: self.inertia().uneven.is_none() && at.k.norm() * h * self.body.per_jt > RESOLVED,
+            guarded: self.effects.needs_gamma(),
             evaluations: 0.0,
             refusal: None,
         }
@@ -82,6 +85,22 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         self.tilt = Tilt::new(self.rotor.chart, turned.gamma);
     }
 
+    /// Whether the axis may come near −e within a drift of `h` [s], where a law has no limit.
+    fn may_pass_the_limit(&self, h: f64) -> bool {
+        let (body, k, theta) = (self.rotor.inertia(), self.at.k, self.tilt.gamma_in_chart().norm());
+        let to_antipode = if self.rotor.chart == Chart::FromE { PI - theta } else { theta };
+        let way = match &body.uneven {
+            // About K it goes round on a cone.
+            None => {
+                let (across, along) = (k.cross(&self.tilt.axis).norm(), k.dot(&self.tilt.axis).abs());
+                (across * body.per_jt * h.abs()).min(2.0 * atan2(across, along))
+            }
+            Some(uneven) => k.norm() * body.quickest(uneven) * h.abs(),
+        };
+        // What overflows is told by what comes of it.
+        way.is_finite() && way > to_antipode - FORBIDDEN
+    }
+
     /// The motion at time `t` [s], with these speeds where it is.
     #[inline(always)]
     fn motion(&self, t: f64, v: Vector3<f64>, k: Vector3<f64>) -> Kinematics<f64> {
@@ -93,7 +112,10 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     #[inline(always)]
     fn push(&mut self, t: f64, h: f64) {
         let effects = &self.rotor.effects;
-        if effects.needs_gamma()
+        if self.refusal.is_some() {
+            return;
+        }
+        if self.guarded
             && let Err(refusal) = self.rotor.reaches(self.at.gamma, LIMIT)
         {
             self.refusal = Some(refusal);
@@ -132,6 +154,12 @@ fn vectors(speeds: &Speeds) -> [Vector3<f64>; 2] {
 impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
     #[inline(always)]
     fn drift(&mut self, h: f64) {
+        if self.guarded && self.may_pass_the_limit(h) {
+            self.refusal = Some(BEYOND_LIMIT);
+        }
+        if self.refusal.is_some() {
+            return;
+        }
         let body = self.rotor.inertia();
         // eq. 39: r + h v; L(K h/Jt) on the left and K·t h (1/Ja − 1/Jt) about the axis
         self.at.r += self.at.v * h;

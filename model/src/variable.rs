@@ -228,8 +228,8 @@ pub enum Bound {
     Positive,
     /// ≥ 0
     NotNegative,
-    /// 0, or at least this.
-    ZeroOrFrom(f64),
+    /// 0, or within both ends.
+    ZeroOrWithin(f64, f64),
     /// Within both ends.
     Within(f64, f64),
     /// One of these, which ascend.
@@ -244,7 +244,7 @@ impl Bound {
                 Bound::Finite => true,
                 Bound::Positive => value > 0.0,
                 Bound::NotNegative => value >= 0.0,
-                Bound::ZeroOrFrom(least) => value == 0.0 || value >= least,
+                Bound::ZeroOrWithin(low, high) => value == 0.0 || (low..=high).contains(&value),
                 Bound::Within(low, high) => (low..=high).contains(&value),
                 Bound::OneOf(these) => these.contains(&value),
             }
@@ -257,7 +257,7 @@ impl Bound {
             Bound::Finite => "a finite number".into(),
             Bound::Positive => "a finite number > 0".into(),
             Bound::NotNegative => "a finite number >= 0".into(),
-            Bound::ZeroOrFrom(least) => format!("0 or at least {}", number(least)),
+            Bound::ZeroOrWithin(low, high) => format!("0 or a number from {} to {}", number(low), number(high)),
             Bound::Within(low, high) => format!("a number from {} to {}", number(low), number(high)),
             Bound::OneOf(these) => these.iter().map(f64::to_string).collect::<Vec<_>>().join(" or "),
         }
@@ -267,7 +267,8 @@ impl Bound {
     pub fn range(self) -> (Option<f64>, Option<f64>) {
         match self {
             Bound::Finite => (None, None),
-            Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => (Some(0.0), None),
+            Bound::Positive | Bound::NotNegative => (Some(0.0), None),
+            Bound::ZeroOrWithin(_, high) => (Some(0.0), Some(high)),
             Bound::Within(low, high) => (Some(low), Some(high)),
             Bound::OneOf(these) => (these.first().copied(), these.last().copied()),
         }

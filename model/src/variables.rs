@@ -436,10 +436,11 @@ impl<E: Effects> Parameters<E> {
     pub fn check(&self) -> Result<(), Invalid> {
         self.setup.check()?;
         self.effects.check()?;
-        let is_symplectic = self.setup.solver.method == numbers::SYMPLECTIC;
+        let solver = &self.setup.solver;
+        let is_symplectic = solver.method_in_force() == numbers::SYMPLECTIC;
         if is_symplectic && E::IMPOSES && self.effects.imposed::<f64>(0.0).is_some() {
             let bound = "another method: drifts and kicks do not keep an imposed speed";
-            return Err(Invalid::out_of_bound("solver.method", "symplectic", bound));
+            return Err(Invalid::out_of_bound(solver.method_variable(), "symplectic", bound));
         }
         self.shape().check()
     }

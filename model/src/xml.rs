@@ -3,6 +3,7 @@
 use crate::dependencies::Dependencies;
 use crate::log::{self, Category};
 use crate::scene::Scene;
+use crate::simulation::{Integrator, Simulation};
 use crate::state::{GAMMA, PHI, SUPPLIED};
 use crate::variable::units::Unit;
 use crate::variable::{Bound, Enumeration, Kind, Role};
@@ -170,6 +171,7 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
                 attributes.extend(limits(bound));
             }
             attributes.extend(start.map(|value| ("start", number(value))));
+            attributes.extend(nominal_of(scene, variable).map(|nominal| ("nominal", number(nominal))));
             attributes.extend(derivative_of(scene, variable).map(|index| ("derivative", index.to_string())));
             attributes.extend(is_set_anew(scene, variable).then(|| ("reinit", "true".to_owned())));
             empty(out, "Real", &attributes)
@@ -194,6 +196,12 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
         }
     })?;
     Ok(())
+}
+
+/// What a continuous state counts with, in its unit.
+fn nominal_of(scene: &Scene, variable: &Variable) -> Option<f64> {
+    let nominals = || Simulation::with(Integrator::Host, scene.parameters()).nominals();
+    state_number(variable.place).map(|n| nominals()[n])
 }
 
 /// The index from 1 of the state whose derivative the variable is.

@@ -23,6 +23,7 @@ fn exact_remainder_after_a_million_turns() {
         (2, 0, 3.0),
         (2, 1, 1e-8),
         (2, 9, 6.0),
+        (2, 10, 1e7),
     ];
     let mut rotor =
         Simulation::<()>::from(Parameters::from_iter(values.map(|(block, row, value)| (Place { block, row }, value))));

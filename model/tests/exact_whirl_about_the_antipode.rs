@@ -33,6 +33,7 @@ fn exact_phi_of_a_close_whirl_about_the_antipode() {
                 (2, 0, method),
                 (2, 1, 1e-8),
                 (2, 9, 6.0),
+                (2, 10, 1e7),
             ];
             let places = values.map(|(block, row, value)| (Place { block, row }, value));
             let mut rotor = Simulation::<()>::from(Parameters::from_iter(places));

@@ -4,10 +4,10 @@ mod harness;
 mod oracles;
 
 use harness::swinging::{distance, swinging};
-use harness::{Method, Scene, largest, within};
+use harness::{Method, Scene, largest, tolerance, within};
 use model::integrate::explicit::Explicit;
 use model::integrate::tableau::{Combination, ErrorRule, Stage, Tableau};
-use model::integrate::{Refusal, System, Tolerance};
+use model::integrate::{Refusal, System};
 use oracles::numerics::log_slope;
 use oracles::trees::{Tree, trees};
 
@@ -151,8 +151,7 @@ const QUADRATURE: f64 = 1.5e-15;
 fn exact_polynomials_are_integrated_exactly() {
     for Claim { method, order, dense, .. } in CLAIMS {
         for k in 0..order as i32 {
-            let tolerance = Tolerance { absolute: [1.0], relative: [0.0] };
-            let mut stepper = Explicit::start(method.tableau(), tolerance, &Power(k), 0.0, [0.0]);
+            let mut stepper = Explicit::start(method.tableau(), tolerance(1.0), &Power(k), 0.0, [0.0]);
             stepper.fixed_step(&Power(k), 0.75);
             let exact = |t: f64| libm::pow(t, f64::from(k + 1)) / f64::from(k + 1);
             within(&format!("{method:?}"), (stepper.state()[0] - exact(0.75)).abs(), QUADRATURE);
@@ -201,10 +200,7 @@ fn exact_observed_order_of_the_dense_output() {
     // Local: the error within one step from an exact state falls as h^(order + 1), here the geometric mean of places.
     for (claim, range) in CLAIMS.iter().zip([[0.0005, 0.0007, 0.001, 0.0015], [0.0025, 0.0035, 0.005, 0.007]]) {
         let rotor = Scene { method: claim.method, ..swinging() }.rotor();
-        let start = |method: Method, y| {
-            let tolerance = Tolerance { absolute: [1.0; 12], relative: [0.0; 12] };
-            Explicit::start(method.tableau(), tolerance, &rotor, 0.0, y)
-        };
+        let start = |method: Method, y| Explicit::start(method.tableau(), tolerance(1.0), &rotor, 0.0, y);
         let worst = |y: [f64; 12], h: f64| {
             let mut stepper = start(claim.method, y);
             stepper.fixed_step(&rotor, h);

@@ -16,8 +16,12 @@ impl Instance {
     /// fmi2DoStep
     pub fn do_step(&mut self, from: Real, step: Real) -> Reply {
         let to = self.end_of_step(from, step)?;
+        let changes = self.memory.simulation.changes_of_method();
         let outcome = self.memory.simulation.advance(to);
-        self.warn_of_tilt();
+        if self.memory.simulation.changes_of_method() != changes {
+            self.tell_auto();
+        }
+        self.warn();
         match outcome {
             Ok(()) => {
                 self.memory.state = State::StepComplete;

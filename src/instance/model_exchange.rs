@@ -52,7 +52,7 @@ impl Instance {
     pub fn completed_integrator_step(&mut self) -> Result<bool, Failure> {
         self.memory.simulation.admits()?;
         let wants_event = self.memory.simulation.open().is_some_and(|open| open.complete_step());
-        self.warn_of_tilt();
+        self.warn();
         Ok(wants_event)
     }
 

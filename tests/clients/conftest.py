@@ -77,16 +77,17 @@ def interpreter(client):
 
 @pytest.fixture(scope="session")
 def record(packaged, tmp_path_factory):
-    """All calls of a whole run of this client with this scene; each pair runs once."""
+    """All calls of a whole run of this client with this scene and these start values, pairs of name and value; each run is
+    made once."""
 
     @functools.cache
-    def run(client, scene):
+    def run(client, scene, values=()):
         fmu = packaged(scene)
         folder = tmp_path_factory.mktemp(client)
         file = folder / "recording.txt"
         program = Path(__file__).with_name(f"run_{client}.py")
         done = subprocess.run(
-            [interpreter(client), program, fmu.recorded, str(fmu.stop), str(fmu.step)],
+            [interpreter(client), program, fmu.recorded, str(fmu.stop), str(fmu.step), *[f"{n}={v!r}" for n, v in values]],
             # What a client unpacks and leaves behind goes with the rest of the folder.
             env=os.environ | {recorded.VARIABLE: str(file), "TMPDIR": str(folder)},
             cwd=folder,

@@ -1,13 +1,14 @@
-"""CoFMPy runs an FMU and reads all its outputs at each step: run_cofmpy.py FMU STOP STEP, in seconds.
+"""CoFMPy runs an FMU and reads all its outputs at each step: settings.py tells with which arguments.
 
-Its clock adds up steps, and it may take one more than fits; it neither terminates nor frees the instance.
+It sends 0 to every input that is neither connected nor given a value. Its clock adds up steps, and it may take one more than
+fits; it neither terminates nor frees the instance.
 """
 
-import sys
-
 from cofmpy import Coordinator
+from settings import settings
 
-fmu, stop, step = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
+fmu, stop, step, values = settings()
+rotor = {"id": "rotor", "name": "rotor", "path": fmu, "initialization": values}
 coordinator = Coordinator()
-coordinator.start({"fmus": [{"id": "rotor", "name": "rotor", "path": fmu}], "connections": []})
+coordinator.start({"fmus": [rotor], "connections": []})
 coordinator.run_simulation(step, stop)

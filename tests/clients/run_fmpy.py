@@ -1,8 +1,7 @@
-"""fmpy runs an FMU and reads all its outputs at each step: run_fmpy.py FMU STOP STEP, in seconds."""
-
-import sys
+"""fmpy runs an FMU and reads all its outputs at each step: settings.py tells with which arguments."""
 
 from fmpy import simulate_fmu
+from settings import settings
 
-fmu, stop, step = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
-simulate_fmu(fmu, stop_time=stop, output_interval=step)
+fmu, stop, step, values = settings()
+simulate_fmu(fmu, stop_time=stop, output_interval=step, start_values=values)

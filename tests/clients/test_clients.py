@@ -51,6 +51,19 @@ def test_fmi_the_motion_is_that_of_fmpy(record, packaged, client, scene):
     assert max(apart.values()) <= MOTIONS, apart
 
 
+@pytest.mark.long
+def test_fmi_a_client_that_sets_no_enumeration_sets_the_number_of_the_method(record, packaged):
+    """libcosim has no enumerations."""
+    fmu, dopri5 = packaged("paper"), 2
+    reference = {v.name: v.valueReference for v in fmu.description.modelVariables}
+    calls = record("libcosimpy", "paper", (("solver.method_number", dopri5),))
+    given = [(call.accepted, call.arguments[1:]) for call in calls if call.function == "fmi2SetInteger"]
+    assert given and all(one == (True, [[reference["solver.method_number"]], 1, [dopri5]]) for one in given)
+    steps = lambda calls: recording.trajectory(calls)[-1][1][reference["solver.steps"]]
+    by_name = record("fmpy", "paper", (("solver.method", dopri5),))
+    assert steps(calls) == steps(by_name) != steps(record("fmpy", "paper"))
+
+
 def flipped(number):
     """The next number but for the sign: the lowest bit of its digits is the other one."""
     (bits,) = struct.unpack("<q", struct.pack("<d", number))

@@ -22,7 +22,7 @@ POSITIVE = re.compile(
 )
 SMALL = re.compile(r"bearing.*\.(cyz|czy)")
 """|cyz + czy|/2 <= sqrt(cyy czz)."""
-TOLERANCES = {"solver.relative_tolerance": 1e-9, "solver.absolute_tolerance": 1e-3}
+SOLVER = {"solver.relative_tolerance": 1e-9, "solver.absolute_tolerance": 1e-3, "solver.max_evaluations": 1e6}
 
 
 def random_setup(names, random):
@@ -81,7 +81,7 @@ def observed_at_start(fmu, calculated):
             pairs.update((of, name) for of, is_new in zip(calculated, changed(before, after)) if is_new)
 
         for _ in range(SETUPS):
-            setup = random_setup(physical, random) | TOLERANCES
+            setup = random_setup(physical, random) | SOLVER
             host.set(setup)
             before = host.read(*calculated)
             for name, value in [(name, value) for name in setup for value in perturbed(name, setup[name])]:

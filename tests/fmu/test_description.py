@@ -208,7 +208,8 @@ def test_exact_units_are_declared_and_used(fmu):
 
 def test_exact_only_pure_numbers_have_no_unit(fmu):
     pure = {variable.get("name") for variable, kind in scalars(fmu) if not kind.get("unit")}
-    settings = {"solver.method", "solver.relative_tolerance", "solver.absolute_tolerance", "solver.order"}
+    settings = {"solver.method", "solver.relative_tolerance", "solver.absolute_tolerance", "solver.order",
+                "solver.max_evaluations", "solver.method_number"}
     spent = {"solver.steps", "solver.rejected", "solver.evaluations", "solver.error_estimate"}
     pure = {name for name in pure if not name.startswith(("effects.", "extrapolation."))}
     assert pure == settings | spent | {"turns", "axis.x", "axis.y", "axis.z", "state.chart"}

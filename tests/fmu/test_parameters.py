@@ -33,7 +33,11 @@ def host(paper):
         ({"solver.relative_tolerance": 0.0},
          "solver.relative_tolerance = 0.0 is not possible: it must be a number from 1e-14 to 0.1"),
         ({"solver.absolute_tolerance": -1.0},
-         "solver.absolute_tolerance = -1.0 is not possible: it must be 0 or at least 1e-20"),
+         "solver.absolute_tolerance = -1.0 is not possible: it must be 0 or a number from 1e-20 to 0.01"),
+        ({"solver.absolute_tolerance": 100.0},
+         "solver.absolute_tolerance = 100.0 is not possible: it must be 0 or a number from 1e-20 to 0.01"),
+        ({"solver.max_evaluations": 10.0},
+         "solver.max_evaluations = 10.0 is not possible: it must be a number from 1000.0 to 1000000000000.0"),
     ],
     ids=lambda given: next(iter(given)) if isinstance(given, dict) else "",
 )

@@ -25,7 +25,7 @@ CASES = {
     "unknown key in solver": (
         "relative_tolerance", "rtol",
         ", line 24: unknown key `solver.rtol`: [solver] knows method, relative_tolerance, absolute_tolerance, "
-        "step_size, order",
+        "step_size, order, max_evaluations, method_number",
     ),
     "unknown key in experiment": (
         "step =", "dt =", ", line 28: unknown key `experiment.dt`: [experiment] knows start, stop, step, tolerance",

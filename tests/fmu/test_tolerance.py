@@ -6,7 +6,7 @@ import pytest
 TIMES = np.arange(0, 101) / 100.0  # [s]
 SCENE, EXPERIMENT, OWN = 1e-10, 1e-4, 1e-7
 SAME_MOTION = 1e-8  # [rad], dopri5 against dop853 at 1e-10, axis after 1 s, measured 7e-10
-AUTO, DOPRI5, DOP853 = 1, 2, 3
+AUTO, DOPRI5, DOP853, SYMPLECTIC, STIFF = 1, 2, 3, 4, 5
 
 
 @pytest.fixture
@@ -83,6 +83,18 @@ def test_exact_the_method_is_chosen_by_number(paper, method, stages, dense):
     assert evaluations == 2 + stages * (steps + rejected) + dense
 
 
+@pytest.mark.parametrize("number", [AUTO, DOPRI5, DOP853, SYMPLECTIC, STIFF])
+def test_exact_the_number_stands_for_the_method(paper, number):
+    """A host that cannot set an Enumeration sets an Integer: the same bits come of it, whatever solver.method says."""
+    outputs = []
+    for method, method_number in [(number, 0), (number % STIFF + 1, number)]:
+        with paper.host() as host:
+            host.set_method(method)
+            host.slave.setInteger([host.reference("solver.method_number")], [method_number])
+            outputs.append(host.start().run(TIMES[:11]))
+    assert outputs[0] == outputs[1]
+
+
 def test_exact_both_methods_find_the_same_motion(paper):
     axes = []
     for method in (DOPRI5, DOP853):
@@ -100,4 +112,13 @@ def test_exact_a_method_that_is_not_listed_is_refused(paper):
         assert host.refused("exitInitializationMode") == (
             "fmi2ExitInitializationMode: solver.method = 7 is not possible: it must be 1 (auto) or 2 (dopri5) or "
             "3 (dop853) or 4 (symplectic) or 5 (stiff)"
+        )
+
+
+def test_exact_a_number_that_is_no_method_is_refused(paper):
+    with paper.host() as host:
+        host.slave.setInteger([host.reference("solver.method_number")], [7])
+        host.slave.enterInitializationMode()
+        assert host.refused("exitInitializationMode") == (
+            "fmi2ExitInitializationMode: solver.method_number = 7 is not possible: it must be 0 or 1 or 2 or 3 or 4 or 5"
         )

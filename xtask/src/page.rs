@@ -27,7 +27,7 @@ pub fn page(scene: &Scene) -> Result<String> {
         variables => scene.variables.iter().map(|variable| row(scene, variable)).collect::<Value>(),
         always => always.map(|variable| row(scene, variable)).collect::<Value>(),
         effects => effects.collect::<Value>(),
-        methods => METHODS.items.iter().map(|&(_, name, what)| context! { name, what }).collect::<Value>(),
+        methods => METHODS.items.iter().map(|&(number, name, what)| context! { number, name, what }).collect::<Value>(),
         categories => Category::EACH.map(Category::words).map(|(name, what)| context! { name, what }).to_vec(),
     };
     templates::render("documentation/index.html", values)

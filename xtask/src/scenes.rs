@@ -22,9 +22,7 @@ pub fn variables_of<'s>(scene: &'s Scene, info: &Info, index: u32) -> impl Itera
 /// Whether a scene names its method. One that leaves it to `auto` is too stiff, too fast or too long for the loops of a host in
 /// model exchange, and for differences.
 pub fn is_gentle(scene: &Scene) -> bool {
-    let method = scene.variables.iter().find(|variable| variable.name == "solver.method");
-    let method = method.map(|variable| variable.place.value_reference());
-    method.is_some_and(|method| scene.starts[&method] != f64::from(numbers::AUTO))
+    scene.parameters().setup.solver.method_in_force() != numbers::AUTO
 }
 
 /// Lists the scenes and their effects.

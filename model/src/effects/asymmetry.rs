@@ -23,6 +23,8 @@ impl Effect for Asymmetry {
         "moment of inertia about c and the axis that is z at phi = 0, gamma = 0; rotor.Jt is that about y"
     )];
 
+    const PUSHES: bool = false;
+
     const FOLLOWS_PLACE: bool = false;
 
     const COULD_WORK: bool = false;

@@ -74,6 +74,8 @@ impl Effect for Extrapolation {
         whole!(lag, Bound::Within(0.0, LATEST as f64), "how many communication steps the values of inputs are late"),
     ];
 
+    const PUSHES: bool = false;
+
     const FOLLOWS_PLACE: bool = false;
 
     const COULD_WORK: bool = false;

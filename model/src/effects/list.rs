@@ -81,6 +81,8 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn follows_place(&self) -> bool;
     /// Whether the law of any of them has no limit where |γ| = π.
     fn needs_gamma(&self) -> bool;
+    /// Whether any of them can act on the rotor.
+    fn push(&self) -> bool;
     /// Whether any of them can lose energy or be supplied with it.
     fn works(&self) -> bool;
     /// Whether one of this name acts.

@@ -20,6 +20,8 @@ impl Effect for Probe {
         output!("v.z", &METRE_PER_SECOND, "velocity of the station, z", |p, m| m.station_velocity(p.position).z),
     ];
 
+    const PUSHES: bool = false;
+
     const FOLLOWS_PLACE: bool = false;
 
     const COULD_WORK: bool = false;

@@ -33,6 +33,8 @@ impl Effect for Unbalance {
         parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
     ];
 
+    const PUSHES: bool = false;
+
     const FOLLOWS_PLACE: bool = false;
 
     const COULD_WORK: bool = false;

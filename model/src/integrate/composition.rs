@@ -1,14 +1,18 @@
-//! Compositions: a motion that is the sum of two, each of which can be followed by itself, followed in turns.
+//! Compositions: a motion that is the sum of two, each of which can be followed by itself, followed in turns. No allocation.
 //!
-//! Steps are of one size; nothing chooses it. No allocation.
+//! Steps are of one size, which is given, or found: from time to time a step is compared with two of half its size.
 
 mod coefficients;
 
 pub use coefficients::{KAHAN, SOFRONIOU, STRANG, SUZUKI};
 
 use super::answer::Answer;
-use super::{Cost, Fault, Refusal, System, end_of_step};
+use super::power::power;
+use super::sizes::{Sizes, largest_square};
+use super::{Cost, Fault, LEAST_FIRST, Refusal, SHRUNK, System, Tolerance, end_of_step};
+use crate::scalar::ulp;
 use crate::stored::{Damaged, Stored, Walk, choice, stored};
+use std::ops::Range;
 
 /// A motion that is the sum of two, on its way through a step.
 pub trait Split<const N: usize> {
@@ -88,10 +92,15 @@ const ALL: [&Composition; 4] = [&STRANG, &SUZUKI, &SOFRONIOU, &KAHAN];
 #[derive(Clone, Debug)]
 pub struct Composed<const N: usize> {
     composition: &'static Composition,
+    /// What its steps must keep; None where their size is given.
+    tolerance: Option<Tolerance>,
+    sizes: Sizes<N>,
     /// Size of a step [s].
     size: f64,
     /// Size of the next step [s], never more.
     h: f64,
+    /// Steps since the last that was compared.
+    unchecked: u32,
     cost: Cost,
     /// The time reached [s], and the state there.
     t: f64,
@@ -101,37 +110,62 @@ pub struct Composed<const N: usize> {
     start_y: [f64; N],
     last: f64,
     answer: Answer<N>,
-    /// Steps in a row that got nowhere.
-    stall: u32,
 }
 
-stored!(Composed<const N: usize> { composition, size, h, cost, t, y, start, start_y, last, answer, stall });
+stored!(Composed<const N: usize> {
+    composition, tolerance, sizes, size, h, unchecked, cost, t, y, start, start_y, last, answer
+});
 
-/// So many steps in a row may be shorter than what gets anywhere.
-const PATIENCE: u32 = 1000;
+/// Of so many steps one is compared with two of half its size.
+const EVERY: u32 = 32;
 
-const TOO_SHORT: Refusal = Refusal(
-    "in steps of the symplectic method that are so short the run would never end: lengthen solver.step_size, or where it is \
-     0, soften what changes so fast",
-);
+/// The error of a step may be this part of the tolerance, since errors add up [1].
+const SHARE: f64 = 0.1;
+
+/// A step is chosen this much smaller than the error would allow, and grows only where it can grow by this; at most by
+/// [`MOST_GROWTH`] at once [1].
+const SAFETY: f64 = 0.8;
+const GROWTH: f64 = 1.5;
+const MOST_GROWTH: f64 = 6.0;
+
+/// The first step that is tried is no longer than this [s].
+const LONGEST_FIRST: f64 = 1e-2;
 
 impl<const N: usize> Composed<N> {
     /// Starts at time `t` [s] and state `y`, with steps of this size [s].
     pub fn start(composition: &'static Composition, size: f64, t: f64, y: [f64; N]) -> Self {
-        let cost = Cost::default();
         Self {
             composition,
+            tolerance: None,
+            sizes: Sizes::blank(),
             size,
             h: size,
-            cost,
+            unchecked: EVERY,
+            cost: Cost::default(),
             t,
             y,
             start: t,
             start_y: y,
             last: 0.0,
             answer: Answer::none(),
-            stall: 0,
         }
+    }
+
+    /// The same with steps that keep the tolerance.
+    pub fn start_within(
+        composition: &'static Composition,
+        tolerance: Tolerance,
+        system: &impl System<N>,
+        t: f64,
+        y: [f64; N],
+    ) -> Self {
+        let rate = system.rates(t, &y);
+        let sizes = Sizes::at_start(&tolerance, system, &y, &rate);
+        let weights = sizes.weights(&tolerance, system, &y, f64::INFINITY, &sizes.seen(system, &y, &rate));
+        let speed = largest_square(&system.parts(&y, &rate), &weights).sqrt();
+        // In which some size changes by a hundredth; what is too long is rejected.
+        let size = (0.01 / (tolerance.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t));
+        Self { tolerance: Some(tolerance), sizes, ..Self::start(composition, size, t, y) }
     }
 
     /// Nothing yet: a place for what was stored.
@@ -172,6 +206,8 @@ impl<const N: usize> Composed<N> {
     /// Goes back to a time `t` [s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, t: f64, y: [f64; N]) {
         (self.t, self.y) = (t, y);
+        // What acts now may act otherwise.
+        self.unchecked = EVERY;
     }
 
     /// Goes on from another description `y` of the state reached.
@@ -184,41 +220,84 @@ impl<const N: usize> Composed<N> {
         self.y[component] = value;
     }
 
+    /// From now on excursions of these components count from 0.
+    pub fn recount(&mut self, components: Range<usize>) {
+        self.sizes.origin[components].fill(0.0);
+    }
+
     /// What the run has cost so far. No error is estimated.
     pub fn cost(&self) -> Cost {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward, but not past time `until` [s]. One that cannot be done is tried again with half its size; where none
-    /// is possible, the method stands as before.
-    ///
-    /// Steps below `least` [s] get nowhere: after [`PATIENCE`] of them in a row, none is possible.
-    pub fn step(&mut self, system: &impl Splitting<N>, least: f64, until: f64) -> Result<(), Fault> {
-        let (mut h, y) = (self.h, self.y);
+    /// One step forward, but not past time `until` [s], while the run has taken at most `most` evaluations. One that cannot be
+    /// done is tried again with half its size; where none is possible, the method stands as before.
+    pub fn step(&mut self, system: &impl Splitting<N>, most: f64, until: f64) -> Result<(), Fault> {
+        let mut h = self.h;
         let mut fault = None;
         loop {
             // A step that is not a number does not advance the time either.
-            let advances = self.t + 0.1 * h > self.t;
-            if !advances || self.stall > PATIENCE {
-                self.stall = 0;
-                return Err(fault.unwrap_or(Fault::Refused { t: self.t, reason: TOO_SHORT }));
+            let advances = self.t + 0.1 * h > self.t && h > SHRUNK * self.h;
+            if !advances || self.cost.evaluations > most {
+                let last = if advances { Fault::Spent { t: self.t } } else { Fault::Underflow { t: self.t } };
+                return Err(fault.unwrap_or(last));
             }
             let end = end_of_step(self.t, h, until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             let span = end - self.t;
-            let followed = self.followed(system, self.t, &y, span);
-            fault = Some(match followed.and_then(|y| system.admits(end, &y).map(|()| y)) {
-                Ok(y) if y.iter().all(|y| y.is_finite()) => {
-                    self.stall = if span < least { self.stall + 1 } else { 0 };
-                    self.accept(end, y, span);
-                    return Ok(());
-                }
-                Ok(_) => Fault::NotFinite { t: self.t },
-                Err(reason) => Fault::Refused { t: self.t, reason },
-            });
+            let from = self.y;
+            let followed = self.followed(system, self.t, &from, span);
+            let mut smaller = 0.5;
+            fault = match followed.and_then(|y| system.admits(end, &y).map(|()| y)) {
+                Ok(y) if y.iter().all(|y| y.is_finite()) => match self.checked(system, &y, span) {
+                    Some(factor) if factor < 1.0 => {
+                        smaller = factor;
+                        None
+                    }
+                    factor => {
+                        self.accept(end, y, span);
+                        if let Some(factor) = factor {
+                            self.resize(h, span, factor);
+                        }
+                        return Ok(());
+                    }
+                },
+                Ok(_) => Some(Fault::NotFinite { t: self.t }),
+                Err(reason) => Some(Fault::Refused { t: self.t, reason }),
+            };
             self.cost.rejected += 1.0;
-            h = 0.5 * span;
+            h = smaller * span;
         }
+    }
+
+    /// By which factor a step may grow [1] that ends at `y` after a time `h` [s]: it must shrink by one below 1, and is right
+    /// otherwise. None where that is not asked now.
+    fn checked(&mut self, system: &impl Splitting<N>, y: &[f64; N], h: f64) -> Option<f64> {
+        let tolerance = self.tolerance?;
+        if self.unchecked < EVERY {
+            return None;
+        }
+        let from = self.y;
+        let middle = self.followed(system, self.t, &from, 0.5 * h);
+        let halves = middle.and_then(|middle| self.followed(system, self.t + 0.5 * h, &middle, 0.5 * h));
+        let Ok(halves) = halves else { return Some(0.5) };
+        let end = self.t + h;
+        let rate = system.rates(end, y);
+        self.cost.evaluations += 1.0;
+        let seen = self.sizes.seen(system, y, &rate);
+        let weights = self.sizes.weights(&tolerance, system, &self.y, h, &seen);
+        // eq. 45
+        let apart = std::array::from_fn(|n| y[n] - halves[n]);
+        let error = largest_square(&system.parts(&self.y, &apart), &weights).sqrt() / SHARE;
+        if !error.is_finite() {
+            return Some(0.5);
+        }
+        let factor = SAFETY * power(error, -1.0 / f64::from(self.composition.order + 1));
+        if error <= 1.0 {
+            self.sizes.take(&seen, 1.0);
+            self.cost.error_estimate += SHARE * error;
+        }
+        Some(if error > 1.0 { factor.max(0.1) } else { factor.clamp(1.0, MOST_GROWTH) })
     }
 
     /// One step of size `h` [s], wherever it ends.
@@ -250,10 +329,21 @@ impl<const N: usize> Composed<N> {
         y
     }
 
+    /// Goes on to time `end` [s] and state `y` after a time `h` [s].
     fn accept(&mut self, end: f64, y: [f64; N], h: f64) {
         (self.start, self.start_y, self.last) = (self.t, self.y, h);
         (self.t, self.y, self.h) = (end, y, self.size);
         self.answer = Answer::none();
+        self.unchecked += 1;
         self.cost.steps += 1.0;
+    }
+
+    /// The size of steps from here on, after one of size `wish` [s], of which `h` [s] were left, may grow by `factor` [1]. Errors
+    /// add up least where steps are of one size, so it is changed only where that pays.
+    fn resize(&mut self, wish: f64, h: f64, factor: f64) {
+        let (is_whole, grows) = (h >= 0.999 * wish, factor >= GROWTH);
+        self.size = if is_whole && grows { factor * h } else { wish };
+        self.unchecked = if is_whole && !grows { 0 } else { EVERY };
+        self.h = self.size;
     }
 }

@@ -7,18 +7,19 @@ use super::answer::Answer;
 use super::control::Controller;
 use super::power::power;
 use super::segment::Segment;
+use super::sizes::{Sizes, Squares, largest_square};
 use super::tableau::{DOP853, MOST_STAGES, Tableau};
-use super::{Cost, Fault, Refusal, System, Tolerance, end_of_step, mean_square};
+use super::{Cost, Fault, LEAST_FIRST, Refusal, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::stored;
+use std::ops::Range;
 
 /// A method at work: where it stands, its last step as a polynomial, and what it spent.
 #[derive(Clone, Debug)]
 pub struct Explicit<const N: usize> {
     tableau: &'static Tableau,
-    tolerance: Tolerance<N>,
-    /// The share of each component in the error norm: 1/n of n that count.
-    share: f64,
+    tolerance: Tolerance,
+    sizes: Sizes<N>,
     controller: Controller,
     cost: Cost,
     /// The time reached [s], and the state there.
@@ -28,35 +29,28 @@ pub struct Explicit<const N: usize> {
     h: f64,
     /// The stages k_i of the last step; `k[tableau.last]` is the rate at its end.
     k: [[f64; N]; MOST_STAGES],
-    /// Attempts in a row that got nowhere.
-    stall: u32,
     segment: Segment<N>,
 }
 
-stored!(Explicit<const N: usize> { tableau, tolerance, share, controller, cost, t, y, h, k, stall, segment });
+stored!(Explicit<const N: usize> { tableau, tolerance, sizes, controller, cost, t, y, h, k, segment });
 
 /// A refused step is tried again with this part of it.
 const REFUSED: f64 = 0.6;
 
-/// A first step spans at least so many units in the last place of the time.
-const LEAST_FIRST: f64 = 100.0;
-
-/// So many attempts in a row may be shorter than what gets anywhere: a first step may start tiny and grow. Steps that
-/// succeed are borne with twice as long, so that the reason told is that of one that did not.
-const PATIENCE: u32 = 1000;
+/// A first step is guessed from what changes within this time, at most [s].
+const LONGEST_TRIAL: f64 = 1e-2;
 
 impl<const N: usize> Explicit<N> {
     /// Starts at time `t` [s] and state `y`.
     pub fn start(
         tableau: &'static Tableau,
-        tolerance: Tolerance<N>,
+        tolerance: Tolerance,
         system: &impl System<N>,
         t: f64,
         y: [f64; N],
     ) -> Self {
         let mut method = Self {
             tableau,
-            share: tolerance.share(),
             tolerance,
             controller: Controller::new(tableau.error_order),
             t,
@@ -64,7 +58,10 @@ impl<const N: usize> Explicit<N> {
             segment: Segment { t, y, ..Segment::blank() },
             ..Self::blank()
         };
-        method.k[tableau.last] = method.evaluate(system, t, &y);
+        let rate = method.evaluate(system, t, &y);
+        method.k[tableau.last] = rate;
+        method.sizes = Sizes::at_start(&tolerance, system, &y, &rate);
+        method.segment.sizes = method.sizes;
         // A first guess may be too short to advance a late time; one too long is rejected.
         method.h = method.first_step(system).max(LEAST_FIRST * ulp(t));
         method
@@ -74,15 +71,14 @@ impl<const N: usize> Explicit<N> {
     pub fn blank() -> Self {
         Self {
             tableau: &DOP853,
-            tolerance: Tolerance { absolute: [0.0; N], relative: [0.0; N] },
-            share: 0.0,
+            tolerance: Tolerance::default(),
+            sizes: Sizes::blank(),
             controller: Controller::new(DOP853.error_order),
             cost: Cost::default(),
             t: 0.0,
             y: [0.0; N],
             h: 0.0,
             k: [[0.0; N]; MOST_STAGES],
-            stall: 0,
             segment: Segment::blank(),
         }
     }
@@ -124,8 +120,15 @@ impl<const N: usize> Explicit<N> {
 
     /// Goes back to a time `t` [s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, system: &impl System<N>, t: f64, y: [f64; N]) {
+        let Segment { t: start, h, sizes, .. } = self.segment;
+        let is_within = t < self.t;
         self.t = t;
         self.go_on_from(system, y);
+        if is_within {
+            // The sizes of what lies ahead are forgotten.
+            self.sizes = sizes;
+            self.sizes.take(&sizes.seen(system, &y, self.rate()), (t - start) / h);
+        }
     }
 
     /// Goes on from another description `y` of the state reached. What the last step's dense output needs of the old
@@ -140,37 +143,49 @@ impl<const N: usize> Explicit<N> {
         self.y[component] = value;
     }
 
+    /// How large the motion is.
+    pub fn sizes(&self) -> Sizes<N> {
+        self.sizes
+    }
+
+    /// The same in place of another method at the same state, with its sizes and its cost, and with a next step of `h` [s].
+    pub fn instead(self, h: f64, sizes: Sizes<N>, cost: Cost) -> Self {
+        let evaluations = cost.evaluations + self.cost.evaluations;
+        Self { h, sizes, cost: Cost { evaluations, ..cost }, ..self }
+    }
+
+    /// From now on excursions of these components count from 0.
+    pub fn recount(&mut self, components: Range<usize>) {
+        self.sizes.origin[components].fill(0.0);
+    }
+
     /// What the run has cost so far.
     pub fn cost(&self) -> Cost {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward of the method's own choice, but not past time `until` [s]. Where none is possible, the method
-    /// stands as before.
-    ///
-    /// Steps below `least` [s] get nowhere: after [`PATIENCE`] of them in a row, none is possible.
-    pub fn step(&mut self, system: &impl System<N>, least: f64, until: f64) -> Result<(), Fault> {
+    /// One step forward of the method's own choice, but not past time `until` [s], while the run has taken at most `most`
+    /// evaluations. Where none is possible, the method stands as before.
+    pub fn step(&mut self, system: &impl System<N>, most: f64, until: f64) -> Result<(), Fault> {
         let (rate, h) = (self.k[self.tableau.last], self.h);
         if !rate.iter().all(|rate| rate.is_finite()) {
             return Err(Fault::NotFinite { t: self.t });
         }
-        let (mut obstacle, mut patience) = (None, 2 * PATIENCE);
+        let mut obstacle = None;
         loop {
-            self.stall = if self.h < least { self.stall + 1 } else { 0 };
             // A step that is not a number does not advance the time either.
-            let advances = self.t + 0.1 * self.h > self.t;
-            if !advances || self.stall > patience {
-                (self.k[self.tableau.last], self.h, self.stall) = (rate, h, 0);
-                return Err(
-                    obstacle.map_or(Fault::Underflow { t: self.t }, |obstacle: Obstacle| obstacle.fault(self.t))
-                );
+            let advances = self.t + 0.1 * self.h > self.t && self.h > SHRUNK * h;
+            if !advances || self.cost.evaluations > most {
+                (self.k[self.tableau.last], self.h) = (rate, h);
+                let fault = if advances { Fault::Spent { t: self.t } } else { Fault::Underflow { t: self.t } };
+                return Err(obstacle.map_or(fault, |obstacle: Obstacle| obstacle.fault(self.t)));
             }
             let wish = self.h;
             let end = end_of_step(self.t, self.h, until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             self.h = end - self.t;
             self.k[0] = rate;
-            let (y, error) = self.attempt::<true>(system);
+            let Attempt { y, error, seen } = self.attempt::<true>(system);
             let mut least_factor = 0.0;
             obstacle = if !error.is_finite() {
                 Some(Obstacle::NotFinite)
@@ -180,15 +195,14 @@ impl<const N: usize> Explicit<N> {
                 least_factor = REFUSED;
                 Some(Obstacle::Refused(refusal))
             } else {
-                let cut = self.h < 0.999 * wish;
-                self.accept(end, y, error);
-                if cut {
+                let share = if self.h < 0.999 * wish { self.h / wish } else { 1.0 };
+                self.accept(end, y, error, &seen, share);
+                if share < 1.0 {
                     // What was cut short says little about the step that may follow.
                     self.h = self.h.max(wish);
                 }
                 return Ok(());
             };
-            patience = PATIENCE;
             self.cost.rejected += 1.0;
             let factor = self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
             self.h *= factor.max(least_factor);
@@ -199,8 +213,8 @@ impl<const N: usize> Explicit<N> {
     pub fn fixed_step(&mut self, system: &impl System<N>, h: f64) {
         self.h = h;
         self.k[0] = self.k[self.tableau.last];
-        let (y, _) = self.attempt::<false>(system);
-        self.accept(self.t + h, y, 0.0);
+        let Attempt { y, seen, .. } = self.attempt::<false>(system);
+        self.accept(self.t + h, y, 0.0, &seen, 1.0);
         self.h = h;
     }
 
@@ -209,9 +223,11 @@ impl<const N: usize> Explicit<N> {
         system.rates(t, y)
     }
 
-    fn accept(&mut self, end: f64, y: [f64; N], error: f64) {
+    fn accept(&mut self, end: f64, y: [f64; N], error: f64, seen: &Squares, share: f64) {
         let segment = &mut self.segment;
         (segment.t, segment.h, segment.y, segment.dense) = (self.t, self.h, self.y, false);
+        segment.sizes = self.sizes;
+        self.sizes.take(seen, share);
         if segment.rough {
             // Only such a step is read by what an answer keeps.
             (segment.rough, segment.answer) = (false, Answer::none());
@@ -225,26 +241,37 @@ impl<const N: usize> Explicit<N> {
         self.h *= self.controller.accepted(error);
     }
 
-    /// A first step from the sizes of y, dy/dt and the change of dy/dt (Hairer, Nørsett and Wanner I, section II.4).
+    /// A first step from the rate of the state and the change of that rate (Hairer, Nørsett and Wanner I, section II.4).
     fn first_step(&mut self, system: &impl System<N>) -> f64 {
         let (t, y, rate) = (self.t, self.y, self.k[self.tableau.last]);
-        let weights = self.tolerance.weights(&y.map(f64::abs));
-        let share = self.share;
-        let norm = |v: &[f64; N]| mean_square(v, &weights, share).sqrt();
-        let (size, speed) = (norm(&y), norm(&rate));
-        let trial = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
+        let weights = self.weights(system, f64::INFINITY, &self.sizes.seen(system, &y, &rate));
+        let norm = |v: &[f64; N]| largest_square(&system.parts(&y, v), &weights).sqrt();
+        let speed = norm(&rate);
+        // In which time some size changes by a hundredth.
+        let trial = (0.01 / (self.tolerance.relative * speed)).min(LONGEST_TRIAL);
         let ahead: [f64; N] = std::array::from_fn(|n| y[n] + trial * rate[n]);
         let rate_ahead = self.evaluate(system, t + trial, &ahead);
         let change: [f64; N] = std::array::from_fn(|n| rate_ahead[n] - rate[n]);
-        let curvature = norm(&change) / trial;
-        let largest = speed.max(curvature);
-        let step = if largest <= 1e-15 {
-            (trial * 1e-3).max(1e-6)
-        } else {
-            power(0.01 / largest, 1.0 / self.tableau.error_order)
-        };
+        let largest = speed.max(norm(&change) / trial);
+        let step = power(0.01 / largest, 1.0 / self.tableau.error_order);
         if step.is_finite() { step.min(100.0 * trial) } else { trial }
     }
+
+    /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
+    #[inline(always)]
+    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
+        self.sizes.weights(&self.tolerance, system, &self.y, h, seen)
+    }
+}
+
+/// What came of a step that was tried.
+struct Attempt<const N: usize> {
+    /// The state at its end.
+    y: [f64; N],
+    /// The norm of its error in units of the tolerance [1], or 0 where it is not asked for.
+    error: f64,
+    /// The sizes of the motion there.
+    seen: Squares,
 }
 
 /// What stood in the way of an attempt, besides its error.

@@ -1,6 +1,7 @@
 //! The last step of a pair, and the state within it.
 
 use super::answer::Answer;
+use super::sizes::Sizes;
 use super::tableau::MOST_DENSE;
 use crate::stored::stored;
 
@@ -13,6 +14,8 @@ pub struct Segment<const N: usize> {
     pub h: f64,
     /// The state at its start.
     pub y: [f64; N],
+    /// How large the motion was there.
+    pub sizes: Sizes<N>,
     /// r_2 and further of eq. 24; the first is there from the start, the others once somebody asked.
     pub r: [[f64; N]; MOST_DENSE - 1],
     /// Whether `r` is filled.
@@ -23,7 +26,7 @@ pub struct Segment<const N: usize> {
     pub answer: Answer<N>,
 }
 
-stored!(Segment<const N: usize> { t, h, y, r, dense, rough, answer });
+stored!(Segment<const N: usize> { t, h, y, sizes, r, dense, rough, answer });
 
 impl<const N: usize> Segment<N> {
     /// None yet.
@@ -32,6 +35,7 @@ impl<const N: usize> Segment<N> {
             t: 0.0,
             h: 0.0,
             y: [0.0; N],
+            sizes: Sizes::blank(),
             r: [[0.0; N]; MOST_DENSE - 1],
             dense: false,
             rough: false,

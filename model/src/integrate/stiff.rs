@@ -4,14 +4,18 @@
 mod collocation;
 pub mod lu;
 pub mod radau;
+pub mod spectrum;
 
 use super::answer::Answer;
 use super::control::Controller;
-use super::{Cost, Fault, System, Tolerance, end_of_step, mean_square};
+use super::power::power;
+use super::sizes::{GROUPS, Sizes, Squares, largest_square};
+use super::{Cost, Fault, LEAST_FIRST, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::stored;
 use collocation::Collocation;
 use radau::{ERROR, STAGES, combined, weights};
+use std::ops::Range;
 
 /// A system that knows its derivatives.
 pub trait Differentiable<const N: usize>: System<N> {
@@ -23,9 +27,9 @@ pub trait Differentiable<const N: usize>: System<N> {
 #[derive(Clone, Debug)]
 pub struct Stiff<const N: usize> {
     /// Of the error estimate, which is of order 3.
-    tolerance: Tolerance<N>,
-    /// Newton's method stops at this part of the tolerance [1]: ten times sooner than radau5, whose κ leaves errors of the
-    /// slow motion beyond the tolerance where a support is stiff.
+    tolerance: Tolerance,
+    sizes: Sizes<N>,
+    /// Newton's method stops at this part of it [1].
     precision: f64,
     controller: Controller,
     cost: Cost,
@@ -35,8 +39,6 @@ pub struct Stiff<const N: usize> {
     rate: [f64; N],
     /// Size of the next step [s].
     h: f64,
-    /// Attempts in a row that got nowhere.
-    stall: u32,
     /// Iterations of Newton's method in the last attempt.
     iterations: u32,
     /// Whether the last step ended where the next one begins, so that its polynomial foretells it.
@@ -44,7 +46,7 @@ pub struct Stiff<const N: usize> {
     segment: Segment<N>,
 }
 
-stored!(Stiff<const N: usize> { tolerance, precision, controller, cost, t, y, rate, h, stall, iterations, smooth, segment });
+stored!(Stiff<const N: usize> { tolerance, sizes, precision, controller, cost, t, y, rate, h, iterations, smooth, segment });
 
 /// The last step.
 #[derive(Clone, Copy, Debug)]
@@ -56,21 +58,27 @@ struct Segment<const N: usize> {
     /// The state at its start, and the Jacobian that solved it.
     y: [f64; N],
     jacobian: [[f64; N]; N],
+    /// How large the motion was there.
+    sizes: Sizes<N>,
     /// z_i: what the state has gained at each stage.
     z: [[f64; N]; STAGES],
     answer: Answer<N>,
 }
 
-stored!(Segment<const N: usize> { t, h, y, jacobian, z, answer });
+stored!(Segment<const N: usize> { t, h, y, jacobian, sizes, z, answer });
 
 /// A refused step is tried again with this part of it, and so is one that Newton's method does not solve.
 const REFUSED: f64 = 0.5;
 
-/// A first step spans at least so many units in the last place of the time.
-const LEAST_FIRST: f64 = 100.0;
+/// The estimate's tolerance is this times the fourth fifth of the run's [1]: measured, so that a tolerance means about what it does
+/// with the other methods.
+const LOOSER: f64 = 2.0;
 
-/// So many attempts in a row may be shorter than what gets anywhere.
-const PATIENCE: u32 = 1000;
+/// Newton's method stops where what is left is this part of the run's tolerance [1].
+const PRECISION: f64 = 0.1;
+
+/// A first step is no longer than this [s].
+const LONGEST_FIRST: f64 = 1e-2;
 
 /// Newton's method gives up after so many iterations.
 const MOST_ITERATIONS: u32 = 10;
@@ -79,34 +87,38 @@ const MOST_ITERATIONS: u32 = 10;
 const FEW_ITERATIONS: u32 = 4;
 
 impl<const N: usize> Stiff<N> {
-    /// Starts at time `t` [s] and state `y`. Some component of the tolerance is relative.
-    pub fn start(tolerance: Tolerance<N>, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
-        let relative = tolerance.relative.into_iter().fold(0.0, f64::max);
-        // The estimate is of order 3, the step of order 5: what the one calls 0.1 tol^(2/3) the other keeps to tol
-        // (radau5).
-        let looser = 0.1 / libm::cbrt(relative);
-        let [absolute, relative_each] = [tolerance.absolute, tolerance.relative].map(|size| size.map(|x| x * looser));
+    /// Starts at time `t` [s] and state `y`.
+    pub fn start(tolerance: Tolerance, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
+        // The estimate falls with h⁴ and the error of a run with h⁵: what the one calls c tol^(4/5) the other keeps to tol.
+        let looser = LOOSER / power(tolerance.relative, 0.2);
+        let within = Tolerance {
+            relative: tolerance.relative * looser,
+            absolute: tolerance.absolute.map(|square| square * looser * looser),
+            ..tolerance
+        };
         let mut method = Self {
-            tolerance: Tolerance { absolute, relative: relative_each },
-            precision: 0.1 * (looser * relative).sqrt().min(0.03),
+            tolerance: within,
+            precision: PRECISION / looser,
             t,
             y,
             segment: Segment { t, y, ..Segment::blank() },
             ..Self::blank()
         };
         method.go_on_from(system, y);
-        // A hundredth of the time in which the state changes; what is too long is rejected.
-        let sizes = y.map(f64::abs);
-        let [size, speed] = [&y, &method.rate].map(|v| method.tolerance.norm(v, &sizes));
-        let first = if size < 1e-5 || speed < 1e-5 { 1e-6 } else { 0.01 * size / speed };
-        method.h = first.max(LEAST_FIRST * ulp(t));
+        method.sizes = Sizes::at_start(&within, system, &y, &method.rate);
+        method.segment.sizes = method.sizes;
+        // In which some size changes by a hundredth; what is too long is rejected.
+        let weights = method.weights(system, f64::INFINITY, &method.sizes.seen(system, &y, &method.rate));
+        let speed = largest_square(&system.parts(&y, &method.rate), &weights).sqrt();
+        method.h = (0.01 / (within.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t));
         method
     }
 
     /// Nothing yet: a place for what was stored.
     pub fn blank() -> Self {
         Self {
-            tolerance: Tolerance { absolute: [0.0; N], relative: [0.0; N] },
+            tolerance: Tolerance::default(),
+            sizes: Sizes::blank(),
             precision: 0.0,
             controller: Controller::new(4.0),
             cost: Cost::default(),
@@ -114,7 +126,6 @@ impl<const N: usize> Stiff<N> {
             y: [0.0; N],
             rate: [0.0; N],
             h: 0.0,
-            stall: 0,
             iterations: 0,
             smooth: false,
             segment: Segment::blank(),
@@ -158,8 +169,15 @@ impl<const N: usize> Stiff<N> {
 
     /// Goes back to a time `t` [s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, system: &impl System<N>, t: f64, y: [f64; N]) {
+        let Segment { t: start, h, sizes, .. } = self.segment;
+        let is_within = t < self.t;
         self.t = t;
         self.go_on_from(system, y);
+        if is_within {
+            // The sizes of what lies ahead are forgotten.
+            self.sizes = sizes;
+            self.sizes.take(&sizes.seen(system, &y, &self.rate), (t - start) / h);
+        }
     }
 
     /// Goes on from another description `y` of the state reached.
@@ -174,56 +192,69 @@ impl<const N: usize> Stiff<N> {
         self.y[component] = value;
     }
 
+    /// How large the motion is.
+    pub fn sizes(&self) -> Sizes<N> {
+        self.sizes
+    }
+
+    /// The same in place of another method at the same state, with its sizes and its cost, and with a next step of `h` [s].
+    pub fn instead(self, h: f64, sizes: Sizes<N>, cost: Cost) -> Self {
+        let evaluations = cost.evaluations + self.cost.evaluations;
+        Self { h, sizes, cost: Cost { evaluations, ..cost }, ..self }
+    }
+
+    /// From now on excursions of these components count from 0.
+    pub fn recount(&mut self, components: Range<usize>) {
+        self.sizes.origin[components].fill(0.0);
+    }
+
     /// What the run has cost so far. A matrix of derivatives counts as one evaluation for each of its columns.
     pub fn cost(&self) -> Cost {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward of the method's own choice, but not past time `until` [s]. Where none is possible, the method
-    /// stands as before.
-    ///
-    /// Steps below `least` [s] get nowhere: after [`PATIENCE`] of them in a row, none is possible.
-    pub fn step(&mut self, system: &impl Differentiable<N>, least: f64, until: f64) -> Result<(), Fault> {
+    /// One step forward of the method's own choice, but not past time `until` [s], while the run has taken at most `most`
+    /// evaluations. Where none is possible, the method stands as before.
+    pub fn step(&mut self, system: &impl Differentiable<N>, most: f64, until: f64) -> Result<(), Fault> {
         if !self.rate.iter().all(|rate| rate.is_finite()) {
             return Err(Fault::NotFinite { t: self.t });
         }
         let before = self.h;
         let jacobian = self.differentiate(system);
-        let mut fault = Fault::Underflow { t: self.t };
+        let mut obstacle = None;
         loop {
-            self.stall = if self.h < least { self.stall + 1 } else { 0 };
             // A step that is not a number does not advance the time either.
-            let advances = self.t + 0.1 * self.h > self.t;
-            if !advances || self.stall > PATIENCE {
-                (self.h, self.stall) = (before, 0);
-                return Err(fault);
+            let advances = self.t + 0.1 * self.h > self.t && self.h > SHRUNK * before;
+            if !advances || self.cost.evaluations > most {
+                self.h = before;
+                let fault = if advances { Fault::Spent { t: self.t } } else { Fault::Underflow { t: self.t } };
+                return Err(obstacle.unwrap_or(fault));
             }
             let wish = self.h;
             let end = end_of_step(self.t, self.h, until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             self.h = end - self.t;
-            let (z, error) = self.attempt(system, &jacobian);
+            let Attempt { z, error, rate, seen } = self.attempt(system, end, &jacobian);
             let y = self.ended(&z);
             let mut least_factor = REFUSED;
-            fault = if !error.is_finite() {
-                Fault::NotFinite { t: self.t }
+            obstacle = if !error.is_finite() {
+                Some(Fault::NotFinite { t: self.t })
             } else if error > 1.0 {
                 least_factor = 0.0;
-                Fault::Underflow { t: self.t }
+                None
             } else if let Err(reason) = system.admits(end, &y) {
-                Fault::Refused { t: self.t, reason }
+                Some(Fault::Refused { t: self.t, reason })
             } else {
-                let cut = self.h < 0.999 * wish;
-                self.accept(system, end, jacobian, z, error);
-                if cut {
+                let share = if self.h < 0.999 * wish { self.h / wish } else { 1.0 };
+                self.accept(end, jacobian, Attempt { z, error, rate, seen }, share);
+                if share < 1.0 {
                     // What was cut short says little about the step that may follow.
                     self.h = self.h.max(wish);
                 }
                 return Ok(());
             };
             self.cost.rejected += 1.0;
-            let measured = matches!(fault, Fault::Underflow { .. });
-            let factor = self.controller.rejected(if measured { error } else { f64::INFINITY });
+            let factor = self.controller.rejected(if obstacle.is_none() { error } else { f64::INFINITY });
             self.h *= factor.max(least_factor);
         }
     }
@@ -232,15 +263,15 @@ impl<const N: usize> Stiff<N> {
     pub fn fixed_step(&mut self, system: &impl Differentiable<N>, h: f64) {
         self.h = h;
         let jacobian = self.differentiate(system);
-        let (z, _) = self.attempt(system, &jacobian);
-        self.accept(system, self.t + h, jacobian, z, 0.0);
+        let attempt = self.attempt(system, self.t + h, &jacobian);
+        self.accept(self.t + h, jacobian, Attempt { error: 0.0, ..attempt }, 1.0);
         self.h = h;
     }
 
     /// The state at a time `t` [s] within the last step: that of a shorter step from the same start, which the polynomial of
     /// collocation, of order 3 only, foretells.
     pub fn dense(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
-        let Segment { t: start, h, y, jacobian, z, answer } = self.segment;
+        let Segment { t: start, h, y, jacobian, z, answer, .. } = self.segment;
         if let Some(answer) = answer.at(t) {
             return answer;
         }
@@ -268,14 +299,23 @@ impl<const N: usize> Stiff<N> {
         system.jacobian(self.t + 0.5 * self.h, &std::array::from_fn(|n| self.y[n] + ahead[n]))
     }
 
-    /// A step of size h from where the method stands: its stages and the norm of its error in units of the tolerance [1].
-    fn attempt(&mut self, system: &impl System<N>, jacobian: &[[f64; N]; N]) -> ([[f64; N]; STAGES], f64) {
+    /// A step of size h from where the method stands to time `end` [s].
+    fn attempt(&mut self, system: &impl System<N>, end: f64, jacobian: &[[f64; N]; N]) -> Attempt<N> {
         let collocation = Collocation::new(jacobian, self.h, system.depended_on());
         let guess = self.foretold();
-        match self.solve(system, self.t, self.y, &collocation, guess) {
-            Some(z) => (z, self.error_norm(system, &collocation, &z)),
-            None => (guess, f64::NAN),
-        }
+        let Some(z) = self.solve(system, self.t, self.y, &collocation, guess) else {
+            return Attempt { z: guess, error: f64::NAN, rate: self.rate, seen: [0.0; GROUPS] };
+        };
+        let y = self.ended(&z);
+        let rate = self.evaluate(system, end, &y);
+        let seen = self.sizes.seen(system, &y, &rate);
+        let error = self.error_norm(system, &collocation, &z, &seen);
+        Attempt { z, error, rate, seen }
+    }
+
+    /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
+    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
+        self.sizes.weights(&self.tolerance, system, &self.y, h, seen)
     }
 
     /// The stages that the polynomial of the last step leads to.
@@ -302,7 +342,7 @@ impl<const N: usize> Stiff<N> {
         collocation: &Collocation<N>,
         guess: [[f64; N]; STAGES],
     ) -> Option<[[f64; N]; STAGES]> {
-        let (weights, share) = (self.tolerance.weights(&y.map(f64::abs)), self.tolerance.share());
+        let weights = self.sizes.weights(&self.tolerance, system, &y, collocation.h, &[0.0; GROUPS]);
         let (mut z, mut before) = (guess, f64::INFINITY);
         let mut w = collocation.transformed(&z);
         for iteration in 0..MOST_ITERATIONS {
@@ -320,8 +360,8 @@ impl<const N: usize> Stiff<N> {
                 }
             }
             z = radau::T.map(|row| combined(&row, &w));
-            let squares = change.iter().map(|change| mean_square(change, &weights, share));
-            let now = (squares.sum::<f64>() / STAGES as f64).sqrt();
+            let squares = change.map(|change| largest_square(&system.parts(&y, &change), &weights));
+            let now = (squares.iter().sum::<f64>() / STAGES as f64).sqrt();
             // What is left, by the rate at which the changes shrink.
             let rate = if iteration == 0 { 0.5 } else { now / before };
             if now == 0.0 || (rate < 1.0 && rate / (1.0 - rate) * now <= self.precision) {
@@ -336,39 +376,39 @@ impl<const N: usize> Stiff<N> {
         None
     }
 
-    /// The norm of the error of a step, in units of the tolerance [1].
-    fn error_norm(&mut self, system: &impl System<N>, collocation: &Collocation<N>, z: &[[f64; N]; STAGES]) -> f64 {
-        let end = self.ended(z);
-        let size: [f64; N] = std::array::from_fn(|n| self.y[n].abs().max(end[n].abs()));
+    /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance [1].
+    fn error_norm(
+        &mut self,
+        system: &impl System<N>,
+        collocation: &Collocation<N>,
+        z: &[[f64; N]; STAGES],
+        seen: &Squares,
+    ) -> f64 {
+        let (y, weights) = (self.y, self.weights(system, self.h, seen));
+        let norm = |error: &[f64; N]| largest_square(&system.parts(&y, error), &weights).sqrt();
         let estimate = combined(&ERROR, z).map(|sum| sum / self.h);
         // eq. 44: (γ/h I − J) err = f(t, y) + Σ e_i z_i/h
         let error = collocation.filtered(&std::array::from_fn(|n| self.rate[n] + estimate[n]));
-        let norm = self.tolerance.norm(&error, &size);
-        if norm <= 1.0 {
-            return norm;
+        let once = norm(&error);
+        if once <= 1.0 {
+            return once;
         }
         // A stiff part that has not died out yet shows at every size of the step: it is filtered once more.
         let rate = self.evaluate(system, self.t, &std::array::from_fn(|n| self.y[n] + error[n]));
-        let error = collocation.filtered(&std::array::from_fn(|n| rate[n] + estimate[n]));
-        self.tolerance.norm(&error, &size)
+        norm(&collocation.filtered(&std::array::from_fn(|n| rate[n] + estimate[n])))
     }
 
     fn ended(&self, z: &[[f64; N]; STAGES]) -> [f64; N] {
         std::array::from_fn(|n| self.y[n] + z[STAGES - 1][n])
     }
 
-    fn accept(
-        &mut self,
-        system: &impl System<N>,
-        end: f64,
-        jacobian: [[f64; N]; N],
-        z: [[f64; N]; STAGES],
-        error: f64,
-    ) {
+    /// Goes on to time `end` [s], over this `share` of a whole step [1].
+    fn accept(&mut self, end: f64, jacobian: [[f64; N]; N], attempt: Attempt<N>, share: f64) {
+        let Attempt { z, error, rate, seen } = attempt;
         let y = self.ended(&z);
-        self.segment = Segment { t: self.t, h: self.h, y: self.y, jacobian, z, ..Segment::blank() };
-        self.t = end;
-        self.go_on_from(system, y);
+        self.segment = Segment { t: self.t, h: self.h, y: self.y, jacobian, sizes: self.sizes, z, ..Segment::blank() };
+        (self.t, self.y, self.rate) = (end, y, rate);
+        self.sizes.take(&seen, share);
         self.smooth = true;
         self.cost.steps += 1.0;
         self.cost.error_estimate += error;
@@ -377,8 +417,20 @@ impl<const N: usize> Stiff<N> {
     }
 }
 
+/// What came of a step that was tried.
+struct Attempt<const N: usize> {
+    /// What the state gains at each stage.
+    z: [[f64; N]; STAGES],
+    /// The norm of the error in units of the tolerance [1]; not a number where the equations were not solved.
+    error: f64,
+    /// The rate of the state at its end, and the sizes of the motion there.
+    rate: [f64; N],
+    seen: Squares,
+}
+
 impl<const N: usize> Segment<N> {
     fn blank() -> Self {
-        Self { t: 0.0, h: 0.0, y: [0.0; N], jacobian: [[0.0; N]; N], z: [[0.0; N]; STAGES], answer: Answer::none() }
+        let (jacobian, sizes, z) = ([[0.0; N]; N], Sizes::blank(), [[0.0; N]; STAGES]);
+        Self { t: 0.0, h: 0.0, y: [0.0; N], jacobian, sizes, z, answer: Answer::none() }
     }
 }

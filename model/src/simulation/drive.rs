@@ -1,11 +1,13 @@
 //! A method that drives a rotor: charts, whole turns of φ, and the answer at any time of the last step.
 
+use super::auto::Auto;
+use super::growth::Watch;
 use super::method::Method;
 use super::plan::Plan;
 use super::start::{Motion, tolerance};
 use crate::effects::Effects;
 use crate::energy::{Ledger, kinetic};
-use crate::integrate::{Cost, Fault, Refusal};
+use crate::integrate::{Cost, Fault, Refusal, Tolerance};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart};
 use crate::rotor::{self, Rotor, imposed};
@@ -21,20 +23,24 @@ pub(super) struct Drive<E, const N: usize> {
     /// The rotor, in the chart and with the whole turns of the time that the method has reached.
     rotor: Rotor<E>,
     method: Method<N>,
+    /// Where it is that of `auto`.
+    auto: Option<Auto>,
+    tolerance: Tolerance,
+    /// So many evaluations a communication step may take.
+    most: f64,
     last: LastStep,
-    /// The longest step so far [s].
-    longest: f64,
-    /// The communication point [s].
+    /// The communication point [s], and when the run stops.
     t: f64,
+    stop: f64,
     /// Total energy at the start [J].
     total_at_start: f64,
-    relative_tolerance: f64,
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
+    watch: Watch,
 }
 
 stored!(Drive<E: Effects, const N: usize> {
-    rotor, method, last, longest, t, total_at_start, relative_tolerance, tilted
+    rotor, method, auto, tolerance, most, last, t, stop, total_at_start, tilted, watch
 });
 
 /// What must be known of the last step to read it.
@@ -59,19 +65,16 @@ const MUCH: f64 = 1.2;
 /// So near −e [rad], a law that ends close to it makes every step looked at: an axis may go there and back within one.
 const NEAR: f64 = 1.0;
 
-/// Steps below this part of the time wanted, or of the longest step, get nowhere: that would take 10¹² of them.
-const LEAST_PART: f64 = 1e-12;
+/// No step is longer than so many communication steps: a rotor at rest would ask for one without end [1].
+const AHEAD: f64 = 1e6;
 
 /// φ [rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
 /// last place for the remainder of φ to stay exact.
-pub(super) const LONGEST_TURN: f64 = 16.0 * TAU;
+const LONGEST_TURN: f64 = 16.0 * TAU;
 
 /// γ [rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
 /// keep the step from growing beyond what its dense output can follow.
 const LONGEST_TILT: f64 = 1.0;
-
-/// The sine of the angle between K and the axis, up to which the axis stays where it is.
-const NARROW: f64 = 0.25;
 
 /// The azimuth of γ from −e [rad] advances by about so much at most in a step, so that its turns can be counted.
 const LONGEST_WHIRL: f64 = 1.0;
@@ -79,14 +82,6 @@ const LONGEST_WHIRL: f64 = 1.0;
 /// Where the ledger leaves over more than this part of all energy that there is, was, came and went, a method without an
 /// error estimate has lost the motion [1].
 const LOST: f64 = 0.1;
-
-/// So many evaluations of the rates in one communication step are enough: one that would take hours ends after minutes.
-const MOST: f64 = 1e9;
-
-const TOO_MUCH: Refusal = Refusal(
-    "this communication step has taken more than 1e9 evaluations, so what moves here is too fast to be followed for so \
-     long: take shorter communication steps, a looser solver.relative_tolerance or another solver.method",
-);
 
 const TOO_LONG: Refusal = Refusal(
     "the energy is not kept, so the steps of the symplectic method are too long for these forces: shorten \
@@ -96,22 +91,27 @@ const TOO_LONG: Refusal = Refusal(
 impl<E: Effects, const N: usize> Drive<E, N> {
     /// A drive from time `t` [s] of a motion that shows `reading` at its start, for `span` [s], where that is known.
     pub(super) fn start(start: Motion<E>, reading: &Reading, setup: &Setup, t: f64, span: Option<f64>) -> Self {
+        let tolerance = tolerance(setup, &start, t);
         let Motion { rotor, state } = start;
         let mut y = [0.0; N];
         y.copy_from_slice(&state[..N]);
-        let tolerance = tolerance(setup, rotor.effects.follows_phi());
-        let method = Method::start(Plan::new(&setup.solver, &rotor, t, &y, span), tolerance, &rotor, t, y);
+        let plan = Plan::new(&setup.solver, &rotor.effects);
+        let method = Method::start(plan, tolerance, &rotor, t, y);
         let last = LastStep { chart: rotor.chart, turns: rotor.turns, gamma: gamma(&y), closest: None };
         let mut drive = Self {
             rotor,
             method,
+            auto: matches!(plan, Plan::Auto).then(Auto::default),
+            tolerance,
+            most: setup.solver.max_evaluations,
             last,
             t,
+            stop: span.map_or(f64::INFINITY, |span| t + span),
             total_at_start: reading.ledger.total_at_start,
-            relative_tolerance: setup.solver.relative_tolerance,
             ..Self::blank()
         };
         drive.watch_tilt(last.gamma);
+        drive.watch.look(&drive.rotor, t, &y);
         drive
     }
 
@@ -120,12 +120,15 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         Self {
             rotor: Rotor::default(),
             method: Method::blank(),
+            auto: None,
+            tolerance: Tolerance::default(),
+            most: 0.0,
             last: LastStep::default(),
-            longest: 0.0,
             t: 0.0,
+            stop: 0.0,
             total_at_start: 0.0,
-            relative_tolerance: 0.0,
             tilted: false,
+            watch: Watch::default(),
         }
     }
 
@@ -139,6 +142,11 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         self.tilted
     }
 
+    /// How fast a motion grows [1/s], and since when that is known [s].
+    pub(super) fn growth(&self) -> Option<(f64, f64)> {
+        self.watch.found()
+    }
+
     fn watch_tilt(&mut self, gamma: Vector2<f64>) {
         self.tilted |= self.rotor.chart.is_tilted_back(gamma) && self.rotor.effects.needs_gamma();
     }
@@ -147,46 +155,73 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     /// at the last time reached.
     pub(super) fn advance(&mut self, t: f64, news: Option<&E>) -> Result<(), Fault> {
         assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
-        self.keeps_energy()?;
         if let Some(effects) = news {
             self.hear(effects)?;
         }
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
-        let until = if news.is_some() { t } else { f64::INFINITY };
-        if self.method.time() < t {
-            self.run_to(t, until)?;
+        let until = if news.is_some() { t } else { self.stop.max(t) };
+        if self.method.time() >= t {
+            self.t = t;
+            return Ok(());
         }
-        self.t = t;
-        self.keeps_energy()
+        if !matches!(self.method, Method::Composed(_)) {
+            return self.run_to(t, until);
+        }
+        let before = (self.t, self.method.clone(), self.last, self.rotor.chart, self.rotor.turns);
+        let outcome = self.run_to(t, until);
+        // Where the motion is lost, what stands in its way has another cause.
+        self.keeps_energy().inspect_err(|_| {
+            (self.t, self.method, self.last, self.rotor.chart, self.rotor.turns) = before;
+        })?;
+        outcome
     }
 
-    /// Steps up to time `t` [s] or past it, but not past `until` [s].
+    /// How often `auto` has gone on with another method.
+    pub(super) fn changes_of_method(&self) -> u32 {
+        self.auto.map_or(0, |auto| auto.changes())
+    }
+
+    /// What `auto` does and why.
+    pub(super) fn auto(&self) -> String {
+        let Some(auto) = &self.auto else {
+            return "auto takes symplectic: nothing acts on the rotor, so a step of any length is exact".into();
+        };
+        let t = self.method.start_time();
+        match &self.method {
+            Method::Stiff(_) => format!(
+                "auto goes on with stiff from t = {t:?} s: what changes at {:.3e} rad/s would hold dop853 to steps of {:.3e} s",
+                auto.fastest(),
+                auto.stable_step()
+            ),
+            _ if auto.changes() > 0 => format!("auto goes on with dop853 from t = {t:?} s: stiff no longer saves work"),
+            _ => "auto takes dop853, and stiff as long as stability alone would hold dop853 to short steps".into(),
+        }
+    }
+
+    /// Steps up to time `t` [s] or past it, but not past `until` [s]; the communication point is then there, or where steps
+    /// came to.
     fn run_to(&mut self, t: f64, until: f64) -> Result<(), Fault> {
-        let mut reached = self.method.time();
-        let wanted = t - reached;
-        let most = self.method.cost().evaluations + MOST;
-        while reached < t {
-            if self.method.cost().evaluations > most {
-                self.t = reached;
-                return Err(Fault::Refused { t: reached, reason: TOO_MUCH });
+        let most = self.method.cost().evaluations + self.most;
+        self.method.limit_step(AHEAD * (t - self.t));
+        while self.method.time() < t {
+            if let Some(auto) = &mut self.auto
+                && auto.is_due()
+            {
+                self.method.adapt(auto, self.tolerance, &self.rotor);
             }
-            let least = LEAST_PART * wanted.max(self.longest);
-            if let Err(fault) = self.step(least, until) {
+            if let Err(fault) = self.step(most, until) {
                 self.t = self.method.time();
-                // Where the motion is lost already, what stands in its way has another cause.
-                return self.keeps_energy().and(Err(fault));
+                return Err(fault);
             }
             self.settle(t);
-            reached = self.method.time();
         }
+        self.watch.look(&self.rotor, self.method.time(), self.method.state());
+        self.t = t;
         Ok(())
     }
 
-    /// Whether the motion reached has anything to do with the one asked for. Methods that estimate their error know.
+    /// Whether the motion reached has anything to do with the one asked for: steps of a given size estimate no error.
     fn keeps_energy(&self) -> Result<(), Fault> {
-        if !matches!(self.method, Method::Composed(_)) {
-            return Ok(());
-        }
         let ledger = self.ledger();
         let all = ledger.kinetic + ledger.potential.abs() + ledger.supplied.abs() + ledger.dissipated;
         if ledger.residual().abs() <= LOST * (all + ledger.total_at_start.abs()) {
@@ -205,9 +240,9 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     /// Goes on from the communication point with the inputs of these effects.
     fn hear(&mut self, effects: &E) -> Result<(), Fault> {
         let (mut y, chart, turns) = self.shown();
-        (self.rotor.chart, self.rotor.turns) = (chart, turns);
         self.jump(effects, chart, &mut y);
         self.rotor.effects.hear(effects);
+        (self.rotor.chart, self.rotor.turns) = (chart, turns);
         self.method.go_back(&self.rotor, self.t, y);
         self.watch_tilt(gamma(&y));
         let reached = self.rotor.reaches(gamma(&y), Chart::REACH);
@@ -225,7 +260,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
 
     /// A step that keeps to what the chart and the counting of turns allow.
     fn limit_step(&mut self) {
-        let Some(rates) = self.method.rate() else { return self.limit_drift() };
+        let Some(rates) = self.method.rate() else { return };
         let (at, rate) = (gamma(self.method.state()), gamma(rates));
         // Mostly nothing limits the step, and products tell: divisions and roots would hold up the next step.
         let (h, turning) = (self.method.next_step(), rates[PHI].abs());
@@ -243,31 +278,19 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         }
     }
 
-    /// A drift is exact and counts its turns, however long. But where a law has no limit at −e, the axis must not fly past
-    /// it unseen.
-    fn limit_drift(&mut self) {
-        if self.rotor.effects.needs_gamma() {
-            let motion = self.rotor.motion(self.method.time(), self.method.state());
-            let (k, axis) = (motion.at.k, motion.axis());
-            // About K the axis goes on a cone, of which a narrow one leads nowhere.
-            if k.cross(axis).norm() > NARROW * k.norm() {
-                self.method.limit_step(LONGEST_TILT / motion.axis_rate().norm());
-            }
-        }
-    }
-
-    fn step(&mut self, least: f64, until: f64) -> Result<(), Fault> {
+    fn step(&mut self, most: f64, until: f64) -> Result<(), Fault> {
         self.limit_step();
         // Near −e a step can pass where it may not end; then it is taken back.
-        let before = (self.rotor.chart == Chart::FromMinusE && self.rotor.effects.needs_gamma())
+        let counts_turns = self.method.counts_turns();
+        let before = (self.rotor.chart == Chart::FromMinusE && self.rotor.effects.needs_gamma() && !counts_turns)
             .then(|| (self.method.clone(), self.last));
         let mut limit = f64::INFINITY;
         loop {
-            self.method.step(&self.rotor, least, until)?;
+            self.method.step(&self.rotor, most, until)?;
             let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
             self.last = LastStep { chart: self.rotor.chart, turns: self.rotor.turns, gamma: from, closest: None };
             let near = before.is_some() && from.norm().min(to.norm()) < NEAR;
-            let turned = || !self.method.counts_turns() && azimuth_change(from, to).abs() > MUCH;
+            let turned = || !counts_turns && azimuth_change(from, to).abs() > MUCH;
             if self.rotor.chart == Chart::FromMinusE && (near || turned()) {
                 self.last.closest = Some(self.closest_to_origin());
             }
@@ -280,7 +303,6 @@ impl<E: Effects, const N: usize> Drive<E, N> {
                 _ => break,
             }
         }
-        self.longest = self.longest.max(self.method.time() - self.method.start_time());
         Ok(())
     }
 
@@ -305,6 +327,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             y[GAMMA].copy_from_slice(crossed.as_slice());
             y[PHI] = phi.remainder;
             self.method.go_on_from(&self.rotor, y);
+            self.method.recount(GAMMA);
         } else {
             let phi = Angle { turns, remainder: y[PHI] }.wrapped();
             self.rotor.turns = phi.turns;
@@ -371,7 +394,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let free = self.rotor.free_motion_in(chart, self.t, &y).when(self.t, turns);
         let motion = imposed(news.unwrap_or(&self.rotor.effects), free);
         let spent = self.method.cost();
-        let cost = Cost { error_estimate: spent.error_estimate * self.relative_tolerance, ..spent };
+        let cost = Cost { error_estimate: spent.error_estimate * self.tolerance.relative, ..spent };
         Reading::new(motion, &self.rotor.effects, work(&y), self.total_at_start, cost)
     }
 }

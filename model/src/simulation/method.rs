@@ -1,13 +1,16 @@
 //! The methods that can drive a rotor, behind one interface.
 
+use super::auto::{Auto, Verdict};
 use super::plan::Plan;
 use crate::effects::Effects;
 use crate::integrate::composition::Composed;
 use crate::integrate::explicit::Explicit;
-use crate::integrate::stiff::Stiff;
-use crate::integrate::{Cost, Fault, Tolerance};
+use crate::integrate::stiff::{Differentiable, Stiff};
+use crate::integrate::tableau::DOP853;
+use crate::integrate::{Cost, Fault, System, Tolerance};
 use crate::rotor::Rotor;
 use crate::stored::{Damaged, Stored, Walk};
+use std::ops::Range;
 
 /// A method at work.
 #[derive(Clone)]
@@ -33,11 +36,35 @@ macro_rules! each {
 
 impl<const N: usize> Method<N> {
     /// The method of the plan, at time `t` [s] and state `y`.
-    pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance<N>, rotor: &Rotor<E>, t: f64, y: [f64; N]) -> Self {
+    pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance, rotor: &Rotor<E>, t: f64, y: [f64; N]) -> Self {
         match plan {
             Plan::Explicit(tableau) => OfPair(Explicit::start(tableau, tolerance, rotor, t, y)),
-            Plan::Composed(composition, size) => OfComposition(Composed::start(composition, size, t, y)),
+            Plan::Auto => OfPair(Explicit::start(&DOP853, tolerance, rotor, t, y)),
+            Plan::Composed(composition, Some(size)) => OfComposition(Composed::start(composition, size, t, y)),
+            Plan::Composed(composition, None) => {
+                OfComposition(Composed::start_within(composition, tolerance, rotor, t, y))
+            }
             Plan::Stiff => OfCollocation(Stiff::start(tolerance, rotor, t, y)),
+        }
+    }
+
+    /// Looks whether the other adaptive method would now do better, and goes on with it. The last step can then no more be read.
+    pub fn adapt<E: Effects>(&mut self, auto: &mut Auto, tolerance: Tolerance, rotor: &Rotor<E>) {
+        let (t, y, size) = (self.time(), *self.state(), System::<N>::depended_on(rotor));
+        let jacobian = rotor.jacobian(t, &y);
+        match self {
+            OfPair(method) if auto.look_at_explicit(method.next_step(), &jacobian, size) == Verdict::Change => {
+                let (h, sizes, cost) = (method.next_step(), method.sizes(), method.cost());
+                *self = OfCollocation(Stiff::start(tolerance, rotor, t, y).instead(h, sizes, cost));
+            }
+            OfCollocation(method)
+                if auto.look_at_stiff(t, method.cost().evaluations, &jacobian, size) == Verdict::Change =>
+            {
+                let (h, sizes, cost) = (method.next_step(), method.sizes(), method.cost());
+                let start = Explicit::start(&DOP853, tolerance, rotor, t, y);
+                *self = OfPair(start.instead(h.min(auto.stable_step()), sizes, cost));
+            }
+            _ => {}
         }
     }
 
@@ -120,10 +147,15 @@ impl<const N: usize> Method<N> {
         each!(self, method => method.cost())
     }
 
-    /// One step forward of the method's own choice, but not past time `until` [s]. Where none is possible, the method stands
-    /// as before. Steps below `least` [s] get nowhere.
-    pub fn step<E: Effects>(&mut self, rotor: &Rotor<E>, least: f64, until: f64) -> Result<(), Fault> {
-        each!(self, method => method.step(rotor, least, until))
+    /// One step forward of the method's own choice, but not past time `until` [s], while the run has taken at most `most`
+    /// evaluations. Where none is possible, the method stands as before.
+    pub fn step<E: Effects>(&mut self, rotor: &Rotor<E>, most: f64, until: f64) -> Result<(), Fault> {
+        each!(self, method => method.step(rotor, most, until))
+    }
+
+    /// From now on excursions of these components count from 0.
+    pub fn recount(&mut self, components: Range<usize>) {
+        each!(self, method => method.recount(components));
     }
 
     /// Prepares the last step for [`Method::dense`] where the rotor will be written in another chart.

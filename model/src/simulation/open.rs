@@ -1,5 +1,6 @@
 //! A motion that somebody else integrates: states, rates, and the events at which its chart changes.
 
+use super::growth::Watch;
 use super::start::Motion;
 use crate::effects::Effects;
 use crate::energy::kinetic;
@@ -28,9 +29,10 @@ pub struct Open<E> {
     total_at_start: f64,
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
+    watch: Watch,
 }
 
-stored!(Open<E: Effects> { rotor, t, state, completed, at_event, total_at_start, tilted });
+stored!(Open<E: Effects> { rotor, t, state, completed, at_event, total_at_start, tilted, watch });
 
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
@@ -74,13 +76,22 @@ impl<E: Effects> Open<E> {
         open.completed = open.here();
         open.at_event = Some(open.kinetic());
         open.watch_tilt();
+        open.watch.look(&open.rotor, t, &state);
         open
     }
 
     /// Nothing yet: a place for what was stored.
     pub(super) fn blank() -> Self {
-        let (rotor, completed) = (Rotor::default(), Completed::default());
-        Self { rotor, t: 0.0, state: [0.0; WITH_WORK], completed, at_event: None, total_at_start: 0.0, tilted: false }
+        Self {
+            rotor: Rotor::default(),
+            t: 0.0,
+            state: [0.0; WITH_WORK],
+            completed: Completed::default(),
+            at_event: None,
+            total_at_start: 0.0,
+            tilted: false,
+            watch: Watch::default(),
+        }
     }
 
     /// The time [s].
@@ -91,6 +102,11 @@ impl<E: Effects> Open<E> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     pub(super) fn has_tilted(&self) -> bool {
         self.tilted
+    }
+
+    /// How fast a motion grows [1/s], and since when that is known [s].
+    pub(super) fn growth(&self) -> Option<(f64, f64)> {
+        self.watch.found()
     }
 
     /// The host's time [s].
@@ -126,6 +142,7 @@ impl<E: Effects> Open<E> {
         self.rotor.turns = self.turns();
         self.completed = self.here();
         self.watch_tilt();
+        self.watch.look(&self.rotor, self.t, &self.state);
         self.rotor.chart.is_left_at(self.completed.gamma)
     }
 

@@ -1,12 +1,12 @@
 //! From parameters to the motion at the start and the tolerance of its integration.
 
-use crate::body::Body;
+use super::nominals::Nominals;
 use crate::effects::Effects;
 use crate::integrate::Tolerance;
 use crate::rotation::{Angle, Chart, Tilt};
 use crate::rotor::Rotor;
 use crate::state::{Coordinates, PHI, WITH_WORK, Whole};
-use crate::variables::{Parameters, Setup};
+use crate::variables::{Parameters, Setup, Solver};
 
 /// A rotor and where it is.
 pub(super) struct Motion<E> {
@@ -59,32 +59,10 @@ impl<E: Effects> Motion<E> {
     }
 }
 
-/// What a place counts with, of a mass centre at `l` [m] from the support point [m].
-pub(super) fn length(l: f64) -> f64 {
-    if l == 0.0 { 1.0 } else { l.abs() }
-}
-
-/// What each number of the state counts with, in its unit (INTERFACE.md); equal for all components of a vector.
-pub(super) fn nominals(rotor: &Body) -> Whole<f64> {
-    let mut nominal = [1.0; WITH_WORK];
-    nominal[0..3].fill(length(rotor.l));
-    nominal[6..9].fill(rotor.Ja.max(rotor.Jt));
-    nominal
-}
-
-/// The tolerance of each component: relative to its size, plus absolute in nominals (INTERFACE.md); of φ where the
-/// motion follows it.
-pub(super) fn tolerance<const N: usize>(setup: &Setup, follows_phi: bool) -> Tolerance<N> {
-    let solver = &setup.solver;
-    let in_nominals =
-        if solver.absolute_tolerance > 0.0 { solver.absolute_tolerance } else { solver.relative_tolerance };
-    let nominal = nominals(&setup.rotor);
-    let absolute = std::array::from_fn(|n| in_nominals * nominal[n]);
-    let mut tolerance = Tolerance { absolute, relative: [solver.relative_tolerance; N] };
-    // Where nothing follows φ it is a quadrature. Else it counts with 1 rad, however many turns it has.
-    tolerance.relative[PHI] = 0.0;
-    if !follows_phi {
-        tolerance.absolute[PHI] = f64::INFINITY;
-    }
-    tolerance
+/// How small the error of a step must be (INTERFACE.md).
+pub(super) fn tolerance<E: Effects>(setup: &Setup, motion: &Motion<E>, t: f64) -> Tolerance {
+    let Solver { relative_tolerance: relative, absolute_tolerance, .. } = setup.solver;
+    let nominal = Nominals::of(motion, t).squares();
+    let absolute = nominal.map(|square| absolute_tolerance * absolute_tolerance * square);
+    Tolerance { relative, absolute, nominal }
 }

@@ -3,6 +3,7 @@
 use super::Flow;
 use crate::body::{Inertia, Poinsot, Uneven};
 use crate::effects::Effects;
+use crate::integrate::Refusal;
 use crate::rotation::{Tilt, Turn};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
@@ -27,10 +28,23 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return self.turn((self.at.k * body.per_jt + axes * about) * h);
         };
         let turned = self.tilt.turned(&tumbling.free.turn(h).seen_from(&axes));
-        self.turns += tumbling.beside(self.tilt, h, turned.phi + TAU * turned.turns).turns;
+        let beside = tumbling.beside(self.tilt, h, turned.phi + TAU * turned.turns);
+        // Each part costs about what an evaluation does.
+        self.evaluations += f64::from(beside.parts);
+        if beside.parts > MOST_PARTS {
+            self.refusal = Some(TOO_MANY_PARTS);
+            return;
+        }
+        self.turns += beside.turns;
         self.take(turned);
     }
 }
+
+/// A drift is cut into at most so many parts: a longer one must be made of several.
+const MOST_PARTS: u32 = 10_000;
+
+const TOO_MANY_PARTS: Refusal =
+    Refusal("the axis lingers at -e, and the turns that phi makes there cannot be counted over so long a step");
 
 /// A body that tumbles.
 pub struct Tumbling {
@@ -94,7 +108,7 @@ impl Tumbling {
             let turned = tilt.turned(&here.after(&behind.back()));
             advanced += turned.phi + TAU * turned.turns;
             parts += 1;
-            if is_last {
+            if is_last || parts > MOST_PARTS {
                 return Beside { turns: ((advanced - phi) / TAU).round(), parts };
             }
             (tilt, behind) = (Tilt::new(tilt.chart(), turned.gamma), here);

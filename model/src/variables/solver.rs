@@ -7,16 +7,32 @@ use crate::variable::{Access, Bound, Enumeration, Kind, Meta, Role, Row, output,
 /// How the motion is integrated.
 #[derive(Clone, Debug, Default)]
 pub struct Solver {
-    /// Number of the method in [`METHODS`].
+    /// Number of the method in [`METHODS`]; which one is in force, [`Solver::method_in_force`] says.
     pub method: i32,
-    /// Relative tolerance [1].
+    /// The same number for hosts that cannot set an enumeration; 0: as `method` says.
+    pub method_number: i32,
+    /// Relative to the size of the motion [1].
     pub relative_tolerance: f64,
-    /// Absolute tolerance in nominals [1]; 0: the relative one.
+    /// The least error that is asked for, in nominals [1].
     pub absolute_tolerance: f64,
     /// Step of `symplectic` [s]; 0: chosen from the scene.
     pub step_size: f64,
     /// Order of `symplectic`: 2, 4, 6 or 8.
     pub order: i32,
+    /// How many evaluations of the right-hand side one communication step may take.
+    pub max_evaluations: f64,
+}
+
+impl Solver {
+    /// The number of the method that integrates.
+    pub fn method_in_force(&self) -> i32 {
+        if self.method_number == 0 { self.method } else { self.method_number }
+    }
+
+    /// The variable that says so.
+    pub fn method_variable(&self) -> &'static str {
+        if self.method_number == 0 { "solver.method" } else { "solver.method_number" }
+    }
 }
 
 /// The numbers of the methods, never reused.
@@ -37,7 +53,11 @@ pub mod numbers {
 pub static METHODS: Enumeration = Enumeration {
     name: "SolverMethod",
     items: &[
-        (numbers::AUTO, "auto", "the method that would cost least, by the linear equations at the start"),
+        (
+            numbers::AUTO,
+            "auto",
+            "dop853, and stiff where stability would hold it to short steps; exact where nothing acts",
+        ),
         (numbers::DOPRI5, "dopri5", "explicit Runge-Kutta pair of Dormand and Prince, order 5(4), adaptive"),
         (numbers::DOP853, "dop853", "explicit Runge-Kutta method of Dormand and Prince, order 8(5,3), adaptive"),
         (
@@ -53,8 +73,19 @@ pub static METHODS: Enumeration = Enumeration {
 pub const TOLERANCES: Bound = Bound::Within(1e-14, 1e-1);
 
 /// The absolute tolerances that are possible: where a component passes zero nothing else counts, and far below the rounding
-/// of the others steps would shrink without end.
-const LEAST_ABSOLUTE: Bound = Bound::ZeroOrFrom(1e-20);
+/// of the others steps would shrink without end; and an error of the nominals' size is no solution.
+const ABSOLUTE_TOLERANCES: Bound = Bound::ZeroOrWithin(1e-20, 1e-2);
+
+/// The possible values of `solver.method_number`.
+const METHOD_NUMBERS: Bound = Bound::OneOf(&{
+    let mut numbers = [0.0; METHODS.items.len() + 1];
+    let mut n = 0;
+    while n < METHODS.items.len() {
+        numbers[n + 1] = METHODS.items[n].0 as f64;
+        n += 1;
+    }
+    numbers
+});
 
 pub(super) const ROWS: &[AlwaysRow] = &[
     Row {
@@ -75,14 +106,14 @@ pub(super) const ROWS: &[AlwaysRow] = &[
         &ONE,
         Some(1e-8),
         TOLERANCES,
-        "tolerance of a step's error, relative to the larger of the value and its nominal"
+        "tolerance of a step's error, relative to how far and how fast the motion goes"
     ),
     parameter!(
         solver.absolute_tolerance,
         &ONE,
         Some(0.0),
-        LEAST_ABSOLUTE,
-        "tolerance of a step's error in nominals; 0: the relative tolerance"
+        ABSOLUTE_TOLERANCES,
+        "least error of a step that is asked for, in nominals"
     ),
     output!("solver.steps", &ONE, "steps accepted so far", |_, r| super::constant(r.cost.steps)),
     output!("solver.rejected", &ONE, "steps rejected so far", |_, r| super::constant(r.cost.rejected)),
@@ -117,5 +148,25 @@ pub(super) const ROWS: &[AlwaysRow] = &[
             role: Role::Parameter { default: Some(6.0), bound: Bound::OneOf(&[2.0, 4.0, 6.0, 8.0]) },
         },
         access: Access::Parameter { get: |s| f64::from(s.solver.order), set: |s, value| s.solver.order = value as i32 },
+    },
+    parameter!(
+        solver.max_evaluations,
+        &ONE,
+        Some(1e7),
+        Bound::Within(1e3, 1e12),
+        "evaluations of the right-hand side that one communication step may take"
+    ),
+    Row {
+        meta: Meta {
+            name: "solver.method_number",
+            description: "solver.method as an Integer, for hosts that cannot set an Enumeration; 0: as solver.method says",
+            unit: &ONE,
+            kind: Kind::Integer,
+            role: Role::Parameter { default: Some(0.0), bound: METHOD_NUMBERS },
+        },
+        access: Access::Parameter {
+            get: |s| f64::from(s.solver.method_number),
+            set: |s, value| s.solver.method_number = value as i32,
+        },
     },
 ];

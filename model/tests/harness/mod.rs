@@ -11,6 +11,7 @@ use model::effects::gravity::Gravity;
 use model::effects::shaft::Shaft;
 use model::effects::support::Support;
 use model::effects::{Called, Effects, Entry, Info, named};
+use model::integrate::sizes::GROUPS;
 use model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use model::integrate::{Tolerance, explicit::Explicit};
 use model::rotation::Chart;
@@ -214,9 +215,13 @@ impl Scene {
 
     /// The method by itself, to take steps of a given size.
     pub fn stepper(&self) -> Explicit<12> {
-        let tolerance = Tolerance { absolute: [1.0; 12], relative: [0.0; 12] };
-        Explicit::start(self.method.tableau(), tolerance, &self.rotor(), 0.0, self.state())
+        Explicit::start(self.method.tableau(), tolerance(1.0), &self.rotor(), 0.0, self.state())
     }
+}
+
+/// This relative tolerance [1], of a motion that is of size 1 in each group.
+pub fn tolerance(relative: f64) -> Tolerance {
+    Tolerance { relative, absolute: [0.0; GROUPS], nominal: [1.0; GROUPS] }
 }
 
 /// What the simulation shows at time `t` [s].

@@ -1,9 +1,9 @@
 //! What observed orders are measured on: a rotor without small angles, and one that is damped and driven besides.
 
-use super::{Driven, Method, Scene};
+use super::{Driven, Method, Scene, tolerance};
 use model::effects::{Effects, named};
+use model::integrate::System;
 use model::integrate::explicit::Explicit;
-use model::integrate::{System, Tolerance};
 use model::rotation::Chart;
 use model::rotor::Rotor;
 use model::state::WITH_WORK;
@@ -52,8 +52,7 @@ pub fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
 /// dop853 in so many steps: exact to rounding.
 pub fn reference<const N: usize>(system: &impl System<N>, y: [f64; N], end: f64, steps: u32) -> [f64; N] {
     // Fixed steps ask for no tolerance.
-    let tolerance = Tolerance { absolute: [1.0; N], relative: [0.0; N] };
-    let mut method = Explicit::start(Method::Dop853.tableau(), tolerance, system, 0.0, y);
+    let mut method = Explicit::start(Method::Dop853.tableau(), tolerance(1.0), system, 0.0, y);
     for _ in 0..steps {
         method.fixed_step(system, end / f64::from(steps));
     }

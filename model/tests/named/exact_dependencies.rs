@@ -44,8 +44,8 @@ fn somewhere(name: &str, chart: u32, random: &mut Random) -> Named {
                 match bound {
                     // So that a bearing's damping, whose diagonal is from 1, is possible.
                     Bound::Finite => random.within(-1.0, 1.0),
-                    Bound::Positive | Bound::NotNegative | Bound::ZeroOrFrom(_) => random.within(1.0, 1.4),
-                    Bound::Within(low, high) => random.within(low, high),
+                    Bound::Positive | Bound::NotNegative => random.within(1.0, 1.4),
+                    Bound::Within(low, high) | Bound::ZeroOrWithin(low, high) => random.within(low, high),
                     Bound::OneOf(these) => these[0],
                 },
             ),

@@ -10,6 +10,7 @@ pub mod extrapolation;
 pub mod fixed;
 pub mod heavy_top;
 pub mod jeffcott;
+pub mod machine;
 pub mod motion;
 pub mod numerics;
 pub mod paper;

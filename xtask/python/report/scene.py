@@ -20,13 +20,14 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Scene:
-    """A scene as packaged: its experiment [s], its parameters, its origin."""
+    """A scene as packaged: its experiment [s], its method of integration, its parameters, its origin."""
 
     title: str
     identifier: str
     start: float
     stop: float
     step: float
+    method: str
     parameters: dict[str, Parameter]
     fmi_version: str
     version: str
@@ -43,6 +44,7 @@ class Scene:
             start=float(experiment.startTime or 0.0),
             stop=float(experiment.stopTime),
             step=float(experiment.stepSize),
+            method=_method(description),
             parameters={p.name: p for p in parameters},
             fmi_version=description.fmiVersion,
             version=description.version or "–",
@@ -50,14 +52,17 @@ class Scene:
         )
 
     @property
-    def method(self):
-        """The name of the method of integration."""
-        return self.parameters["solver.method"].value
-
-    @property
     def relative_tolerance(self):
         """The relative tolerance of the adaptive methods [-]."""
         return float(self.parameters["solver.relative_tolerance"].value)
+
+
+def _method(description):
+    """The name of the method of integration: that of solver.method, unless solver.method_number is another's."""
+    by_name = {variable.name: variable for variable in description.modelVariables}
+    named = by_name["solver.method"]
+    number = int(by_name["solver.method_number"].start) or int(named.start)
+    return next(item.name for item in named.declaredType.items if int(item.value) == number)
 
 
 def _parameter(variable):

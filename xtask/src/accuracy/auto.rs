@@ -88,7 +88,7 @@ fn dearest<'r>(rows: &'r [Row], size: impl Fn(&Errors) -> f64) -> Option<(&'r Ro
 /// What `auto` says at this tolerance [1], or the scene's.
 fn said(scene: &Scene, experiment: Experiment, tolerance: Option<f64>) -> Option<String> {
     let mut parameters = scene.parameters();
-    parameters.setup.solver.method = model::variables::numbers::AUTO;
+    parameters.setup.solver.method_number = model::variables::numbers::AUTO;
     let simulation = Simulation::with(Integrator::Method, parameters);
     simulation.choice(experiment.start, tolerance, Some(experiment.stop))
 }

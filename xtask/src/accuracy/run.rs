@@ -108,7 +108,7 @@ impl<'s> Subject<'s> {
 
     fn set(&self, instance: &mut Instance, setting: &Setting) -> Result<()> {
         let [method, absolute, parameter] =
-            references(self.scene, ["solver.method", "solver.absolute_tolerance", setting.parameter])?;
+            references(self.scene, ["solver.method_number", "solver.absolute_tolerance", setting.parameter])?;
         let chosen = METHODS.items.iter().find(|item| item.1 == setting.method);
         instance.set_integer(method, chosen.context("a method of the list")?.0)?;
         if let Some(order) = setting.order {

@@ -57,6 +57,10 @@ impl Effects for () {
         false
     }
 
+    fn push(&self) -> bool {
+        false
+    }
+
     fn works(&self) -> bool {
         false
     }

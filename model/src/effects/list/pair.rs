@@ -92,6 +92,10 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         self.0.active().is_some_and(Effect::needs_gamma) || self.1.needs_gamma()
     }
 
+    fn push(&self) -> bool {
+        (H::Effect::PUSHES && self.0.active().is_some()) || self.1.push()
+    }
+
     fn works(&self) -> bool {
         self.0.active().is_some_and(Effect::works) || self.1.works()
     }

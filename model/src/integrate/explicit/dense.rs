@@ -3,11 +3,15 @@
 use super::Explicit;
 use crate::integrate::System;
 use crate::integrate::segment::Segment;
+use crate::integrate::sizes::{GROUPS, largest_square};
 use crate::integrate::tableau::{Dop853, Dopri5, Pair};
 
 /// A step whose polynomial ends in a term of so many tolerances is of no use between its ends: one that spans many turns of a
 /// motion too small to matter there. In sound steps that term is 3 to 30.
 const ROUGH: f64 = 100.0;
+
+/// So many evaluations are spent on one state within a step.
+const MOST: f64 = 1e5;
 
 impl<const N: usize> Explicit<N> {
     /// The state at a time `t` [s] within the last step.
@@ -28,10 +32,10 @@ impl<const N: usize> Explicit<N> {
 
     /// The same by steps from where the last one began, for one whose polynomial says nothing.
     fn stepped(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
-        let Segment { t: start, y, .. } = self.segment;
-        let mut again = Self::start(self.tableau, self.tolerance, system, start, y);
+        let Segment { t: start, y, sizes, .. } = self.segment;
+        let mut again = Self { sizes, ..Self::start(self.tableau, self.tolerance, system, start, y) };
         while again.t < t {
-            if again.step(system, 0.0, t).is_err() {
+            if again.step(system, MOST, t).is_err() {
                 // The step as a whole was possible, so what stands in the way of its parts is not worth a word.
                 return self.segment.at(t, self.terms());
             }
@@ -51,16 +55,16 @@ impl<const N: usize> Explicit<N> {
             self.prepare_dense_with::<Dopri5, _>(system);
         }
         self.segment.dense = true;
-        self.segment.rough = self.roughness() > ROUGH;
+        self.segment.rough = self.roughness(system) > ROUGH;
     }
 
     /// The last term of the polynomial in the middle of the step, in units of the tolerance [1].
-    fn roughness(&self) -> f64 {
-        let Segment { y, r, .. } = &self.segment;
+    fn roughness(&self, system: &impl System<N>) -> f64 {
+        let Segment { h, y, r, .. } = &self.segment;
         let terms = self.terms();
-        let size = std::array::from_fn(|i| y[i].abs().max((y[i] + r[0][i]).abs()));
+        let weights = self.sizes.weights(&self.tolerance, system, y, *h, &[0.0; GROUPS]);
         // eq. 24: σ and 1 − σ are 1/2 in each of its factors
-        self.tolerance.norm(&r[terms - 1], &size) / f64::from(1_u32 << terms)
+        largest_square(&system.parts(y, &r[terms - 1]), &weights).sqrt() / f64::from(1_u32 << terms)
     }
 
     /// How many terms the polynomial of eq. 24 has after y.

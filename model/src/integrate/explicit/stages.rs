@@ -1,14 +1,14 @@
 //! The stages of a step, their sums, and the error that they tell.
 
-use super::Explicit;
+use super::{Attempt, Explicit};
+use crate::integrate::System;
 use crate::integrate::lanes::{both, nothing, pair, pairs, put};
+use crate::integrate::sizes::{Squares, largest_square};
 use crate::integrate::tableau::{Combination, Dop853, Dopri5, ErrorRule, Pair, Stage};
-use crate::integrate::{System, mean_square};
 
 impl<const N: usize> Explicit<N> {
-    /// All stages of a step of size h from (t, y); the state at its end, and the norm of its error in units of the
-    /// tolerance [1], or 0 where it is not asked for.
-    pub(super) fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> ([f64; N], f64) {
+    /// All stages of a step of size h from (t, y), and the error where it is asked for.
+    pub(super) fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> Attempt<N> {
         if self.tableau == Dop853::TABLEAU {
             self.attempt_with::<Dop853, _, ERROR>(system)
         } else {
@@ -18,7 +18,7 @@ impl<const N: usize> Explicit<N> {
 
     /// [`Explicit::attempt`] with the coefficients as constants: every sum is written out by the compiler.
     #[inline(never)]
-    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> ([f64; N], f64) {
+    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> Attempt<N> {
         let (t, h, start) = (self.t, self.h, self.y);
         let mut newest = self.k[0];
         macro_rules! stages {
@@ -32,15 +32,19 @@ impl<const N: usize> Explicit<N> {
         stages! { 1 2 3 4 5 6 7 8 9 10 11 12 }
         // The last stage stands at the end of the step.
         let y = self.ended(&start, h, const { P::TABLEAU.stage(P::TABLEAU.last) }.a);
-        // Where the error does not need that stage, it is begun before it: the next step's size waits for it.
-        let early = const { ERROR && !P::TABLEAU.error.needs(P::TABLEAU.last) };
-        let late = const { ERROR && P::TABLEAU.error.needs(P::TABLEAU.last) };
-        let mut error = if early { self.error_norm::<P>(&y) } else { 0.0 };
+        // Where the error does not need that stage, it is begun before it: the next step's size waits for it. The sizes of the
+        // motion are then those of the stage before, which stands at the end of the step too.
+        let mut attempt = Attempt { y, error: 0.0, seen: self.sizes.seen(system, &y, &newest) };
+        let (early, late) =
+            const { if P::TABLEAU.error.needs(P::TABLEAU.last) { (false, ERROR) } else { (ERROR, false) } };
+        if early {
+            attempt.error = self.error_norm::<P, F>(system, &attempt.seen);
+        }
         self.k[P::TABLEAU.last] = self.evaluate(system, t + h, &y);
         if late {
-            error = self.error_norm::<P>(&y);
+            attempt.error = self.error_norm::<P, F>(system, &attempt.seen);
         }
-        (y, error)
+        attempt
     }
 
     /// A stage of a step of size h from (t, y), of those before it; `newest` is the last of them.
@@ -103,15 +107,15 @@ impl<const N: usize> Explicit<N> {
         combined
     }
 
-    /// The norm of the error of the step that ends at `y`, in units of the tolerance [1].
+    /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance [1].
     #[inline(always)]
-    fn error_norm<P: Pair>(&self, y: &[f64; N]) -> f64 {
-        let weights = self.tolerance.weights(&std::array::from_fn(|n| self.y[n].abs().max(y[n].abs())));
-        let mean_square = |e: Combination| mean_square(&self.combined(e), &weights, self.share);
+    fn error_norm<P: Pair, F: System<N>>(&self, system: &F, seen: &Squares) -> f64 {
+        let weights = self.weights(system, self.h, seen);
+        let square = |e: Combination| largest_square(&system.parts(&self.y, &self.combined(e)), &weights);
         let estimate = match const { &P::TABLEAU.error } {
-            ErrorRule::Single(e) => mean_square(e).sqrt(),
+            ErrorRule::Single(e) => square(e).sqrt(),
             ErrorRule::Blend { fine, coarse } => {
-                let (fine, coarse) = (mean_square(fine), mean_square(coarse));
+                let (fine, coarse) = (square(fine), square(coarse));
                 if fine == 0.0 { 0.0 } else { fine / (fine + 0.01 * coarse).sqrt() }
             }
         };

@@ -1,0 +1,128 @@
+//! How large a motion is, group by group: an error is compared with the size of its own group, not with a size that somebody
+//! thought of beforehand.
+
+use super::System;
+use super::lanes::{both, nothing, pair, pairs, put, sum};
+use crate::stored::stored;
+
+/// A state has at most so many groups, each of which is measured by one norm.
+pub const GROUPS: usize = 9;
+
+/// The square of each group's norm, in the square of its unit.
+pub type Squares = [f64; GROUPS];
+
+/// How small the error of a step must be.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Tolerance {
+    /// Relative to the size of each group [1].
+    pub relative: f64,
+    /// No error below this counts.
+    pub absolute: Squares,
+    /// What a group counts with at least, where nothing is known of its motion yet.
+    pub nominal: Squares,
+}
+
+stored!(Tolerance { relative, absolute, nominal });
+
+/// How large the motion was of late, and ever.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes<const N: usize> {
+    /// The state from which excursions are counted.
+    pub origin: [f64; N],
+    /// Of late.
+    recent: Squares,
+    /// Ever.
+    largest: Squares,
+}
+
+stored!(Sizes<const N: usize> { origin, recent, largest });
+
+/// After a whole step so much is left of a size that is not reached again [1].
+const KEPT: f64 = 0.9;
+
+/// A size is at least this part of the largest ever [1]: what has died out need not be followed for ever.
+pub const LEAST: f64 = 1e-3;
+
+/// What rounding takes from a step, beside the numbers that go into it [1].
+const ROUNDING: f64 = 1e-15;
+
+impl<const N: usize> Sizes<N> {
+    /// Of a motion that begins at `y`, where its rate is `rate`.
+    pub fn at_start(tolerance: &Tolerance, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Self {
+        let largest = each(&tolerance.nominal, &system.sizes(y, rate, y), larger);
+        let recent = largest.map(|square| LEAST * LEAST * square);
+        let mut sizes = Self { origin: *y, recent, largest };
+        sizes.take(&system.sizes(y, rate, y), 0.0);
+        sizes
+    }
+
+    /// Nothing yet: a place for what was stored.
+    pub fn blank() -> Self {
+        Self { origin: [0.0; N], recent: [0.0; GROUPS], largest: [0.0; GROUPS] }
+    }
+
+    /// The sizes of the motion at `y`.
+    #[inline(always)]
+    pub fn seen(&self, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Squares {
+        system.sizes(y, rate, &self.origin)
+    }
+
+    /// Goes on to where the motion has the sizes `seen`, over this `share` of a whole step [1].
+    #[inline(always)]
+    pub fn take(&mut self, seen: &Squares, share: f64) {
+        // eq. 80, KEPT^share to first order
+        let kept = 1.0 - (1.0 - KEPT * KEPT) * share;
+        for p in 0..pairs(GROUPS) {
+            let now = pair(seen, p);
+            let largest = pair(&self.largest, p).max(now);
+            let least = largest * both(LEAST * LEAST);
+            let recent = (pair(&self.recent, p) * both(kept)).max(now).max(least);
+            put(&mut self.largest, p, largest);
+            put(&mut self.recent, p, recent);
+        }
+    }
+
+    /// What the square of one unit of each group's error counts in a step of size `h` [s] from `y` to where the sizes are `seen`.
+    #[inline(always)]
+    pub fn weights(
+        &self,
+        tolerance: &Tolerance,
+        system: &impl System<N>,
+        y: &[f64; N],
+        h: f64,
+        seen: &Squares,
+    ) -> Squares {
+        let rounded = system.roundings(y, h);
+        let mut weights = [0.0; GROUPS];
+        for p in 0..pairs(GROUPS) {
+            // eq. 22: sc = max(rtol·S, atol·n, ε·R)
+            let size = pair(&self.recent, p).max(pair(seen, p)) * both(tolerance.relative * tolerance.relative);
+            let rounded = pair(&rounded, p) * both(ROUNDING * ROUNDING);
+            put(&mut weights, p, both(1.0) / size.max(pair(&tolerance.absolute, p)).max(rounded));
+        }
+        weights
+    }
+}
+
+/// The largest of all groups' errors, whose squares are `parts`, squared [1]; not a number where one is not.
+#[inline(always)]
+pub fn largest_square(parts: &Squares, weights: &Squares) -> f64 {
+    let (mut most, mut all) = (both(0.0), nothing());
+    for p in 0..pairs(GROUPS) {
+        let weighed = pair(parts, p) * pair(weights, p);
+        most = most.max(weighed);
+        all += weighed;
+    }
+    let [first, second] = most.to_array();
+    // A maximum may pass over what is not a number; a sum does not.
+    let most = larger(first, second);
+    if sum(all).is_finite() { most } else { f64::NAN }
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+fn each(a: &Squares, b: &Squares, of: impl Fn(f64, f64) -> f64) -> Squares {
+    std::array::from_fn(|group| of(a[group], b[group]))
+}

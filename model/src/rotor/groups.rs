@@ -1,0 +1,74 @@
+//! The groups of a motion whose errors count together, and how large each is: r [m] and v [m/s] along e and across it, K
+//! [kg·m²/s] along K and across it, γ [rad], φ [rad], the work supplied and lost [J].
+
+use super::Rotor;
+use crate::effects::Effects;
+use crate::integrate::System;
+use crate::integrate::sizes::Squares;
+use crate::state::{COORDINATES, Coordinates, DISSIPATED, SUPPLIED, WITH_WORK};
+use nalgebra::Vector3;
+
+/// Along e and across it: of r [m] and v [m/s]. Along K and across it: of K [kg·m²/s]. Then γ [rad] and φ [rad].
+pub const NAMES: [&str; 8] =
+    ["r along e", "r across e", "v along e", "v across e", "K along K", "K across K", "gamma", "phi"];
+
+/// |v|² along e and across it.
+#[inline(always)]
+fn split(v: &Vector3<f64>) -> [f64; 2] {
+    [v.x * v.x, v.y * v.y + v.z * v.z]
+}
+
+impl<E: Effects> Rotor<E> {
+    /// [`System::sizes`]: how far r and γ are from where they are counted from, how fast the axis turns, 1 rad for φ, and for work
+    /// the kinetic energy, or up to twice as much.
+    ///
+    /// What happens along e is second order in what happens across it, and counts beside that.
+    #[inline(always)]
+    pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
+        let [at, rate, origin] = [y, rate, origin].map(|y| Coordinates::from_slice(y));
+        let ([x, r], [vx, v]) = (split(&(at.r - origin.r)), split(&at.v));
+        let jt = 1.0 / self.body.per_jt;
+        // eq. 84: |K| along K, Jt |dγ/dt| across it
+        let across = rate.gamma.norm_squared() * (jt * jt);
+        let (k, tilt) = (at.k.norm_squared(), (at.gamma - origin.gamma).norm_squared());
+        let kinetic = 0.5 * (self.body.m * (vx + v) + k * (self.body.per_jt + larger(self.body.spin, 0.0)));
+        [larger(x, r), r, larger(vx, v), v, k, across, tilt, 1.0, kinetic * kinetic]
+    }
+
+    /// [`System::parts`].
+    #[inline(always)]
+    pub(super) fn parts_of<const N: usize>(&self, y: &[f64; N], change: &[f64; N]) -> Squares {
+        let (k, by) = (Coordinates::from_slice(y).k, Coordinates::from_slice(change));
+        let ([x, r], [vx, v]) = (split(&by.r), split(&by.v));
+        let square = k.norm_squared();
+        let (dot, cross) = (k.dot(&by.k), k.cross(&by.k).norm_squared());
+        // eq. 84: |K·δK|/|K| and |K×δK|/|K|
+        let [along, across] =
+            if square > 0.0 { [dot * dot / square, cross / square] } else { [0.0, by.k.norm_squared()] };
+        // As a quadrature it has no part in the error.
+        let phi = if System::<N>::depended_on(self) == COORDINATES { by.phi * by.phi } else { 0.0 };
+        let [supplied, dissipated] = if N == WITH_WORK { [change[SUPPLIED], change[DISSIPATED]] } else { [0.0, 0.0] };
+        let work = supplied * supplied + dissipated * dissipated;
+        [x, r, vx, v, along, across, by.gamma.norm_squared(), phi, work]
+    }
+
+    /// [`System::roundings`]: a velocity is known no better than the place over the step allows.
+    #[inline(always)]
+    pub(super) fn roundings_of<const N: usize>(&self, y: &[f64; N], h: f64) -> Squares {
+        let at = Coordinates::from_slice(y);
+        let ([x, r], [vx, v], k) = (split(&at.r), split(&at.v), at.k.norm_squared());
+        let (per_h, jt, gamma) = (1.0 / (h * h), 1.0 / self.body.per_jt, at.gamma.norm_squared());
+        // eq. 85: q² = |r|² + |γ|² Jt/m
+        let q = r + gamma * (jt * self.body.per_m);
+        let turning = k + q * per_h * (jt * self.body.m);
+        let [supplied, dissipated] = if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] };
+        let work = supplied * supplied + dissipated * dissipated;
+        [x, r, vx + x * per_h, v + q * per_h, turning, turning, gamma, at.phi * at.phi, work]
+    }
+}
+
+/// Not `max`, which asks for what is not a number.
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}

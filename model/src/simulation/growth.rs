@@ -1,0 +1,79 @@
+//! Whether the linear motion about where a rotor is grows: what an unstable machine does is right, but its user should know.
+
+use crate::effects::Effects;
+use crate::integrate::stiff::Differentiable;
+use crate::rotor::Rotor;
+use crate::state::{Coordinates, PHI};
+use crate::stored::stored;
+use nalgebra::linalg::Schur;
+use nalgebra::{Complex, Normed, SMatrix, SVector};
+
+/// Looks at the linear equations whenever the spin has changed much.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Watch {
+    /// Between these |K| nothing new is expected [kg·m²/s].
+    known: [f64; 2],
+    /// The growth that was found [1/s], and when [s].
+    found: Option<(f64, f64)>,
+}
+
+stored!(Watch { known, found });
+
+/// The equations without φ and the work.
+const LINEAR: usize = PHI;
+
+/// |K| has changed much by this part of itself, and of what nutates as fast as the fastest motion [1].
+const MUCH: f64 = 0.1;
+
+/// A motion grows if it does so by this part of its own rate, and of the fastest one: what is less may be rounding, which
+/// parts equal eigenvalues by the root of ε [1].
+const SEEN: f64 = 0.01;
+const ROUNDING: f64 = 1e-7;
+
+/// The equations hold as long as the axis moves slower than the motion grows, by this [1].
+const STILL: f64 = 3.0;
+
+/// An asymmetric body turns its equations with it, which these do not see: its inertias about t differ by more than this [1].
+const ASYMMETRIC: f64 = 1e-3;
+
+impl Watch {
+    /// What grows [1/s], and since when that is known [s].
+    pub fn found(&self) -> Option<(f64, f64)> {
+        self.found
+    }
+
+    /// Looks at the rotor at time `t` [s] and state `y`, if that is due.
+    pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<E>, t: f64, y: &[f64; N]) {
+        let momentum = Coordinates::from_slice(y).k.norm();
+        let [low, high] = self.known;
+        if self.found.is_some() || (low..high).contains(&momentum) {
+            return;
+        }
+        let (fastest, growth) = Self::growth(rotor, t, y);
+        let much = MUCH * (momentum + fastest / rotor.body.per_jt);
+        self.known = [momentum - much, momentum + much];
+        self.found = growth.map(|rate| (rate, t));
+    }
+
+    /// The fastest rate of the linear equations [rad/s], and how fast a motion grows [1/s], if one does.
+    fn growth<E: Effects, const N: usize>(rotor: &Rotor<E>, t: f64, y: &[f64; N]) -> (f64, Option<f64>) {
+        const ITERATIONS: usize = 1000;
+        let excess = rotor.body.uneven.map_or(0.0, |uneven| uneven.excess.abs());
+        // The balanced rotor: what an unbalance adds turns with it.
+        let balanced = Rotor::new(rotor.body.even(), rotor.effects.clone(), rotor.chart, rotor.turns);
+        let jacobian = balanced.jacobian(t, y);
+        let tilting = balanced.motion(t, y).gamma_rate().norm();
+        let matrix = SMatrix::<f64, LINEAR, LINEAR>::from_fn(|i, j| jacobian[i][j]);
+        let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS);
+        let rates: SVector<Complex<f64>, LINEAR> = match schur {
+            Some(schur) if excess <= ASYMMETRIC * rotor.body.per_jt => schur.complex_eigenvalues(),
+            _ => return (f64::INFINITY, None),
+        };
+        let fastest = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
+        let grows = |rate: &&Complex<f64>| {
+            rate.re > SEEN * rate.norm() && rate.re > ROUNDING * fastest && rate.re > STILL * tilting
+        };
+        let most = rates.iter().filter(grows).map(|rate| rate.re).fold(0.0, f64::max);
+        (fastest, (most > 0.0).then_some(most))
+    }
+}

@@ -1,0 +1,77 @@
+//! How large a motion will be, as far as its start tells: for hosts that integrate themselves, and for a method until it has
+//! seen the motion.
+
+use super::start::Motion;
+use crate::effects::Effects;
+use crate::integrate::System;
+use crate::integrate::sizes::Squares;
+use crate::integrate::stiff::Differentiable;
+use crate::state::{Coordinates, GAMMA, WITH_WORK, Whole};
+
+/// One length [m] and one rate [rad/s], and what goes with them.
+#[derive(Clone, Copy, Debug)]
+pub struct Nominals {
+    /// Of r [m].
+    pub place: f64,
+    /// Of v [m/s].
+    pub velocity: f64,
+    /// Of K [kg·m²/s].
+    pub momentum: f64,
+    /// Of γ [rad].
+    pub tilt: f64,
+    /// Of work [J].
+    pub work: f64,
+}
+
+/// Of its radius of gyration a rotor moves so much where nothing else is known [1].
+const UNKNOWN: f64 = 1e-6;
+
+impl Nominals {
+    /// Of a motion that starts at time `t` [s].
+    pub(super) fn of<E: Effects>(Motion { rotor, state }: &Motion<E>, t: f64) -> Self {
+        let rates: Whole<f64> = rotor.rates(t, state);
+        let slopes: [[f64; WITH_WORK]; WITH_WORK] = rotor.jacobian(t, state);
+        let body = &rotor.body;
+        let (jt, omega) = (1.0 / body.per_jt, rotor.motion(t, state).omega.norm());
+        let radius = (jt * body.per_m).sqrt();
+        // Across e, by number: the rate of v or K, and the place or tilt that a spring answers; in metres.
+        let springs =
+            [(4, 1, 1.0, 1.0), (5, 2, 1.0, 1.0), (7, GAMMA.start, jt, radius), (8, GAMMA.start + 1, jt, radius)];
+        let rate =
+            springs.iter().map(|&(rate, at, inertia, _)| (slopes[rate][at] / inertia).abs().sqrt()).fold(omega, larger);
+        let rate = if rate > 0.0 { rate } else { 1.0 };
+        // How far springs give way to what pushes at the start.
+        let gives = springs.map(|(rate, at, _, length)| (rates[rate] / slopes[rate][at]).abs() * length);
+        let eccentricity = body.uneven.map_or(0.0, |uneven| uneven.centre.yz().norm());
+        let at = Coordinates::from_slice(state);
+        let (offset, tilt, speed) = (at.r.yz().norm(), at.gamma.norm(), at.v.yz().norm() / rate);
+        let known = gives.into_iter().chain([eccentricity, offset, tilt * radius, speed]);
+        // What is smallest must still be seen.
+        let least = known.filter(|length| length.is_finite() && *length > 0.0).fold(f64::INFINITY, f64::min);
+        let unknown = UNKNOWN * radius;
+        let place = if least.is_finite() { larger(least, unknown) } else { unknown };
+        let tilt = place / radius;
+        let velocity = rate * place;
+        Self { place, velocity, momentum: jt * rate * tilt, tilt, work: body.m * velocity * velocity }
+    }
+
+    /// In the groups of [`crate::rotor::groups`], squared.
+    pub(super) fn squares(&self) -> Squares {
+        let Self { place, velocity, momentum, tilt, work } = *self;
+        [place, place, velocity, velocity, momentum, momentum, tilt, 1.0, work].map(|size| size * size)
+    }
+
+    /// Of each number of the state.
+    pub(super) fn each(&self) -> Whole<f64> {
+        let Self { place, velocity, momentum, tilt, .. } = *self;
+        let mut nominals = [1.0; WITH_WORK];
+        for (n, nominal) in nominals[..GAMMA.end].iter_mut().enumerate() {
+            *nominal = [place, velocity, momentum, tilt][n / 3];
+        }
+        nominals
+    }
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}

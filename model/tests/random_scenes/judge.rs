@@ -1,0 +1,95 @@
+//! How far ours may be from the reference.
+
+use super::play::{Method, Ours, play};
+use super::trial::Trial;
+use super::truth::{Measures, Truth, largest, over};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// The tolerances that are tried.
+pub const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
+
+/// Errors may be so many tolerances of how far the motion goes.
+const ALLOWED: f64 = 300.0;
+
+/// Over more periods than this they add up.
+const PERIODS: f64 = 600.0;
+
+/// The coordinates themselves are rounded at each step to some 1e-16, which adds up as the square root of the periods does, and
+/// grows as what is off at the start does. It counts only where a motion is 1e7 times smaller than where it is.
+const ROUNDING: f64 = 1e-15;
+
+/// What became of a scene at a tolerance.
+#[derive(Clone, Debug)]
+pub struct Verdict {
+    /// At which tolerance.
+    pub tolerance: f64,
+    /// The method that ran: what `auto` took.
+    pub method: String,
+    /// Errors over sizes [1], or why there are none.
+    pub errors: Result<Measures, String>,
+    /// The worst error over what is allowed [1].
+    pub worst: f64,
+    /// The reference's own error over what is allowed [1].
+    pub own: f64,
+    /// N.
+    pub periods: f64,
+    /// Evaluations.
+    pub evaluations: f64,
+    /// What it took [s].
+    pub seconds: f64,
+}
+
+impl Verdict {
+    /// Of a method of ours at a relative tolerance, by how far the motion goes.
+    pub fn of(trial: &Trial, truth: &Truth, method: Method, tolerance: f64) -> Self {
+        Self::within(trial, truth, method, [tolerance, 0.0])
+    }
+
+    /// Of a method of ours at a relative and an absolute tolerance.
+    pub fn within(trial: &Trial, truth: &Truth, method: Method, tolerances: [f64; 2]) -> Self {
+        let began = std::time::Instant::now();
+        let (mut name, mut evaluations) = (method.name(), 0.0);
+        let run = || {
+            let mut ours = Ours::start(trial, method, tolerances)?;
+            let shown = play(trial, &mut ours, |_, _| ());
+            name = ours.auto().unwrap_or(name.clone());
+            evaluations = ours.evaluations();
+            shown
+        };
+        let shown = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(PANICKED.into()));
+        let tolerance = tolerances[0];
+        let periods = truth.periods(tolerance);
+        let allowed = allowed(truth, tolerance, periods);
+        let off = shown.map(|shown| truth.differences(trial, &shown));
+        let worst = off.as_ref().map_or(f64::INFINITY, |off| largest(over(*off, allowed)));
+        Self {
+            tolerance,
+            method: name,
+            errors: off.map(|off| over(off, truth.sizes)),
+            worst,
+            own: largest(over(std::array::from_fn(|n| truth.own_error[n] * truth.sizes[n]), allowed)),
+            periods,
+            evaluations,
+            seconds: began.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Whether it answers as near as is allowed.
+    pub fn is_right(&self) -> bool {
+        self.worst <= 1.0
+    }
+
+    /// Whether it says that it has no answer.
+    pub fn is_refused(&self) -> bool {
+        self.errors.as_ref().is_err_and(|why| why != PANICKED)
+    }
+}
+
+const PANICKED: &str = "panicked";
+
+/// What place, axis and φ may err by [m, rad, rad].
+fn allowed(truth: &Truth, tolerance: f64, periods: f64) -> Measures {
+    let tolerances = ALLOWED * tolerance * truth.growth.max(periods / PERIODS).max(1.0);
+    let rounding = ROUNDING * periods.max(1.0).sqrt() * truth.growth.max(1.0);
+    std::array::from_fn(|n| tolerances * truth.sizes[n] + rounding * truth.coordinates[n])
+}

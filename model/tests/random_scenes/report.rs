@@ -1,0 +1,65 @@
+//! What is told of many scenes.
+
+use super::judge::Verdict;
+use super::trial::Trial;
+use super::truth::{Measures, Truth};
+
+/// A scene with its number, its reference, and what became of it.
+pub struct Row {
+    /// By which it is called again.
+    pub number: u64,
+    /// What it is.
+    pub trial: Trial,
+    /// The reference.
+    pub truth: Truth,
+    /// At each tolerance.
+    pub verdicts: Vec<Verdict>,
+}
+
+/// How many scenes are told of.
+const WORST: usize = 10;
+
+/// Numbers with two digits.
+pub fn short(measures: Measures) -> String {
+    measures.map(|measure| format!("{measure:.1e}")).join(", ")
+}
+
+/// A table in markdown of the worst scenes and tolerances.
+pub fn worst(rows: &[Row]) -> String {
+    let mut all: Vec<_> = rows.iter().flat_map(|row| row.verdicts.iter().map(move |verdict| (row, verdict))).collect();
+    all.sort_by(|a, b| b.1.worst.total_cmp(&a.1.worst));
+    let mut lines = vec![
+        "| scene | what | tolerance | method | place, axis, φ over their sizes | over bound | A | N | evaluations |"
+            .to_owned(),
+        "|---|---|---|---|---|---|---|---|---|".to_owned(),
+    ];
+    lines.extend(all.iter().take(WORST).map(|(row, verdict)| line(row, verdict)));
+    lines.join("\n")
+}
+
+/// A line of the table.
+pub fn line(row: &Row, verdict: &Verdict) -> String {
+    let errors = match &verdict.errors {
+        Ok(errors) => short(*errors),
+        Err(why) => why.clone(),
+    };
+    let Verdict { tolerance, method, worst, periods, evaluations, .. } = verdict;
+    let (number, name, growth) = (row.number, &row.trial.name, row.truth.growth);
+    format!(
+        "| {number} | {name} | {tolerance:e} | {method} | {errors} | {worst:.2e} | {growth:.1} | {periods:.0} | {evaluations} |"
+    )
+}
+
+/// All that is known of a scene.
+pub fn whole(row: &Row) -> String {
+    let Row { number, trial, truth, .. } = row;
+    let mut text = format!("# scene {number}: SPLIT_ROTOR_SCENE_SEED={number}\n{}", trial.text());
+    let facts = format!(
+        "# sizes of place [m], tilt [rad], φ [rad]: {}\n# the reference's own error over them: {}; evaluations: {}\n",
+        short(truth.sizes),
+        short(truth.own_error),
+        truth.evaluations
+    );
+    text.push_str(&facts);
+    text
+}
