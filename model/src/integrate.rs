@@ -86,6 +86,19 @@ pub enum Fault {
     },
 }
 
+impl Fault {
+    /// Why no step is possible beyond time `t` [s]: what stood in the way of the last one that was tried, or that none `advances` the
+    /// time, or may still be paid for.
+    fn of_no_step(t: f64, advances: bool, obstacle: Option<Fault>) -> Fault {
+        match obstacle {
+            Some(refused @ Fault::Refused { .. }) => refused,
+            Some(fault) if !advances => fault,
+            _ if advances => Fault::Spent { t },
+            _ => Fault::Underflow { t },
+        }
+    }
+}
+
 impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

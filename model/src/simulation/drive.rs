@@ -170,10 +170,11 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let before = (self.t, self.method.clone(), self.last, self.rotor.chart, self.rotor.turns);
         let outcome = self.run_to(t, until);
         // Where the motion is lost, what stands in its way has another cause.
-        self.keeps_energy().inspect_err(|_| {
-            (self.t, self.method, self.last, self.rotor.chart, self.rotor.turns) = before;
-        })?;
-        outcome
+        if self.keeps_energy() {
+            return outcome;
+        }
+        (self.t, self.method, self.last, self.rotor.chart, self.rotor.turns) = before;
+        Err(Fault::Refused { t: self.t, reason: TOO_LONG })
     }
 
     /// How often `auto` has gone on with another method.
@@ -221,13 +222,10 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     }
 
     /// Whether the motion reached has anything to do with the one asked for: steps of a given size estimate no error.
-    fn keeps_energy(&self) -> Result<(), Fault> {
+    fn keeps_energy(&self) -> bool {
         let ledger = self.ledger();
         let all = ledger.kinetic + ledger.potential.abs() + ledger.supplied.abs() + ledger.dissipated;
-        if ledger.residual().abs() <= LOST * (all + ledger.total_at_start.abs()) {
-            return Ok(());
-        }
-        Err(Fault::Refused { t: self.t, reason: TOO_LONG })
+        ledger.residual().abs() <= LOST * (all + ledger.total_at_start.abs())
     }
 
     /// The ledger of the state that the method has reached.
@@ -266,6 +264,15 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let (h, turning) = (self.method.next_step(), rates[PHI].abs());
         if h * turning > LONGEST_TURN {
             self.method.limit_step(LONGEST_TURN / turning);
+        }
+        // A nutation that nothing damps would grow out of rounding, unseen until it is as large as what moves the axis.
+        let nutation = Coordinates::from_slice(self.method.state()).k.norm_squared()
+            * self.rotor.body.per_jt
+            * self.rotor.body.per_jt;
+        if let Some(most) = self.method.swings()
+            && nutation * h * h > most * most
+        {
+            self.method.limit_step(most / nutation.sqrt());
         }
         // At its present rate γ stays within reach of its chart.
         let far = at.norm_squared() < (Chart::REACH - LONGEST_TILT) * (Chart::REACH - LONGEST_TILT);

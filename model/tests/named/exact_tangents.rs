@@ -184,7 +184,7 @@ fn exact_time_derivatives_are_the_rates_of_change() {
             let mut named = Named::new(&name, Integrator::Method);
             named.set("start.gamma.y", tilt);
             named.set("start.omega.z", 3.0);
-            named.set("solver.relative_tolerance", 1e-13);
+            named.set("solver.relative_tolerance", 1e-14);
             named.start();
             for input in inputs(&named) {
                 named.simulation.set_input(input, 1.0);
