@@ -158,7 +158,7 @@ impl<E: Effects> Rotor<E> {
         y: &[S],
     ) -> Kinematics<S> {
         let inertia = if EVEN { self.body.even() } else { self.inertia() };
-        let motion = Kinematics::new(inertia, chart, Coordinates::from_slice(y)).when(t, self.turns);
+        let motion = Kinematics::new(inertia, chart, Coordinates::from_slice(y)).when(S::constant(t), self.turns);
         if FREE { motion } else { imposed(&self.effects, motion) }
     }
 

@@ -92,25 +92,21 @@ impl<E: Effects> Simulation<E> {
 
     /// Sets an input from the communication point on; false where there is none at this place.
     pub fn set_input(&mut self, place: Place, value: f64) -> bool {
-        self.change_input(place, |signal, t| signal.set(t, value))
+        self.change_input(place, 0, |signal, t| signal.set(t, value))
     }
 
     /// Sets a derivative of an input, of order 1 or 2, at the communication point; false where there is no input.
     pub fn set_input_derivative(&mut self, place: Place, order: u32, value: f64) -> bool {
-        self.change_input(place, |signal, t| signal.set_derivative(t, order, value))
+        self.change_input(place, order, |signal, t| signal.set_derivative(t, order, value))
     }
 
-    fn change_input(&mut self, place: Place, change: impl FnOnce(&mut Signal, f64)) -> bool {
+    fn change_input(&mut self, place: Place, order: u32, change: impl FnOnce(&mut Signal, f64)) -> bool {
         let t = self.time().unwrap_or_default();
-        let Some(signal) = self.parameters.effects.signal_mut(place) else { return false };
-        let before = *signal;
-        change(signal, t);
-        if signal.goes_on_like(&before) {
-            *signal = signal.going_on(before);
-        } else {
+        let changes = self.parameters.effects.change_input(place, order, t, |signal| change(signal, t));
+        if changes == Some(true) {
             self.tell_of_inputs();
         }
-        true
+        changes.is_some()
     }
 
     /// A host's motion hears of inputs at once, a method when it goes on. What is shown follows them at once.
@@ -198,7 +194,18 @@ impl<E: Effects> Simulation<E> {
             Run::Open(_) => panic!("the host integrates"),
         }
         self.news = false;
+        if E::IMPOSES && self.parameters.effects.imposed::<f64>(t).is_some() {
+            self.tell_of_step();
+        }
         Ok(())
+    }
+
+    /// Effects hear where a communication step ended.
+    fn tell_of_step(&mut self) {
+        if let Ok(Reading { motion, .. }) = self.read() {
+            let end = *motion;
+            self.parameters.effects.step_to(&end);
+        }
     }
 
     /// Extrapolates inputs over the step that begins, where an effect does so.

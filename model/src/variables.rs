@@ -105,12 +105,13 @@ impl<S: Scalar> Reading<S> {
 }
 
 impl Reading {
-    /// The same with the derivatives of a state that moves in the direction `seeds`, under these effects.
-    pub fn moving<S: Scalar, E: Effects>(&self, seeds: &Whole<f64>, effects: &E) -> Reading<S> {
+    /// The same with the derivatives of a state that moves in the direction `seeds` and of time that moves by `time` [s],
+    /// under these effects.
+    pub fn moving<S: Scalar, E: Effects>(&self, seeds: &Whole<f64>, time: f64, effects: &E) -> Reading<S> {
         let state = self.state();
         let moving: Whole<S> = std::array::from_fn(|n| S::moving(state[n], seeds[n]));
         let Kinematics { body, t, turns, .. } = self.motion;
-        let at = Coordinates::from_slice(&moving);
+        let (at, t) = (Coordinates::from_slice(&moving), S::moving(t, time));
         let motion = rotor::imposed(effects, Kinematics::new(body, self.motion.tilt.chart(), at).when(t, turns));
         let work = [moving[SUPPLIED], moving[DISSIPATED]];
         Reading::new(motion, effects, work, self.ledger.total_at_start, self.cost)

@@ -3,15 +3,15 @@
 use super::{Effect, Row};
 use crate::signal::Signal;
 use crate::variable::units::ONE;
-use crate::variable::{Access, Bound, Kind, Meta, Role};
+use crate::variable::{Access, Bound, Kind, Meta, Role, parameter};
 
 /// Every input as a polynomial through its last values, for masters that send no derivatives, or send values late.
 #[derive(Clone, Debug)]
 pub struct Extrapolation {
     /// Degree of the polynomials: 0, 1 or 2.
     pub order: i32,
-    /// How many communication steps the values are late.
-    pub lag: i32,
+    /// How many communication steps the values are late [1].
+    pub lag: f64,
     /// How many communication points are known; those points, the latest first; the values of each input there.
     memory: [f64; 1 + POINTS + MOST * NODES],
 }
@@ -23,14 +23,14 @@ const NODES: usize = 3;
 const LATEST: usize = 8;
 
 /// So many communication points are remembered.
-const POINTS: usize = LATEST + 1;
+const POINTS: usize = LATEST + NODES;
 
 /// So many inputs are followed: those of four ports, a shaft and a motor, and some to come.
 const MOST: usize = 32;
 
 impl Default for Extrapolation {
     fn default() -> Self {
-        Self { order: 0, lag: 0, memory: [0.0; _] }
+        Self { order: 0, lag: 0.0, memory: [0.0; _] }
     }
 }
 
@@ -41,6 +41,15 @@ impl Extrapolation {
 
     fn points(&self) -> &[f64] {
         &self.memory[1..=POINTS]
+    }
+
+    /// The communication point so many steps back [s], interpolated between two; the first one from there on.
+    fn point(&self, back: f64) -> f64 {
+        let back = back.min((self.known() - 1) as f64);
+        let n = back as usize;
+        let (later, part) = (self.points()[n], back - n as f64);
+        // No point is read that is not known.
+        if part == 0.0 { later } else { later + part * (self.points()[n + 1] - later) }
     }
 
     fn values(&mut self, number: usize) -> &mut [f64] {
@@ -71,7 +80,13 @@ impl Effect for Extrapolation {
             Bound::OneOf(&[0.0, 1.0, 2.0]),
             "degree of the polynomials through the last values of each input"
         ),
-        whole!(lag, Bound::Within(0.0, LATEST as f64), "how many communication steps the values of inputs are late"),
+        parameter!(
+            lag,
+            &ONE,
+            Some(0.0),
+            Bound::Within(0.0, LATEST as f64),
+            "how many communication steps the values of inputs are late"
+        ),
     ];
 
     const PUSHES: bool = false;
@@ -116,13 +131,16 @@ impl Effect for Extrapolation {
         }
         let known = self.known();
         let degree = (self.order as usize).min(known - 1);
-        let [t0, t1, t2] = [0, 1, 2].map(|n| self.points()[n]);
-        let ahead = t - self.points()[(self.lag as usize).min(known - 1)];
+        // What is late belongs to the point so many steps back.
+        let [t0, t1, t2] = [0.0, 1.0, 2.0].map(|n| self.point(n + self.lag));
+        let ahead = t - t0;
         let values = self.values(number);
-        let slope = |n: usize, from: f64, to: f64| (values[n] - values[n + 1]) / (to - from);
+        // Before the first point nothing is known of an input but its value.
+        let over = |rise: f64, run: f64| if run > 0.0 { rise / run } else { 0.0 };
+        let slope = |n: usize, from: f64, to: f64| over(values[n] - values[n + 1], to - from);
         // eq. 67: P(t) = u₀ + [u₀u₁](t − t₀) + [u₀u₁u₂](t − t₀)(t − t₁)
         let first = if degree > 0 { slope(0, t1, t0) } else { 0.0 };
-        let second = if degree > 1 { (first - slope(1, t2, t1)) / (t0 - t2) } else { 0.0 };
+        let second = if degree > 1 { over(first - slope(1, t2, t1), t0 - t2) } else { 0.0 };
         let last_step = if degree > 1 { t0 - t1 } else { 0.0 };
         let value = values[0] + ahead * (first + second * (ahead + last_step));
         signal.foretell(t, [value, first + second * (2.0 * ahead + last_step), 2.0 * second]);
