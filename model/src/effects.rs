@@ -132,6 +132,11 @@ pub trait Effect: Clone + Default + Send + 'static {
         &mut []
     }
 
+    /// Whether it can remember this: what was saved may have been altered.
+    fn remembers_rightly(&self) -> bool {
+        true
+    }
+
     /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
     /// integrals are not solved.
     fn works(&self) -> bool {

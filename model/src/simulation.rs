@@ -390,11 +390,22 @@ impl<E: Effects> Stored for Simulation<E> {
             (3, _) => *run = Some(Run::Open(Open::blank())),
             _ => return Err(Damaged),
         }
-        match run {
-            None => Ok(()),
-            Some(Run::Conservative(drive)) => drive.walk(walk),
-            Some(Run::Working(drive)) => drive.walk(walk),
-            Some(Run::Open(open)) => open.walk(walk),
-        }
+        let (integrates, fits) = match run {
+            None => return Ok(()),
+            Some(Run::Conservative(drive)) => {
+                drive.walk(walk)?;
+                (Integrator::Method, drive.is_of(parameters))
+            }
+            Some(Run::Working(drive)) => {
+                drive.walk(walk)?;
+                (Integrator::Method, drive.is_of(parameters))
+            }
+            Some(Run::Open(open)) => {
+                open.walk(walk)?;
+                (Integrator::Host, open.is_of(parameters))
+            }
+        };
+        // A run begins with parameters that were checked.
+        if integrates == *integrator && fits && parameters.check().is_ok() { Ok(()) } else { Err(Damaged) }
     }
 }

@@ -131,4 +131,46 @@ impl Effect for Extrapolation {
     fn memory(&mut self) -> &mut [f64] {
         &mut self.memory
     }
+
+    fn remembers_rightly(&self) -> bool {
+        let is_count = (0..=POINTS).any(|count| self.memory[0] == count as f64);
+        // Slopes are divided by the time between two points.
+        is_count && self.points()[..self.known()].is_sorted_by(|later, earlier| later > earlier)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::list::Called;
+    use super::super::shaft::Shaft;
+    use super::*;
+    use crate::effects::Effects;
+    use crate::stored::{Damaged, from_bytes, to_bytes};
+
+    type List = (Called<Shaft, 1>, (Called<Extrapolation, 1>, ()));
+
+    #[test]
+    fn regress_a_memory_that_cannot_be_is_refused() {
+        let mut list = List::default();
+        for t in [0.0, 0.5, 1.0] {
+            list.step_from(t);
+        }
+        let bytes = to_bytes(&mut list);
+        assert_eq!(from_bytes(&mut List::default(), &bytes), Ok(()));
+        let memory = bytes.len() / 8 - Extrapolation::default().memory().len();
+        let altered = |n: usize, value: f64| {
+            let mut bytes = bytes.clone();
+            bytes[8 * (memory + n)..][..8].copy_from_slice(&value.to_le_bytes());
+            from_bytes(&mut List::default(), &bytes)
+        };
+        for count in [-1.0, 0.5, POINTS as f64 + 1.0, 1e300, f64::INFINITY, f64::NAN] {
+            assert_eq!(altered(0, count), Err(Damaged), "{count} points");
+        }
+        // Known points descend; what stands behind them is not looked at.
+        for t in [0.5, 0.0, f64::NAN, f64::NEG_INFINITY] {
+            assert_eq!(altered(1, t), Err(Damaged), "{t} s");
+        }
+        assert_eq!(altered(4, 7.0), Ok(()));
+        assert_eq!(altered(0, 2.0), Ok(()));
+    }
 }
