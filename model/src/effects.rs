@@ -8,7 +8,7 @@ mod list;
 mod terminal;
 mod wrench;
 
-pub use list::{Action, Called, Effects, Switched};
+pub use list::{Action, Called, Effects, Switched, follows_all_inputs};
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
@@ -63,6 +63,9 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// Whether it can [impose](Effect::imposed) a speed.
     const IMPOSES: bool = false;
+
+    /// How many inputs it can foretell at most.
+    const MOST_FORETOLD: usize = usize::MAX;
 
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;

@@ -25,7 +25,7 @@ const LATEST: usize = 8;
 /// So many communication points are remembered.
 const POINTS: usize = LATEST + 1;
 
-/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come.
+/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come. A list with more does not compile.
 const MOST: usize = 32;
 
 impl Default for Extrapolation {
@@ -82,6 +82,8 @@ impl Effect for Extrapolation {
 
     const FORETELLS: bool = true;
 
+    const MOST_FORETOLD: usize = MOST;
+
     fn begin(&mut self, _start: &crate::state::Kinematics<f64>) {
         self.memory[0] = 0.0;
     }
@@ -104,9 +106,6 @@ impl Effect for Extrapolation {
 
     fn foretell(&mut self, number: usize, signal: &mut Signal) {
         let t = self.points()[0];
-        if number >= MOST {
-            return;
-        }
         if let Some(value) = signal.set_at(t) {
             self.values(number)[0] = value;
         }
@@ -142,12 +141,26 @@ impl Effect for Extrapolation {
 #[cfg(test)]
 mod tests {
     use super::super::list::Called;
+    use super::super::list::follows_all_inputs;
+    use super::super::port::Port;
     use super::super::shaft::Shaft;
     use super::*;
     use crate::effects::Effects;
     use crate::stored::{Damaged, from_bytes, to_bytes};
 
     type List = (Called<Shaft, 1>, (Called<Extrapolation, 1>, ()));
+
+    #[test]
+    fn regress_no_input_is_silently_not_followed() {
+        // A shaft has one input, a port six; nobody extrapolates what an imposed speed tells of itself.
+        assert_eq!(<List as Effects>::FORETOLD, 1);
+        assert_eq!(<crate::effects::All as Effects>::FORETOLD, 25);
+        assert!(follows_all_inputs::<crate::effects::All>());
+        type Ports = (Called<Port, 1>, (Called<Port, 2>, (Called<Port, 3>, (Called<Port, 4>, ()))));
+        type Many = (Called<Shaft, 1>, (Called<Port, 1>, (Called<Port, 2>, Ports)));
+        assert!(follows_all_inputs::<Many>(), "37 inputs that nobody extrapolates");
+        assert!(!follows_all_inputs::<(Called<Extrapolation, 1>, Many)>(), "the same, extrapolated");
+    }
 
     #[test]
     fn regress_a_memory_that_cannot_be_is_refused() {
