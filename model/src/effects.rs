@@ -8,7 +8,7 @@ mod list;
 mod terminal;
 mod wrench;
 
-pub use list::{Action, Called, Effects, Switched};
+pub use list::{Action, Called, Effects, Switched, follows_all_inputs};
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
@@ -63,6 +63,9 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// Whether it can [impose](Effect::imposed) a speed.
     const IMPOSES: bool = false;
+
+    /// How many inputs it can foretell at most.
+    const MOST_FORETOLD: usize = usize::MAX;
 
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
@@ -141,6 +144,11 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// What it remembers of a run besides its variables: saved and brought back with them.
     fn memory(&mut self) -> &mut [f64] {
         &mut []
+    }
+
+    /// Whether it can remember this: what was saved may have been altered.
+    fn remembers_rightly(&self) -> bool {
+        true
     }
 
     /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work

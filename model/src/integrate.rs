@@ -11,7 +11,7 @@ pub mod sizes;
 pub mod stiff;
 pub mod tableau;
 
-use crate::stored::stored;
+use crate::stored::{Damaged, Stored, Walk, count};
 use sizes::{GROUPS, Squares};
 
 pub use sizes::Tolerance;
@@ -136,7 +136,16 @@ pub struct Cost {
     pub error_estimate: f64,
 }
 
-stored!(Cost { steps, rejected, evaluations, next_step, error_estimate });
+impl Stored for Cost {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { steps, rejected, evaluations, next_step, error_estimate } = self;
+        count(steps, walk)?;
+        count(rejected, walk)?;
+        count(evaluations, walk)?;
+        next_step.walk(walk)?;
+        error_estimate.walk(walk)
+    }
+}
 
 /// A first step spans at least so many units in the last place of the time.
 const LEAST_FIRST: f64 = 100.0;

@@ -11,7 +11,7 @@ use crate::integrate::{Refusal, System};
 use crate::rotation::{Chart, Tilt};
 use crate::scalar::Scalar;
 use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, Whole};
-use crate::stored::stored;
+use crate::stored::{Damaged, Stored, Walk, whole};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
@@ -234,7 +234,18 @@ impl<E: Effects> Rotor<E> {
     }
 }
 
-stored!(Rotor<E: Effects> { body, effects, chart, turns, placeless });
+impl<E: Effects> Stored for Rotor<E> {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { body, effects, chart, turns, placeless } = self;
+        body.walk(walk)?;
+        effects.walk(walk)?;
+        chart.walk(walk)?;
+        whole(turns, walk)?;
+        placeless.walk(walk)?;
+        // A rotor that runs was checked, and what is asked once follows from its effects.
+        if effects.check().is_ok() && *placeless != effects.follows_place() { Ok(()) } else { Err(Damaged) }
+    }
+}
 
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     /// The work integrals are quadratures: no law depends on them. φ is one too where no effect follows it.

@@ -14,7 +14,8 @@ mod tangents;
 pub use open::{Open, Settled};
 pub use tangents::Tangents;
 
-use crate::effects::Effects;
+use crate::effects::{Effects, follows_all_inputs};
+use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::{Cost, Fault, Refusal};
@@ -210,6 +211,7 @@ impl<E: Effects> Simulation<E> {
 
     /// Extrapolates inputs over the step that begins, where an effect does so.
     fn foretell(&mut self) {
+        const { assert!(follows_all_inputs::<E>(), "extrapolation.rs: MOST is less than this list has inputs") };
         let t = self.time().unwrap_or_default();
         let effects = &mut self.parameters.effects;
         effects.step_from(t);
@@ -356,6 +358,12 @@ impl<E: Effects> Simulation<E> {
         [0, 3, 6, 9].map(|n| LEAST * nominals[n])
     }
 
+    /// The energy at the start [J].
+    fn total_at_start(&self, parameters: &Parameters<E>, t: f64) -> f64 {
+        let Motion { rotor, state } = Motion::at_start(parameters, t);
+        Ledger::new(&rotor.motion(t, &state), &rotor.effects, [0.0; 2], 0.0).total()
+    }
+
     /// The start as the parameters make it, and what it shows. An error where it overflows.
     fn at_start(&self, parameters: &Parameters<E>, t: f64) -> Result<(Motion<E>, Reading), Invalid> {
         let mut start = Motion::at_start(parameters, t);
@@ -367,8 +375,7 @@ impl<E: Effects> Simulation<E> {
         let mut reading = Reading::new(motion, &rotor.effects, [0.0; 2], 0.0, Cost::default());
         reading.ledger.total_at_start = reading.ledger.total();
         if !reading.ledger.total().is_finite() {
-            let bound = "finite: the start values or parameters are too large";
-            return Err(Invalid::new("energy.total", reading.ledger.total(), bound));
+            return Err(parameters.blamed(|parameters| self.total_at_start(parameters, t).is_finite()));
         }
         Ok((start, reading))
     }
@@ -397,11 +404,22 @@ impl<E: Effects> Stored for Simulation<E> {
             (3, _) => *run = Some(Run::Open(Open::blank())),
             _ => return Err(Damaged),
         }
-        match run {
-            None => Ok(()),
-            Some(Run::Conservative(drive)) => drive.walk(walk),
-            Some(Run::Working(drive)) => drive.walk(walk),
-            Some(Run::Open(open)) => open.walk(walk),
-        }
+        let (integrates, fits) = match run {
+            None => return Ok(()),
+            Some(Run::Conservative(drive)) => {
+                drive.walk(walk)?;
+                (Integrator::Method, drive.is_of(parameters))
+            }
+            Some(Run::Working(drive)) => {
+                drive.walk(walk)?;
+                (Integrator::Method, drive.is_of(parameters))
+            }
+            Some(Run::Open(open)) => {
+                open.walk(walk)?;
+                (Integrator::Host, open.is_of(parameters))
+            }
+        };
+        // A run begins with parameters that were checked.
+        if integrates == *integrator && fits && parameters.check().is_ok() { Ok(()) } else { Err(Damaged) }
     }
 }

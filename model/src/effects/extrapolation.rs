@@ -25,7 +25,7 @@ const LATEST: usize = 8;
 /// So many communication points are remembered.
 const POINTS: usize = LATEST + NODES;
 
-/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come.
+/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come. A list with more does not compile.
 const MOST: usize = 32;
 
 impl Default for Extrapolation {
@@ -97,6 +97,8 @@ impl Effect for Extrapolation {
 
     const FORETELLS: bool = true;
 
+    const MOST_FORETOLD: usize = MOST;
+
     fn begin(&mut self, _start: &crate::state::Kinematics<f64>) {
         self.memory[0] = 0.0;
     }
@@ -119,9 +121,6 @@ impl Effect for Extrapolation {
 
     fn foretell(&mut self, number: usize, signal: &mut Signal) {
         let t = self.points()[0];
-        if number >= MOST {
-            return;
-        }
         if let Some(value) = signal.set_at(t) {
             self.values(number)[0] = value;
         }
@@ -148,5 +147,61 @@ impl Effect for Extrapolation {
 
     fn memory(&mut self) -> &mut [f64] {
         &mut self.memory
+    }
+
+    fn remembers_rightly(&self) -> bool {
+        let is_count = (0..=POINTS).any(|count| self.memory[0] == count as f64);
+        // Slopes are divided by the time between two points.
+        is_count && self.points()[..self.known()].is_sorted_by(|later, earlier| later > earlier)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::list::Called;
+    use super::super::list::follows_all_inputs;
+    use super::super::port::Port;
+    use super::super::shaft::Shaft;
+    use super::*;
+    use crate::effects::Effects;
+    use crate::stored::{Damaged, from_bytes, to_bytes};
+
+    type List = (Called<Shaft, 1>, (Called<Extrapolation, 1>, ()));
+
+    #[test]
+    fn regress_no_input_is_silently_not_followed() {
+        // A shaft has one input, a port six; nobody extrapolates what an imposed speed tells of itself.
+        assert_eq!(<List as Effects>::FORETOLD, 1);
+        assert_eq!(<crate::effects::All as Effects>::FORETOLD, 25);
+        assert!(follows_all_inputs::<crate::effects::All>());
+        type Ports = (Called<Port, 1>, (Called<Port, 2>, (Called<Port, 3>, (Called<Port, 4>, ()))));
+        type Many = (Called<Shaft, 1>, (Called<Port, 1>, (Called<Port, 2>, Ports)));
+        assert!(follows_all_inputs::<Many>(), "37 inputs that nobody extrapolates");
+        assert!(!follows_all_inputs::<(Called<Extrapolation, 1>, Many)>(), "the same, extrapolated");
+    }
+
+    #[test]
+    fn regress_a_memory_that_cannot_be_is_refused() {
+        let mut list = List::default();
+        for t in [0.0, 0.5, 1.0] {
+            list.step_from(t);
+        }
+        let bytes = to_bytes(&mut list);
+        assert_eq!(from_bytes(&mut List::default(), &bytes), Ok(()));
+        let memory = bytes.len() / 8 - Extrapolation::default().memory().len();
+        let altered = |n: usize, value: f64| {
+            let mut bytes = bytes.clone();
+            bytes[8 * (memory + n)..][..8].copy_from_slice(&value.to_le_bytes());
+            from_bytes(&mut List::default(), &bytes)
+        };
+        for count in [-1.0, 0.5, POINTS as f64 + 1.0, 1e300, f64::INFINITY, f64::NAN] {
+            assert_eq!(altered(0, count), Err(Damaged), "{count} points");
+        }
+        // Known points descend; what stands behind them is not looked at.
+        for t in [0.5, 0.0, f64::NAN, f64::NEG_INFINITY] {
+            assert_eq!(altered(1, t), Err(Damaged), "{t} s");
+        }
+        assert_eq!(altered(4, 7.0), Ok(()));
+        assert_eq!(altered(0, 2.0), Ok(()));
     }
 }

@@ -16,6 +16,11 @@ use crate::stored::Stored;
 use crate::variable::{Meta, Place, Readable};
 use std::ops::Add;
 
+/// Whether what foretells inputs has room for all of the list's.
+pub const fn follows_all_inputs<E: Effects>() -> bool {
+    E::FORETOLD <= E::MOST_FORETOLD
+}
+
 /// What effects do to a rotor.
 #[derive(Clone, Copy)]
 pub struct Action<S: Scalar> {
@@ -55,6 +60,10 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     const FOLLOWS_PHI: bool;
     /// Whether any of them can impose a speed.
     const IMPOSES: bool;
+    /// How many inputs they have that may be foretold.
+    const FORETOLD: usize;
+    /// How many can be.
+    const MOST_FORETOLD: usize;
     /// The ω_φ that one of them imposes at time `t` [rad/s], and the rate of that [rad/s²].
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
     /// What they make of the body.

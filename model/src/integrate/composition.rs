@@ -346,7 +346,7 @@ impl<const N: usize> Composed<N> {
         (self.start, self.start_y, self.last) = (self.t, self.y, h);
         (self.t, self.y, self.h) = (end, y, self.size);
         self.answer = Answer::none();
-        self.unchecked += 1;
+        self.unchecked = self.unchecked.saturating_add(1);
         self.cost.steps += 1.0;
     }
 

@@ -12,8 +12,8 @@ use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart};
 use crate::rotor::{self, Rotor, imposed};
 use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK};
-use crate::stored::stored;
-use crate::variables::{Reading, Setup};
+use crate::stored::{Damaged, Stored, Walk, stored, whole};
+use crate::variables::{Parameters, Reading, Setup};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
@@ -56,7 +56,15 @@ struct LastStep {
     closest: Option<(f64, Vector2<f64>)>,
 }
 
-stored!(LastStep { chart, turns, gamma, closest });
+impl Stored for LastStep {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { chart, turns, gamma, closest } = self;
+        chart.walk(walk)?;
+        whole(turns, walk)?;
+        gamma.walk(walk)?;
+        closest.walk(walk)
+    }
+}
 
 /// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely: on a
 /// curved path it may have turned by more than π. What whirls steadily turns by less ([`LONGEST_WHIRL`]).
@@ -130,6 +138,13 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             tilted: false,
             watch: Watch::default(),
         }
+    }
+
+    /// Whether a run of these parameters can be this one: what was saved may have been altered.
+    pub(super) fn is_of(&self, parameters: &Parameters<E>) -> bool {
+        let most = parameters.setup.solver.max_evaluations;
+        let works = N == WITH_WORK;
+        self.rotor.body == parameters.shape().inertia() && self.most == most && self.rotor.effects.works() == works
     }
 
     /// The communication point [s].

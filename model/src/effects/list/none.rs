@@ -22,6 +22,8 @@ impl Effects for () {
     const SHAPES: bool = false;
     const FOLLOWS_PHI: bool = false;
     const IMPOSES: bool = false;
+    const FORETOLD: usize = 0;
+    const MOST_FORETOLD: usize = usize::MAX;
 
     #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {

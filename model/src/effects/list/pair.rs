@@ -36,6 +36,9 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     const SHAPES: bool = H::Effect::SHAPES || T::SHAPES;
     const FOLLOWS_PHI: bool = H::Effect::FOLLOWS_PHI || T::FOLLOWS_PHI;
     const IMPOSES: bool = H::Effect::IMPOSES || T::IMPOSES;
+    const FORETOLD: usize = inputs_foretold::<H::Effect>() + T::FORETOLD;
+    const MOST_FORETOLD: usize =
+        if H::Effect::MOST_FORETOLD < T::MOST_FORETOLD { H::Effect::MOST_FORETOLD } else { T::MOST_FORETOLD };
 
     #[inline(always)]
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]> {
@@ -272,6 +275,16 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         }
         self.1.switch_on(block);
     }
+}
+
+/// How many inputs of an effect may be foretold.
+const fn inputs_foretold<E: Effect>() -> usize {
+    let (mut row, mut inputs) = (0, 0);
+    while row < E::ROWS.len() && !E::TELLS_RATES {
+        inputs += matches!(E::ROWS[row].access, Access::Input { .. }) as usize;
+        row += 1;
+    }
+    inputs
 }
 
 fn each_signal<E: Effect>(effect: &mut E, act: &mut impl FnMut(&mut Signal)) {
