@@ -121,7 +121,9 @@ fn clients() -> Result<()> {
 
 /// The Rust tests of the model that take long.
 fn long_runs() -> Result<()> {
-    run(cargo().args(["test", "--quiet", "-p", "split-rotor-model", "--test", "named", "--", "--ignored"]))
+    run(cargo().args(["test", "--quiet", "-p", "split-rotor-model", "--test", "named", "--", "--ignored"]))?;
+    // Not quiet: it prints the seed of the day.
+    run(cargo().args(["test", "-p", "split-rotor-model", "--test", "random_scenes", "--", "--ignored", "--nocapture"]))
 }
 
 /// What a user would pick instead of us still runs, all of it.

@@ -8,13 +8,11 @@
 mod inputs;
 mod laws;
 mod run;
-mod spectrum;
 mod stepping;
 
 pub use inputs::Input;
 #[allow(unused_imports, reason = "each test crate uses a part")]
 pub use run::{Pace, Run, Shown};
-pub use spectrum::Spectrum;
 
 use nalgebra::{Vector2, Vector3};
 

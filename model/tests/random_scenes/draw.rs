@@ -1,57 +1,10 @@
 //! Scenes drawn at random: every effect alone and in sets, from micro rotor to turbine, at rest and at any speed.
 
-use super::trial::{Change, Partner, Trial};
-use crate::oracles::machine::{Bearing, Input, Machine, Pace, Run, Start, Support, Unbalance};
+use super::dice::Dice;
+use super::trial::{Partner, Trial};
+use crate::oracles::machine::{Bearing, Machine, Start, Support, Unbalance};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
-
-/// Numbers that look random, the same in every run.
-///
-/// Source: Steele, Lea and Flood, "Fast splittable pseudorandom number generators" (2014).
-pub struct Dice(u64);
-
-impl Dice {
-    /// From this seed.
-    pub fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        mixed ^ (mixed >> 31)
-    }
-
-    /// Of any size from `low` to `high`.
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * ((self.bits() >> 11) as f64 / (1_u64 << 53) as f64)
-    }
-
-    /// Of any order of magnitude from `low` to `high`.
-    fn decades(&mut self, low: f64, high: f64) -> f64 {
-        libm::exp(self.within(libm::log(low), libm::log(high)))
-    }
-
-    fn chance(&mut self, part: f64) -> bool {
-        self.within(0.0, 1.0) < part
-    }
-
-    /// From 0 up to, but without, `end`.
-    fn below(&mut self, end: usize) -> usize {
-        (self.bits() % end as u64) as usize
-    }
-
-    fn sign(&mut self) -> f64 {
-        if self.chance(0.5) { 1.0 } else { -1.0 }
-    }
-
-    /// A direction across e.
-    fn across(&mut self) -> Vector3<f64> {
-        let azimuth = self.within(0.0, TAU);
-        Vector3::new(0.0, libm::cos(azimuth), libm::sin(azimuth))
-    }
-}
 
 /// What holds a rotor.
 #[derive(Clone, Copy, PartialEq)]
@@ -67,20 +20,20 @@ enum Held {
 const ALONE: u64 = 13;
 
 /// What a draw goes by: sizes of the rotor and of its motion.
-struct Draw {
-    dice: Dice,
-    trial: Trial,
+pub(super) struct Draw {
+    pub(super) dice: Dice,
+    pub(super) trial: Trial,
     /// Radius of gyration across t [m].
-    radius: f64,
+    pub(super) radius: f64,
     /// About the rate of its springs, or of its tumbling [rad/s].
-    rate: f64,
+    pub(super) rate: f64,
     /// Its spin at the start, and what a torque or a brake adds to it [rad/s].
-    spin: f64,
-    gain: f64,
+    pub(super) spin: f64,
+    pub(super) gain: f64,
 }
 
 /// The scene of this number of a seed; `attempt` counts those before it that were not fit.
-pub fn draw(seed: u64, number: u64, attempt: u64) -> Option<Trial> {
+pub fn draw(seed: u64, number: u64, attempt: u64) -> Trial {
     let dice = Dice::new((seed.wrapping_mul(1000).wrapping_add(number)).wrapping_mul(1000).wrapping_add(attempt));
     let mut draw = Draw::new(dice);
     if number < ALONE {
@@ -391,146 +344,5 @@ impl Draw {
         let turning = if held { self.rate * dice.decades(1e-5, 0.1) } else { self.rate * dice.decades(1e-3, 1.0) };
         start.omega += dice.across() * turning;
         self.trial.machine.start = start;
-    }
-}
-
-/// So many periods of its fastest motion, and revolutions, a scene may last.
-const PERIODS: [f64; 2] = [2.0, 2000.0];
-const REVOLUTIONS: f64 = 1e4;
-
-/// The fastest decay over the end [1]: what a reference in explicit steps can afford.
-const STIFF: [f64; 2] = [1e2, 6e4];
-
-/// So often loads are exchanged at most.
-const EXCHANGES: f64 = 600.0;
-
-impl Draw {
-    /// With an end, what is set until then, and when it is looked at.
-    fn timed(mut self) -> Option<Trial> {
-        // Only its springs and inertia tell how long it lasts, and what drag is to it.
-        let drag = self.trial.machine.drag.take();
-        let spectrum = Run::new(&self.trial.machine, Pace::Adaptive(1.0)).spectrum()?;
-        let machine = &self.trial.machine;
-        let uneven = !machine.unbalances.is_empty() || machine.Jt2.is_some();
-        let reached = self.spin.abs().max((self.spin + self.gain).abs());
-        let turning = machine.start.omega.norm().max(reached);
-        let whirling = spectrum.values.iter().map(|value| value.im).fold(0.0, f64::max);
-        let partners = if self.trial.partner.is_some() { 2.0 * self.rate } else { 0.0 };
-        let nods = machine.Ja / machine.Jt * turning;
-        let fastest = whirling.max(partners).max(nods).max(if uneven { turning } else { 0.0 }).max(0.1);
-        let decay = spectrum.values.iter().map(|value| -value.re).fold(0.0, f64::max);
-        let dice = &mut self.dice;
-        let mut end = TAU * dice.decades(PERIODS[0], PERIODS[1]) / fastest;
-        end = end.min(TAU * REVOLUTIONS / reached.max(0.1));
-        if decay * end > STIFF[0] {
-            end = end.min(dice.decades(STIFF[0], STIFF[1]) / decay);
-        }
-        if let Some(Partner { every, .. }) = self.trial.partner {
-            end = end.min(EXCHANGES * every);
-        }
-        let machine = &mut self.trial.machine;
-        machine.drag = drag
-            .map(|[linear, quadratic]| [linear * machine.Ja / end, quadratic * machine.Ja / (end * turning.max(1.0))]);
-        let count = 60 + dice.below(41);
-        let at = |k: usize, dice: &mut Dice| end * (k as f64 + dice.within(-0.3, 0.3)) / count as f64;
-        let points = (1..count).map(|k| at(k, dice)).collect::<Vec<_>>();
-        self.trial.points = points.into_iter().chain([end]).collect();
-        self.trial.knows_end = dice.chance(0.8);
-        self.inputs(end);
-        self.trial.changes.sort_by(|a, b| a.t.total_cmp(&b.t));
-        Some(self.trial)
-    }
-
-    /// What comes in from outside until the end [s].
-    fn inputs(&mut self, end: f64) {
-        let Machine { m, Ja, shaft, imposed_speed, .. } = self.trial.machine;
-        if shaft {
-            self.load(Input::Torque, Ja * self.gain / end, end);
-        }
-        if imposed_speed {
-            self.speed(end);
-        }
-        if self.trial.partner.is_some() {
-            return;
-        }
-        let held = self.trial.machine.support.is_some() || !self.trial.machine.bearings.is_empty();
-        for port in 0..self.trial.machine.ports.len() {
-            // As far as the load would move it.
-            let way = self.radius * self.dice.decades(1e-6, 0.1);
-            let force = m * way * if held { self.rate * self.rate } else { 4.0 / (end * end) };
-            for axis in 0..3 {
-                // Nothing holds it along x.
-                if self.dice.chance(if axis == 0 { 0.1 } else { 0.6 }) {
-                    let force = force * self.dice.within(-1.0, 1.0);
-                    self.load(Input::Force(port, axis), force, end);
-                }
-                if self.dice.chance(0.3) {
-                    let moment = force * self.radius * self.dice.within(-1.0, 1.0);
-                    self.load(Input::Moment(port, axis), moment, end);
-                }
-            }
-        }
-    }
-
-    /// A load of about this size: from the start, later, with derivatives, or one after the other.
-    fn load(&mut self, input: Input, size: f64, end: f64) {
-        if let Some([order, lag]) = self.trial.machine.extrapolation {
-            return self.late(input, size, order, lag);
-        }
-        let dice = &mut self.dice;
-        let changes = &mut self.trial.changes;
-        let mut set = |t: f64, terms: [f64; 3]| changes.push(Change { t, input, terms });
-        match dice.below(5) {
-            0 | 1 => self.trial.machine.inputs.push((input, size)),
-            2 => set(end * dice.within(0.02, 0.5), [size, 0.0, 0.0]),
-            3 => {
-                let t = end * dice.within(0.02, 0.3);
-                let [slope, curvature] = [dice.within(-1.0, 1.0) / end, dice.within(-1.0, 1.0) / (end * end)];
-                set(t, [0.5 * size, slope * size, curvature * size]);
-            }
-            _ => {
-                self.trial.machine.inputs.push((input, 0.3 * size));
-                for n in 0..2 + dice.below(5) {
-                    let value = size * dice.within(-1.0, 1.0);
-                    set(end * (0.05 + 0.15 * n as f64), [value, 0.0, 0.0]);
-                }
-            }
-        }
-    }
-
-    /// A load that is told at every point, so many of them late. It moves only once there are values enough.
-    fn late(&mut self, input: Input, size: f64, order: usize, lag: usize) {
-        let times: Vec<_> = [0.0].into_iter().chain(self.trial.points.iter().copied()).collect();
-        let end = times[times.len() - 1];
-        let rate = TAU * self.dice.within(0.5, 3.0) / end;
-        let first = order + lag + 1;
-        self.trial.machine.inputs.push((input, size));
-        for n in first..times.len() - 1 {
-            let since = times[n - lag] - times[first - lag - 1];
-            let value = size * libm::cos(rate * since);
-            self.trial.changes.push(Change { t: times[n], input, terms: [value, 0.0, 0.0] });
-        }
-    }
-
-    /// A speed that is bent, and jumps.
-    fn speed(&mut self, end: f64) {
-        let spin = self.spin;
-        let dice = &mut self.dice;
-        let jump = if dice.chance(0.5) { 1.0 } else { dice.within(0.8, 1.2) };
-        let w = if spin == 0.0 { dice.decades(1.0, 100.0) } else { spin } * jump;
-        let mut a = || w * dice.within(-0.5, 0.5) / end;
-        let [first, second, third] = [a(), a(), a()];
-        self.trial.machine.inputs.extend([(Input::Speed, w), (Input::Acceleration, first)]);
-        let mut set = |part: f64, input: Input, terms: [f64; 3]| {
-            self.trial.changes.push(Change { t: part * end, input, terms });
-        };
-        set(0.21, Input::Acceleration, [second, 0.0, 0.0]);
-        if self.dice.chance(0.6) {
-            let other = w * self.dice.within(0.9, 1.1);
-            set(0.43, Input::Speed, [other, 0.0, 0.0]);
-        }
-        if self.dice.chance(0.6) {
-            set(0.71, Input::Acceleration, [third, -third / end, 0.0]);
-        }
     }
 }

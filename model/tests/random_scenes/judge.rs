@@ -11,13 +11,6 @@ pub const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 /// Errors may be so many tolerances of how far the motion goes.
 const ALLOWED: f64 = 300.0;
 
-/// Over more periods than this they add up.
-const PERIODS: f64 = 600.0;
-
-/// The coordinates themselves are rounded at each step to some 1e-16, which adds up as the square root of the periods does, and
-/// grows as what is off at the start does. It counts only where a motion is 1e7 times smaller than where it is.
-const ROUNDING: f64 = 1e-15;
-
 /// What became of a scene at a tolerance.
 #[derive(Clone, Debug)]
 pub struct Verdict {
@@ -31,8 +24,6 @@ pub struct Verdict {
     pub worst: f64,
     /// The reference's own error over what is allowed [1].
     pub own: f64,
-    /// N.
-    pub periods: f64,
     /// Evaluations.
     pub evaluations: f64,
     /// What it took [s].
@@ -51,24 +42,23 @@ impl Verdict {
         let (mut name, mut evaluations) = (method.name(), 0.0);
         let run = || {
             let mut ours = Ours::start(trial, method, tolerances)?;
-            let shown = play(trial, &mut ours, |_, _| ());
+            let shown = play(trial, &mut ours);
             name = ours.auto().unwrap_or(name.clone());
             evaluations = ours.evaluations();
             shown
         };
         let shown = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(PANICKED.into()));
         let tolerance = tolerances[0];
-        let periods = truth.periods(tolerance);
-        let allowed = allowed(truth, tolerance, periods);
-        let off = shown.map(|shown| truth.differences(trial, &shown));
-        let worst = off.as_ref().map_or(f64::INFINITY, |off| largest(over(*off, allowed)));
+        // N of the goal, the periods, never was needed.
+        let allowed = ALLOWED * tolerance * truth.growth.max(1.0);
+        let errors = shown.map(|shown| over(truth.differences(trial, &shown), truth.sizes));
+        let worst = errors.as_ref().map_or(f64::INFINITY, |errors| largest(*errors) / allowed);
         Self {
             tolerance,
             method: name,
-            errors: off.map(|off| over(off, truth.sizes)),
+            errors,
             worst,
-            own: largest(over(std::array::from_fn(|n| truth.own_error[n] * truth.sizes[n]), allowed)),
-            periods,
+            own: largest(truth.own_error) / allowed,
             evaluations,
             seconds: began.elapsed().as_secs_f64(),
         }
@@ -86,10 +76,3 @@ impl Verdict {
 }
 
 const PANICKED: &str = "panicked";
-
-/// What place, axis and φ may err by [m, rad, rad].
-fn allowed(truth: &Truth, tolerance: f64, periods: f64) -> Measures {
-    let tolerances = ALLOWED * tolerance * truth.growth.max(periods / PERIODS).max(1.0);
-    let rounding = ROUNDING * periods.max(1.0).sqrt() * truth.growth.max(1.0);
-    std::array::from_fn(|n| tolerances * truth.sizes[n] + rounding * truth.coordinates[n])
-}

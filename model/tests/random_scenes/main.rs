@@ -2,34 +2,38 @@
 //!
 //! `SPLIT_ROTOR_SCENE_SEED=14017 cargo test -p split-rotor-model --test random_scenes auto -- --nocapture` tells all of one
 //! scene, whose number the table has: three digits that count it within its seed, before them the seed. Seed 0 are those that
-//! are always among them. `SPLIT_ROTOR_METHOD=dop853` tries another method than `auto`.
+//! are always among them. `UPDATE_GOLDEN=1` writes the table of `docs/random-scenes.md`.
 
 #[path = "../harness/mod.rs"]
 mod harness;
 #[path = "../oracles/mod.rs"]
 mod oracles;
 
+mod dice;
 mod draw;
 mod fixed;
 mod judge;
+mod mutants;
 mod play;
 mod report;
+mod timing;
 mod trial;
 mod truth;
 
 use judge::{TOLERANCES, Verdict};
 use play::Method;
 use report::Row;
-use std::time::Instant;
+use std::collections::BTreeMap;
+use std::time::{Instant, SystemTime};
 use trial::Trial;
 use truth::Truth;
 
 /// The seeds of every run, and how many scenes each draws.
 const SEEDS: [u64; 3] = [14, 2018, 31415];
-const OF_A_SEED: u64 = 62;
+const OF_A_SEED: u64 = 200;
 
 /// Scenes that are drawn in the long test.
-const OF_A_DAY: u64 = 600;
+const OF_A_DAY: u64 = 1000;
 
 /// A scene is drawn anew so often until one is fit.
 const ATTEMPTS: u64 = 50;
@@ -48,7 +52,7 @@ fn fit(number: u64) -> (Trial, Truth) {
         return (trial, truth);
     }
     for attempt in 0..ATTEMPTS {
-        let Some(trial) = draw::draw(seed, n, attempt) else { continue };
+        let trial = draw::draw(seed, n, attempt);
         match Truth::of(&trial) {
             Ok(truth) => return (trial, truth),
             Err(unfit) => println!("{number}, {}: {unfit:?}, drawn anew", trial.name),
@@ -63,29 +67,12 @@ fn asked(name: &str) -> Option<u64> {
     Some(value.parse().unwrap_or_else(|_| panic!("{name} is a number, not {value:?}")))
 }
 
-/// The method that is tried.
-fn method() -> Method {
-    let Ok(name) = std::env::var("SPLIT_ROTOR_METHOD") else { return Method::Auto };
-    Method::named(&name).unwrap_or_else(|| panic!("SPLIT_ROTOR_METHOD is a method, not {name:?}"))
-}
-
-fn row(number: u64) -> Row {
+/// A scene of this number, tried with these methods.
+fn row(number: u64, methods: &[Method]) -> Row {
     let (trial, truth) = fit(number);
-    let verdicts = TOLERANCES.map(|tolerance| Verdict::of(&trial, &truth, method(), tolerance)).into();
+    let tried = |method: &Method| TOLERANCES.map(|tolerance| Verdict::of(&trial, &truth, *method, tolerance));
+    let verdicts = methods.iter().flat_map(tried).collect();
     Row { number, trial, truth, verdicts }
-}
-
-/// All of one scene, with every method.
-fn tell(number: u64) {
-    let mut row = row(number);
-    println!("{}", report::whole(&row));
-    for method in Method::NAMED {
-        let tried = TOLERANCES.map(|tolerance| Verdict::of(&row.trial, &row.truth, method, tolerance));
-        row.verdicts.extend(tried);
-    }
-    for verdict in &row.verdicts {
-        println!("{} {:.3} s", report::line(&row, verdict), verdict.seconds);
-    }
 }
 
 /// Refused may be so many pairs of a scene and a tolerance [1].
@@ -97,43 +84,41 @@ const OWN: f64 = 0.1;
 /// Tries the scenes of these numbers, and asserts what must be true of all.
 fn judge(numbers: impl Iterator<Item = u64>) {
     if let Some(number) = asked("SPLIT_ROTOR_SCENE_SEED") {
-        return tell(number);
+        return println!("{}", report::whole(&row(number, &Method::ALL)));
     }
     let began = Instant::now();
-    let rows: Vec<_> = numbers.map(row).collect();
+    let rows: Vec<_> = numbers.map(|number| row(number, &[Method::Auto])).collect();
     let pairs = || rows.iter().flat_map(|row| row.verdicts.iter().map(move |verdict| (row, verdict)));
     let spent = pairs().map(|(_, verdict)| verdict.seconds).sum::<f64>();
     println!("{} scenes in {:.1} s, {spent:.1} s of them ours", rows.len(), began.elapsed().as_secs_f64());
     println!("\n{}\n", report::worst(&rows));
-    let mut wrong = Vec::new();
-    let mut refused = 0;
+    if std::env::var_os("UPDATE_GOLDEN").is_some_and(|value| value == "1") {
+        report::write(&rows);
+    }
+    let (mut wrong, mut refused) = (Vec::new(), 0);
     for (row, verdict) in pairs() {
-        if std::env::var_os("LAB").is_some() {
-            println!("LAB {:.3e} {:e} {} {}", verdict.worst, verdict.tolerance, verdict.method, row.trial.name);
-        }
-        if verdict.own > OWN || verdict.own.is_nan() {
-            wrong.push(format!("the reference itself: {}", report::line(row, verdict)));
+        let mut tell = |why: &str| wrong.push(format!("{}{why}", report::line(row, verdict)));
+        if !(verdict.own <= OWN) {
+            tell(" the reference itself errs");
         }
         if verdict.is_refused() {
             refused += 1;
-            let solves = |method: &Method| Verdict::of(&row.trial, &row.truth, *method, verdict.tolerance).is_right();
-            if let Some(method) = Method::NAMED.iter().find(|method| solves(method)) {
-                wrong.push(format!("refused, but {} solves it: {}", method.name(), report::line(row, verdict)));
+            let solves = |method: &&Method| Verdict::of(&row.trial, &row.truth, **method, verdict.tolerance).is_right();
+            if let Some(method) = Method::ALL[1..].iter().find(solves) {
+                tell(&format!(" refused, but {} solves it", method.name()));
             }
         } else if !verdict.is_right() {
-            wrong.push(report::line(row, verdict));
+            tell("");
         }
     }
     let all = rows.len() * TOLERANCES.len();
-    println!("{} of {all} are wrong, {refused} are refused", wrong.len());
-    for line in &wrong {
-        println!("{line}");
-    }
-    if let Some(row) = pairs().filter(|(_, verdict)| !verdict.is_right()).max_by(|a, b| a.1.worst.total_cmp(&b.1.worst))
-    {
-        println!("\nThe worst as a scene:\n\n{}", report::whole(row.0));
-    }
-    assert!(wrong.is_empty(), "{} of {all} pairs of a scene and a tolerance are wrong", wrong.len());
+    println!("{refused} are refused");
+    assert!(
+        wrong.is_empty(),
+        "{} of {all} pairs of a scene and a tolerance are wrong:\n{}",
+        wrong.len(),
+        wrong.join("\n")
+    );
     assert!(refused as f64 <= REFUSED * all as f64, "{refused} of {all} pairs of a scene and a tolerance are refused");
 }
 
@@ -146,10 +131,22 @@ fn exact_auto_keeps_its_tolerance() {
 #[test]
 #[ignore = "long"]
 fn exact_auto_keeps_its_tolerance_in_the_scenes_of_the_day() {
-    let days = || std::time::SystemTime::UNIX_EPOCH.elapsed().expect("a date").as_secs() / 86_400;
-    let seed = asked("SPLIT_ROTOR_SEED").unwrap_or_else(days);
+    let day = || SystemTime::UNIX_EPOCH.elapsed().expect("a date").as_secs() / 86_400;
+    let seed = asked("SPLIT_ROTOR_SEED").unwrap_or_else(day);
     println!("SPLIT_ROTOR_SEED={seed}");
     judge((0..OF_A_DAY).map(|n| number(seed, n)));
+}
+
+/// Where what acts alone made `auto` and `symplectic` drift on: so many of the scenes that are always there.
+const DRIFTED: u64 = 9;
+
+#[test]
+fn exact_symplectic_of_its_own_step_is_right_or_refuses() {
+    let rows = (0..DRIFTED).map(|n| row(number(0, n), &[Method::Symplectic]));
+    for row in rows {
+        let wrong = row.verdicts.iter().find(|verdict| !verdict.is_right() && !verdict.is_refused());
+        assert!(wrong.is_none(), "{}", report::whole(&row));
+    }
 }
 
 /// A tolerance at which a method errs far less than laws that differ would.
@@ -161,23 +158,59 @@ const LEAST_ABSOLUTE: f64 = 1e-17;
 /// What place, axis and φ may err then over their sizes, and over A where that is more than 1 [1].
 const LAWS: f64 = 2e-9;
 
-/// The scenes of this seed hold every effect.
+/// Scenes of a seed that hold every effect.
+const WITH_ALL: u64 = 70;
+
 #[test]
 fn exact_every_law_is_that_of_the_reference() {
     let mut wrong = Vec::new();
-    for n in 0..OF_A_SEED {
-        let (trial, truth) = fit(number(SEEDS[0], n));
+    for number in (0..WITH_ALL).map(|n| number(SEEDS[0], n)) {
+        let (trial, truth) = fit(number);
         let smallest = truth.sizes.iter().copied().filter(|size| *size > 0.0).fold(1.0, f64::min);
-        let verdict = Verdict::within(&trial, &truth, Method::Dop853, [TIGHT, (TIGHT * smallest).max(LEAST_ABSOLUTE)]);
-        let errors = verdict.errors.clone().unwrap_or([f64::NAN; 3]);
-        let worst = truth::largest(errors) / truth.growth.max(1.0);
-        if worst.is_nan() || worst > LAWS {
-            let row = Row { number: number(SEEDS[0], n), trial, truth, verdicts: Vec::new() };
-            wrong.push(report::line(&row, &verdict));
+        let tolerances = [TIGHT, (TIGHT * smallest).max(LEAST_ABSOLUTE)];
+        let verdict = Verdict::within(&trial, &truth, Method::Dop853, tolerances);
+        let worst = truth::largest(verdict.errors.clone().unwrap_or([f64::NAN; 3])) / truth.growth.max(1.0);
+        if !(worst <= LAWS) {
+            wrong.push(report::line(&Row { number, trial, truth, verdicts: Vec::new() }, &verdict));
         }
     }
-    for line in &wrong {
-        println!("{line}");
+    assert!(wrong.is_empty(), "{} of {WITH_ALL} scenes are another motion:\n{}", wrong.len(), wrong.join("\n"));
+}
+
+/// A tolerance at which another scene must be told from the right one.
+const TELLING: f64 = 1e-8;
+
+/// Of the scenes with an effect so many must tell that a number of it is off by 1 % [1]; in the others it does too little: measured
+/// 0.67 (drag) and more, allow 0.6.
+const TOLD: f64 = 0.6;
+
+#[test]
+fn exact_a_scene_with_a_wrong_number_is_wrong() {
+    let mut told = BTreeMap::<_, [u32; 2]>::new();
+    for number in (0..WITH_ALL).map(|n| number(SEEDS[0], n)) {
+        let (trial, truth) = fit(number);
+        for (effect, mutant) in mutants::of(&trial) {
+            let verdict = Verdict::of(&mutant, &truth, Method::Auto, TELLING);
+            let [found, all] = told.entry(effect).or_default();
+            (*found, *all) = (*found + u32::from(verdict.errors.is_ok() && !verdict.is_right()), *all + 1);
+        }
     }
-    assert!(wrong.is_empty(), "{} of {OF_A_SEED} scenes are another motion than the reference's", wrong.len());
+    println!("{told:?}");
+    assert_eq!(told.len(), 12, "an effect without a mutant");
+    for (effect, [found, all]) in told {
+        assert!(f64::from(found) >= TOLD * f64::from(all), "{effect}: {found} of {all}");
+    }
+}
+
+/// A from a start that is off by 1e-6 and by 1e-7 of the motion may differ by this part, or it is that of rounding or of a wide way.
+const LINEAR: f64 = 0.05;
+
+#[test]
+fn exact_growth_is_that_of_small_shifts() {
+    for number in (0..WITH_ALL).map(|n| number(SEEDS[0], n)) {
+        let (trial, truth) = fit(number);
+        let nearer = Truth::with(&trial, 1e-7).expect("a fit scene").growth;
+        let differ = (truth.growth - nearer).abs() / nearer.max(1.0);
+        assert!(differ <= LINEAR, "{number}: {} or {nearer}", truth.growth);
+    }
 }

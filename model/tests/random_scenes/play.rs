@@ -20,7 +20,7 @@ pub trait Rig {
 }
 
 /// What it shows at the start and at each point; where it stopped, and why.
-pub fn play<R: Rig>(trial: &Trial, rig: &mut R, mut look: impl FnMut(usize, &mut R)) -> Result<Vec<Shown>, String> {
+pub fn play(trial: &Trial, rig: &mut impl Rig) -> Result<Vec<Shown>, String> {
     let (grid, mut shown, mut next) = (trial.grid(), Vec::new(), 0);
     for (n, point) in grid.iter().enumerate() {
         if n > 0 {
@@ -28,7 +28,6 @@ pub fn play<R: Rig>(trial: &Trial, rig: &mut R, mut look: impl FnMut(usize, &mut
         }
         if point.shown {
             shown.push(rig.show());
-            look(shown.len() - 1, rig);
         }
         while let Some(change) = trial.changes.get(next).filter(|change| change.t <= point.t) {
             rig.set(change.input, change.terms);
@@ -80,13 +79,8 @@ pub enum Method {
 }
 
 impl Method {
-    /// Those that a user can name.
-    pub const NAMED: [Self; 4] = [Self::Dopri5, Self::Dop853, Self::Symplectic, Self::Stiff];
-
-    /// The method of this name.
-    pub fn named(name: &str) -> Option<Self> {
-        [Self::Auto].into_iter().chain(Self::NAMED).find(|method| method.name() == name)
-    }
+    /// All of them.
+    pub const ALL: [Self; 5] = [Self::Auto, Self::Dopri5, Self::Dop853, Self::Symplectic, Self::Stiff];
 
     /// Its name.
     pub fn name(self) -> String {

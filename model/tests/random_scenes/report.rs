@@ -29,9 +29,9 @@ pub fn worst(rows: &[Row]) -> String {
     let mut all: Vec<_> = rows.iter().flat_map(|row| row.verdicts.iter().map(move |verdict| (row, verdict))).collect();
     all.sort_by(|a, b| b.1.worst.total_cmp(&a.1.worst));
     let mut lines = vec![
-        "| scene | what | tolerance | method | place, axis, φ over their sizes | over bound | A | N | evaluations |"
+        "| scene | what | tolerance | method | place, axis, φ over their sizes | over bound | A | evaluations |"
             .to_owned(),
-        "|---|---|---|---|---|---|---|---|---|".to_owned(),
+        "|---|---|--:|---|---|--:|--:|--:|".to_owned(),
     ];
     lines.extend(all.iter().take(WORST).map(|(row, verdict)| line(row, verdict)));
     lines.join("\n")
@@ -43,23 +43,32 @@ pub fn line(row: &Row, verdict: &Verdict) -> String {
         Ok(errors) => short(*errors),
         Err(why) => why.clone(),
     };
-    let Verdict { tolerance, method, worst, periods, evaluations, .. } = verdict;
+    let Verdict { tolerance, method, worst, evaluations, .. } = verdict;
     let (number, name, growth) = (row.number, &row.trial.name, row.truth.growth);
-    format!(
-        "| {number} | {name} | {tolerance:e} | {method} | {errors} | {worst:.2e} | {growth:.1} | {periods:.0} | {evaluations} |"
-    )
+    format!("| {number} | {name} | {tolerance:e} | {method} | {errors} | {worst:.2e} | {growth:.1} | {evaluations} |")
 }
 
 /// All that is known of a scene.
 pub fn whole(row: &Row) -> String {
-    let Row { number, trial, truth, .. } = row;
-    let mut text = format!("# scene {number}: SPLIT_ROTOR_SCENE_SEED={number}\n{}", trial.text());
-    let facts = format!(
-        "# sizes of place [m], tilt [rad], φ [rad]: {}\n# the reference's own error over them: {}; evaluations: {}\n",
-        short(truth.sizes),
-        short(truth.own_error),
-        truth.evaluations
-    );
-    text.push_str(&facts);
-    text
+    let Row { number, trial, truth, verdicts } = row;
+    let (sizes, own) = (short(truth.sizes), short(truth.own_error));
+    let verdicts = verdicts.iter().map(|verdict| format!("{} {:.3} s\n", line(row, verdict), verdict.seconds));
+    format!(
+        "# scene {number}\n{}# sizes of place [m], tilt [rad], φ [rad]: {sizes}\n\
+         # the reference's own error over them: {own}; evaluations: {}\n\n{}",
+        trial.text(),
+        truth.evaluations,
+        verdicts.collect::<String>()
+    )
+}
+
+/// The page's table begins after this line.
+const TABLE: &str = "<!-- worst -->";
+
+/// Writes the worst scenes into the page of the documentation.
+pub fn write(rows: &[Row]) {
+    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/random-scenes.md");
+    let text = std::fs::read_to_string(&page).expect("the page");
+    let (before, _) = text.split_once(TABLE).expect("a place for the table");
+    std::fs::write(&page, format!("{before}{TABLE}\n\n{}\n", worst(rows))).expect("the page is written");
 }

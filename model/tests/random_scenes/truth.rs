@@ -1,10 +1,10 @@
-//! What a scene's motion is, how far it goes, how it grows what is off at the start, and how many periods it has.
+//! What a scene's motion is, how far it goes, and how it grows what is off at the start.
 
 use super::play::play;
 use super::trial::Trial;
-use crate::oracles::machine::{Machine, Pace, Run, Shown, Spectrum};
+use crate::oracles::machine::{Machine, Pace, Run, Shown};
 use crate::oracles::rotation;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
 /// Place across e [m], axis [rad], φ [rad].
@@ -17,17 +17,10 @@ pub struct Truth {
     pub shown: Vec<Shown>,
     /// How far the motion goes.
     pub sizes: Measures,
-    /// The largest coordinates from O and from e, and φ.
-    pub coordinates: Measures,
     /// By how much it differs from that in steps twice as long, over the sizes.
     pub own_error: Measures,
     /// A: by how many tolerances it shifts where the start is off by one.
     pub growth: f64,
-    /// The rate of the fastest oscillation [rad/s] that holds more than a part of the motion [1], at some points.
-    oscillations: Vec<Vec<(f64, f64)>>,
-    /// Revolutions that matter: of an uneven body.
-    revolutions: f64,
-    end: f64,
     /// Evaluations that it took in all.
     pub evaluations: usize,
 }
@@ -39,6 +32,8 @@ pub enum Unfit {
     TiltsOver(f64),
     /// It grows what is off at the start by more than is judged.
     Grows(f64),
+    /// It turns more often than is judged.
+    Spins(f64),
     /// The reference does not get on.
     Runaway,
 }
@@ -52,80 +47,51 @@ const OFF: f64 = 1e-6;
 /// A beyond this is not judged.
 const MOST_GROWTH: f64 = 1e4;
 
+/// Revolutions beyond this are not judged.
+const MOST_TURNS: f64 = 1e4;
+
 /// The nearest that an axis may come to −e, 1 + e·t: there φ has no limit, and with a joint the motion has none; a joint's laws
 /// end at 3.1 rad.
 const NEAREST: [f64; 2] = [1e-3, 0.06];
 
-/// The spectrum is taken so often.
-const LOOKS: usize = 8;
-
 impl Truth {
     /// Of a scene; why it is not fit.
     pub fn of(trial: &Trial) -> Result<Self, Unfit> {
+        Self::with(trial, OFF)
+    }
+
+    /// The same, A seen with a start that is off by this part of the sizes [1].
+    pub fn with(trial: &Trial, off_by: f64) -> Result<Self, Unfit> {
         let mut coarse = Run::new(&trial.machine, Pace::Adaptive(STEP));
-        let in_long_steps = play(trial, &mut coarse, |_, _| ()).map_err(|_| Unfit::Runaway)?;
+        let in_long_steps = play(trial, &mut coarse).map_err(|_| Unfit::Runaway)?;
         let nearest = NEAREST[usize::from(has_joint(&trial.machine))];
         if coarse.nearest() < nearest {
             return Err(Unfit::TiltsOver(coarse.nearest()));
         }
         let steps = coarse.taken();
         let mut fine = Run::new(&trial.machine, Pace::Like(steps.clone(), 2));
-        let (mut spectra, apart) = (Vec::new(), trial.points.len().div_ceil(LOOKS));
-        let look = |point: usize, run: &mut Run| {
-            if point.is_multiple_of(apart) {
-                spectra.push(run.spectrum());
-            }
-        };
-        let shown = play(trial, &mut fine, look).map_err(|_| Unfit::Runaway)?;
+        let shown = play(trial, &mut fine).map_err(|_| Unfit::Runaway)?;
         let judged = trial.judged();
         let sizes = sizes(&shown, judged);
-        let mut off = Run::new(&moved(&trial.machine, &shown), Pace::Like(steps, 1));
-        let shifted = play(trial, &mut off, |_, _| ()).map_err(|_| Unfit::Runaway)?;
+        if sizes[2] > TAU * MOST_TURNS {
+            return Err(Unfit::Spins(sizes[2] / TAU));
+        }
+        let mut off = Run::new(&moved(&trial.machine, &shown, off_by), Pace::Like(steps, 1));
+        let shifted = play(trial, &mut off).map_err(|_| Unfit::Runaway)?;
         let shifts = differences(&shifted, &in_long_steps, judged);
-        let growth = largest(over(shifts, sizes)) / OFF;
+        let growth = largest(over(shifts, sizes)) / off_by;
         if growth.is_nan() || growth > MOST_GROWTH {
             return Err(Unfit::Grows(growth));
         }
         let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
-        let turned = largest(shown.iter().map(|now| (now.phi - shown[0].phi).abs()));
-        let uneven = !trial.machine.unbalances.is_empty() || trial.machine.Jt2.is_some();
-        let coordinates = [
-            largest(shown.iter().map(|now| across(&now.r_c))),
-            largest(shown.iter().map(|now| across(&now.axis).min(1.0))),
-            largest(shown.iter().map(|now| now.phi.abs())),
-        ];
         Ok(Self {
             sizes,
-            coordinates,
             own_error,
             growth,
-            oscillations: spectra.iter().map(|spectrum| held(spectrum.as_ref(), sizes)).collect(),
-            revolutions: if uneven { turned / TAU } else { 0.0 },
-            end: trial.end(),
             evaluations: coarse.evaluations() + fine.evaluations() + off.evaluations(),
             shown,
         })
     }
-
-    /// N: the periods of the fastest motion that there is, seen with this tolerance [1].
-    ///
-    /// At eight points of the run the motion is split into the oscillations of the linear equations there; one that moves
-    /// place or axis by more than the tolerance of their sizes counts. N is the end over 2π times the mean of the fastest that
-    /// counts; of a body that is uneven not less than its revolutions.
-    pub fn periods(&self, tolerance: f64) -> f64 {
-        let fastest = |held: &Vec<(f64, f64)>| {
-            held.iter().filter(|(_, part)| *part > tolerance).map(|(rate, _)| *rate).fold(0.0, f64::max)
-        };
-        let mean = self.oscillations.iter().map(fastest).sum::<f64>() / self.oscillations.len() as f64;
-        (mean * self.end / TAU).max(self.revolutions)
-    }
-}
-
-/// Rates of oscillations and what part of the motion they hold.
-fn held(spectrum: Option<&Spectrum>, [place, tilt, _]: Measures) -> Vec<(f64, f64)> {
-    let part = |of: f64, whole: f64| if of == 0.0 { 0.0 } else { of / whole };
-    let modes = spectrum.map(Spectrum::modes).unwrap_or_default();
-    modes.iter().map(|mode| (mode.value.im, part(mode.place, place).max(part(mode.tilt, tilt)))).collect()
 }
 
 /// Whether a law acts along n or follows γ, which have no limit at −e.
@@ -187,29 +153,28 @@ pub fn over(measures: Measures, sizes: Measures) -> Measures {
 }
 
 /// The machine with a start that is off by a part of how far each went, in directions that favour none.
-fn moved(machine: &Machine, shown: &[Shown]) -> Machine {
+fn moved(machine: &Machine, shown: &[Shown], by: f64) -> Machine {
     let first = &shown[0];
     let went = |of: fn(&Shown) -> Vector3<f64>| {
         let ways = shown.iter().map(|now| of(now) - of(first));
         ways.fold([0.0_f64; 2], |[along, over], way| [along.max(way.x.abs()), over.max(across(&way))])
     };
     let off = |[along, over]: [f64; 2], azimuth: f64| {
-        Vector3::new(along, over * libm::cos(azimuth), over * libm::sin(azimuth)) * OFF
+        Vector3::new(along, over * libm::cos(azimuth), over * libm::sin(azimuth)) * by
     };
-    let [place, speed, turning] = [went(|now| now.r_c), went(|now| now.v_c), went(|now| now.omega)];
+    let [place, speed, turning] = [went(|now| now.r_c), went(|now| now.v_c), went(|now| now.omega.cross(&now.axis))];
 
     let tilt = largest(shown.iter().map(|now| angle(&now.axis, &first.axis)));
     let mut moved = machine.clone();
     let start = &mut moved.start;
     start.r_c += off(place, 0.7);
     start.v_c += off(speed, 2.9);
-    // Not its spin: that would be off for ever, while a method keeps what nothing brakes or drives.
-    let turning = off(turning, 4.4);
-    start.omega += turning - first.axis * turning.dot(&first.axis);
+    // The rate of the axis, ω = ω_a t + t×dt/dt. Not its spin: that would be off for ever, while a method keeps what nothing
+    // brakes or drives.
+    start.omega += first.axis.cross(&off(turning, 4.4));
     // About an axis across t, so that it tilts by so much.
     let side = first.axis.cross(&Vector3::new(0.3, 0.8, -0.5)).normalize();
-    let axis = rotation::rodrigues(&(side * (tilt * OFF))) * first.axis;
-    let gamma: Vector2<f64> = rotation::gamma(&axis);
-    start.gamma = gamma;
+    let axis = rotation::rodrigues(&(side * (tilt * by))) * first.axis;
+    start.gamma = rotation::gamma(&axis);
     moved
 }

@@ -259,20 +259,6 @@ impl Laws {
         rates
     }
 
-    /// A unit for each number of a state, from the body's size and the rates of its motion and its springs.
-    pub(super) fn units(&self, y: &State) -> State {
-        let moment = self.inertia.trace() / 3.0;
-        let stiffness = self.springs.iter().map(|spring| spring.k[0][0].abs() + spring.k[1][1].abs()).sum::<f64>();
-        let swing = (stiffness / self.mass).sqrt() + (self.tilt[0].abs() / moment).sqrt();
-        let rate = vector(y, at::K).norm() / moment + swing + 1e-3;
-        let size = (moment / self.mass).sqrt();
-        let mut units = [1.0; SIZE];
-        units[at::R..at::V].fill(size);
-        units[at::V..at::K].fill(size * rate);
-        units[at::K..at::P].fill(moment * rate);
-        units
-    }
-
     /// The state after a blow along n that gives ω_φ this value [rad/s].
     pub(super) fn struck(&self, y: &State, speed: f64) -> State {
         let motion = self.motion(y);

@@ -1,9 +1,9 @@
 //! A machine that runs from one communication point to the next.
 
+use super::Machine;
 use super::inputs::{Input, Inputs};
 use super::laws::{Laws, SIZE, State, at};
 use super::stepping::{MOST, change, cost};
-use super::{Machine, Spectrum};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
 
@@ -109,11 +109,6 @@ impl Run {
     /// The nearest that the axis came to −e at the end of a step: 1 + e·t.
     pub fn nearest(&self) -> f64 {
         self.nearest
-    }
-
-    /// The frequencies of small motions from here.
-    pub fn spectrum(&self) -> Option<Spectrum> {
-        Spectrum::new(&self.laws, &self.inputs, self.t, &self.y)
     }
 
     /// Moves the communication point to time `until` [s]; false where the motion has no bounds or costs too much.
