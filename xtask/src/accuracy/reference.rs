@@ -1,12 +1,12 @@
 //! The motion that counts as exact: the most accurate method at its limit, cross-checked by a second one.
 
-use super::motion::{Errors, Point};
+use super::motion::{Errors, Point, Relative, Sizes};
 use super::run::{Run, Setting, Subject};
 use super::sweep;
 use anyhow::{Context, Result};
 
 /// The most accurate method, and the one that checks it: of another order, with other coefficients.
-const METHODS: [&str; 2] = ["dop853", "dopri5"];
+const METHODS: [&str; 2] = ["dop853", sweep::DOPRI5];
 
 /// The motion that counts as exact, as far as two methods agree on it.
 pub struct Reference {
@@ -14,10 +14,14 @@ pub struct Reference {
     pub setting: Setting,
     /// By whom it was checked.
     pub check: Setting,
+    /// The start.
+    pub start: Point,
     /// The motion.
     pub points: Vec<Point>,
     /// How far the two are apart at the end and at worst.
     pub agreement: [Errors; 2],
+    /// How far at worst, over the motion's own size: no smaller error can be told.
+    pub floor: Relative,
 }
 
 impl Reference {
@@ -26,12 +30,13 @@ impl Reference {
         let [(setting, exact), (check, second)] = METHODS.map(|method| tightest(subject, method));
         let (exact, second) = (exact?, second?);
         let agreement = Errors::of(&second.points, &exact.points);
-        Ok(Self { setting, check, points: exact.points, agreement })
+        let floor = Relative::of(&second.points, &exact.start, &exact.points);
+        Ok(Self { setting, check, start: exact.start, points: exact.points, agreement, floor })
     }
 
-    /// No smaller error can be told: how far the two are apart at worst.
-    pub fn floor(&self) -> Errors {
-        self.agreement[1]
+    /// How large the motion is.
+    pub fn sizes(&self) -> Sizes {
+        Sizes::of(&self.start, &self.points)
     }
 
     /// The largest angle of the axis with e at a communication point [rad].

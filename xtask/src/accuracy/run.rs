@@ -1,6 +1,8 @@
 //! One timed run of a scene's FMU, from its start to the stop of its experiment.
 
 use super::motion::Point;
+use super::span::{POINTS, time};
+use super::sweep::AUTO;
 use crate::fmu::{Fmu, Instance, Reference};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
@@ -9,10 +11,7 @@ use model::variables::METHODS;
 use model::xml;
 use std::path::Path;
 
-/// Outputs are read at so many communication points, evenly apart; the start is not one of them.
-pub const POINTS: usize = 100;
-
-/// What is read at each of them.
+/// What is read at each point.
 const OUTPUTS: [&str; 11] = [
     "r_c.x",
     "r_c.y",
@@ -56,12 +55,16 @@ pub struct Subject<'s> {
 
 /// What a run showed and cost.
 pub struct Run {
-    /// The communication points.
+    /// The start.
+    pub start: Point,
+    /// What was read later.
     pub points: Vec<Point>,
     /// From after initialization to the last output read [s of CPU time].
     pub cpu_time: f64,
     /// Accepted steps, rejected steps, evaluations.
     pub costs: [f64; COSTS.len()],
+    /// What `auto` said that it took.
+    pub said: Vec<String>,
 }
 
 impl<'s> Subject<'s> {
@@ -76,21 +79,42 @@ impl<'s> Subject<'s> {
     /// longer than `patience` [s of CPU time].
     pub fn run(&self, setting: &Setting, substeps: usize, patience: f64) -> Result<Run> {
         let mut instance = self.started(setting)?;
-        let steps = POINTS * substeps;
-        let time = |n| time(&self.experiment, n, steps);
+        let start = point(instance.get_real(&self.outputs)?);
         let mut points = Vec::with_capacity(POINTS);
         let began = ThreadTime::now();
-        for n in 1..=steps {
-            instance.do_step(time(n - 1), time(n) - time(n - 1))?;
-            if n % substeps == 0 {
-                points.push(point(instance.get_real(&self.outputs)?));
-                if began.elapsed().as_secs_f64() > patience {
-                    bail!("takes more than {patience} s: stopped at t = {} s", time(n));
-                }
+        for n in 1..=POINTS {
+            let [from, to] = [n - 1, n].map(|n| time(&self.experiment, n));
+            let between = |k| if k == substeps { to } else { from + (to - from) * k as f64 / substeps as f64 };
+            for k in 1..=substeps {
+                instance.do_step(between(k - 1), between(k) - between(k - 1))?;
+            }
+            points.push(point(instance.get_real(&self.outputs)?));
+            if began.elapsed().as_secs_f64() > patience {
+                bail!("takes more than {patience} s: stopped at t = {to} s");
             }
         }
         let cpu_time = began.elapsed().as_secs_f64();
-        Ok(Run { points, cpu_time, costs: instance.get_real(&self.costs)? })
+        if !points.iter().all(Point::is_finite) {
+            bail!("shows what is not a number");
+        }
+        Ok(Run { start, points, cpu_time, costs: instance.get_real(&self.costs)?, said: instance.said() })
+    }
+
+    /// To which of these times [s] such a run comes, from the first on, before it takes longer than `patience` [s of CPU time].
+    pub fn reach(&self, setting: &Setting, times: impl IntoIterator<Item = f64>, patience: f64) -> Result<f64> {
+        let mut instance = self.started(setting)?;
+        let began = ThreadTime::now();
+        let mut at = self.experiment.start;
+        for to in times {
+            if to > at {
+                instance.do_step(at, to - at)?;
+                at = to;
+            }
+            if began.elapsed().as_secs_f64() > patience {
+                break;
+            }
+        }
+        Ok(at)
     }
 
     /// The step that this setting begins with [s].
@@ -100,7 +124,9 @@ impl<'s> Subject<'s> {
     }
 
     fn started(&self, setting: &Setting) -> Result<Instance<'_>> {
-        let mut instance = self.fmu.instantiate()?;
+        // `auto` says what it takes.
+        let is_auto = setting.method == AUTO;
+        let mut instance = if is_auto { self.fmu.instantiate_with_log()? } else { self.fmu.instantiate()? };
         self.set(&mut instance, setting)?;
         instance.initialize(self.experiment.start, self.experiment.stop)?;
         Ok(instance)
@@ -119,12 +145,6 @@ impl<'s> Subject<'s> {
         instance.set_real(absolute, 0.0)?;
         instance.set_real(parameter, setting.value)
     }
-}
-
-/// The end of the `n`th of so many communication steps [s].
-pub fn time(experiment: &Experiment, n: usize, steps: usize) -> f64 {
-    let Experiment { start, stop, .. } = *experiment;
-    if n == steps { stop } else { start + (stop - start) * n as f64 / steps as f64 }
 }
 
 /// The value references of the scene's variables with these names.

@@ -1,6 +1,7 @@
 //! Which settings are tried: every method that the FMU lists, from loose to tight.
 
-use super::motion::Errors;
+use super::auto;
+use super::motion::{Errors, Relative};
 use super::reference::Reference;
 use super::repeats::least_time;
 use super::row::{Measured, OURS, Row};
@@ -15,6 +16,9 @@ pub const TOLERANCE: &str = "solver.relative_tolerance";
 /// What chooses that of a method with steps of one size.
 pub const STEP: &str = "solver.step_size";
 
+/// The method that checks the reference.
+pub const DOPRI5: &str = "dopri5";
+
 /// The method with steps of one size, and its orders.
 const SYMPLECTIC: &str = "symplectic";
 const ORDERS: [i32; 4] = [2, 4, 6, 8];
@@ -23,10 +27,10 @@ const ORDERS: [i32; 4] = [2, 4, 6, 8];
 pub const AUTO: &str = "auto";
 
 /// A run that takes longer is left out [s of CPU time].
-const PATIENCE: f64 = 20.0;
+const PATIENCE: f64 = 2.0;
 
 /// Where a run takes longer [s of CPU time], one tolerance in a decade must do.
-const SLOW: f64 = 1.0;
+const SLOW: f64 = 0.2;
 
 /// Steps are so many halves of a halving apart, from four times what the method would choose for a tolerance of 1e-6 to
 /// about a fifteenth of it.
@@ -113,11 +117,21 @@ fn row(setting: &Setting, outcome: Result<Measured, String>) -> Row {
 }
 
 fn try_measure(subject: &Subject, setting: &Setting, reference: &Reference) -> Result<Measured> {
-    let Run { points, costs, cpu_time } = subject.run(setting, 1, PATIENCE)?;
+    let Run { points, costs, cpu_time, said, .. } = subject.run(setting, 1, PATIENCE)?;
     let (cpu_time, repeats) = least_time(cpu_time, || Ok(subject.run(setting, 1, PATIENCE)?.cpu_time))?;
     let [end, worst] = Errors::of(&points, &reference.points);
     let [steps, _, evaluations] = costs;
-    Ok(Measured { end, worst, cpu_time, repeats, steps: Some(steps), evaluations: Some(evaluations) })
+    Ok(Measured {
+        relative: Relative::of(&points, &reference.start, &reference.points),
+        told: points.len(),
+        end,
+        worst,
+        cpu_time,
+        repeats,
+        steps: Some(steps),
+        evaluations: Some(evaluations),
+        taken: auto::taken(&said),
+    })
 }
 
 /// How much more a run costs whose communication steps are `substeps` times as many, with as many outputs read.
