@@ -37,7 +37,7 @@ fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
     let [end, worst] = reference
         .agreement
         .map(|errors| json!({ "axis_rad": errors.axis, "r_c_m": errors.r_c, "phi_rad": errors.phi }));
-    let (sizes, floor, whole) = (reference.sizes(), reference.floor, scene.experiment);
+    let (sizes, floor, whole) = (&reference.sizes, reference.floor, scene.experiment);
     Ok(json!({
         "scene": scene.name,
         "title": scene.title,

@@ -76,9 +76,8 @@ pub struct Relative {
 }
 
 impl Relative {
-    /// Of these points against the exact ones; points that do not tell are passed over.
-    pub fn of(points: &[Point], start: &Point, exact: &[Point]) -> Self {
-        let sizes = Sizes::of(start, exact);
+    /// Of these points against the exact ones after a start, of a motion of these sizes; points that do not tell are passed over.
+    pub fn of(points: &[Point], start: &Point, exact: &[Point], sizes: &Sizes) -> Self {
         let worst = |off: fn(&Point, &Point) -> f64, size: &dyn Fn(&Point) -> f64| {
             let all = points.iter().zip(exact).map(|(point, exact)| off(point, exact) / size(exact));
             all.fold(f64::NAN, f64::max)
@@ -195,35 +194,38 @@ mod tests {
         let exact = [at(1e-3, 2e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.0)];
         let wrong = [at(1e-3, 0.8e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.5)];
         assert_eq!(Sizes::of(&start, &exact), Sizes { place: 2e-5, axis: 0.0, phi: 100.0 });
-        let off = Relative::of(&wrong, &start, &exact);
+        let sizes = Sizes::of(&start, &exact);
+        let off = Relative::of(&wrong, &start, &exact, &sizes);
         assert!((off.place - 0.6).abs() < 1e-12, "{off:?}");
         assert_eq!((off.axis, off.phi), (0.0, 5e-3));
         assert_eq!(off.worst(), off.place);
         // Along e there is no size to compare with.
         let along = [Point { r_c: [2.0, 1e-3, 2e-5], ..exact[0] }, exact[1]];
-        assert_eq!(Relative::of(&along, &start, &exact).worst(), 0.0);
+        assert_eq!(Relative::of(&along, &start, &exact, &sizes).worst(), 0.0);
     }
 
     #[test]
     fn exact_each_error_is_relative_to_its_own_size() {
         let tilted = |tilt: f64, y: f64| Point { r_c: [0.0, y, 0.0], axis: [tilt.cos(), 0.0, tilt.sin()], ..EXACT };
         let (start, exact) = (tilted(0.5, 0.0), [tilted(0.5 + 1e-4, 0.0), tilted(0.5, 0.0)]);
-        let off = Relative::of(&[exact[0], tilted(0.5 - 1e-6, 0.0)], &start, &exact);
+        let sizes = Sizes::of(&start, &exact);
+        let off = Relative::of(&[exact[0], tilted(0.5 - 1e-6, 0.0)], &start, &exact, &sizes);
         assert!((off.axis - 1e-2).abs() < 1e-9, "{off:?}");
         // What does not move counts with the least size: that it moves is an error, and nothing off is none.
         assert_eq!(off.place, 0.0);
-        assert_eq!(Relative::of(&[tilted(0.5, 1e-3), exact[1]], &start, &exact).place, 1e9);
+        assert_eq!(Relative::of(&[tilted(0.5, 1e-3), exact[1]], &start, &exact, &sizes).place, 1e9);
     }
 
     #[test]
     fn exact_what_is_not_told_is_passed_over() {
         let nan = Point { r_c: [f64::NAN; 3], axis: [f64::NAN; 3], angle: f64::NAN, ..EXACT };
         let moved = Point { r_c: [1.0, 2.0, 3.5], ..EXACT };
-        let off = Relative::of(&[nan, Point { angle: f64::NAN, ..EXACT }], &EXACT, &[moved, moved]);
+        let sizes = Sizes::of(&EXACT, &[moved]);
+        let off = Relative::of(&[nan, Point { angle: f64::NAN, ..EXACT }], &EXACT, &[moved, moved], &sizes);
         assert_eq!((off.place, off.axis), (1.0, 0.0));
         assert!(off.phi.is_nan() && off.worst() == 1.0);
         assert!(!nan.is_finite() && moved.is_finite());
-        assert!(Relative::of(&[nan], &EXACT, &[moved]).worst().is_nan());
+        assert!(Relative::of(&[nan], &EXACT, &[moved], &sizes).worst().is_nan());
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! What a user would pick instead, measured in the same run: libraries from PyPI, each in an environment of its own, and
 //! two Rust crates. What cannot be installed is named and left out.
 
-use super::motion::{Errors, Point, Relative};
+use super::motion::{Errors, Point};
 use super::reference::Reference;
 use super::repeats;
 use super::row::{Measured, Row};
@@ -167,7 +167,7 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
     let points: Vec<_> = points.collect();
     let [end, worst] = Errors::of(&points, &reference.points);
     Ok(Measured {
-        relative: Relative::of(&points, &reference.start, &reference.points),
+        relative: reference.relative(&points),
         told: points.iter().filter(|point| point.axis[0].is_finite()).count(),
         end,
         worst,
@@ -182,6 +182,7 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accuracy::motion::{Relative, Sizes};
     use crate::accuracy::sweep::with_tolerance;
     use crate::scenes;
 
@@ -196,10 +197,11 @@ mod tests {
             kinetic: 2.0,
         };
         let errors = Errors { r_c: 0.0, axis: 0.0, phi: 0.0, energy: 0.0 };
+        let sizes = Sizes { place: 0.5, axis: 0.0, phi: 0.0 };
         let floor = Relative { place: 0.0, axis: 0.0, phi: 0.0 };
         let start = Point { r_c: [1.0, 0.5, 0.0], ..point };
         let [setting, check] = ["dop853", "dopri5"].map(|method| with_tolerance(method, 1e-14));
-        Reference { setting, check, start, points: vec![point; 2], agreement: [errors; 2], floor }
+        Reference { setting, check, start, points: vec![point; 2], sizes, agreement: [errors; 2], floor }
     }
 
     #[test]

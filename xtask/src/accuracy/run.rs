@@ -1,7 +1,7 @@
 //! One timed run of a scene's FMU, from its start to the stop of its experiment.
 
 use super::motion::Point;
-use super::span::{POINTS, time};
+use super::span::{PARTS, POINTS, end_of_part, time};
 use super::sweep::AUTO;
 use crate::fmu::{Fmu, Instance, Reference};
 use anyhow::{Context, Result, bail};
@@ -78,19 +78,37 @@ impl<'s> Subject<'s> {
     /// A run with this setting; between two points that are read, `substeps` communication steps. An error once it takes
     /// longer than `patience` [s of CPU time].
     pub fn run(&self, setting: &Setting, substeps: usize, patience: f64) -> Result<Run> {
+        let between = |n: usize| {
+            let [from, to] = [n - 1, n].map(|n| time(&self.experiment, n));
+            (1..=substeps).map(move |k| {
+                let is_last = k == substeps;
+                (if is_last { to } else { from + (to - from) * k as f64 / substeps as f64 }, is_last)
+            })
+        };
+        self.run_through(setting, &(1..=POINTS).flat_map(between).collect::<Vec<_>>(), patience)
+    }
+
+    /// A run that is read at the end of every part of the span, however long it takes.
+    pub fn run_in_parts(&self, setting: &Setting) -> Result<Run> {
+        let ends: Vec<_> = (1..=PARTS).map(|k| (end_of_part(&self.experiment, k), true)).collect();
+        self.run_through(setting, &ends, f64::INFINITY)
+    }
+
+    /// A run through communication points [s], with whether it is read there.
+    fn run_through(&self, setting: &Setting, stops: &[(f64, bool)], patience: f64) -> Result<Run> {
         let mut instance = self.started(setting)?;
         let start = point(instance.get_real(&self.outputs)?);
-        let mut points = Vec::with_capacity(POINTS);
+        let mut points = Vec::with_capacity(stops.len());
+        let mut at = self.experiment.start;
         let began = ThreadTime::now();
-        for n in 1..=POINTS {
-            let [from, to] = [n - 1, n].map(|n| time(&self.experiment, n));
-            let between = |k| if k == substeps { to } else { from + (to - from) * k as f64 / substeps as f64 };
-            for k in 1..=substeps {
-                instance.do_step(between(k - 1), between(k) - between(k - 1))?;
-            }
-            points.push(point(instance.get_real(&self.outputs)?));
-            if began.elapsed().as_secs_f64() > patience {
-                bail!("takes more than {patience} s: stopped at t = {to} s");
+        for &(to, is_read) in stops {
+            instance.do_step(at, to - at)?;
+            at = to;
+            if is_read {
+                points.push(point(instance.get_real(&self.outputs)?));
+                if began.elapsed().as_secs_f64() > patience {
+                    bail!("takes more than {patience} s: stopped at t = {to} s");
+                }
             }
         }
         let cpu_time = began.elapsed().as_secs_f64();

@@ -23,8 +23,13 @@ pub fn part(n: usize) -> usize {
 
 /// When it is read the `n`th time [s].
 pub fn time(experiment: &Experiment, n: usize) -> f64 {
+    end_of_part(experiment, part(n))
+}
+
+/// The end of the `k`th part [s].
+pub fn end_of_part(experiment: &Experiment, k: usize) -> f64 {
     let Experiment { start, stop, .. } = *experiment;
-    if n == POINTS { stop } else { start + (stop - start) * part(n) as f64 / PARTS as f64 }
+    if k == PARTS { stop } else { start + (stop - start) * k as f64 / PARTS as f64 }
 }
 
 /// What the check of the reference may take [s of CPU time]. All that is measured of a scene takes some thirty times as long.

@@ -1,7 +1,7 @@
 //! Which settings are tried: every method that the FMU lists, from loose to tight.
 
 use super::auto;
-use super::motion::{Errors, Relative};
+use super::motion::Errors;
 use super::reference::Reference;
 use super::repeats::least_time;
 use super::row::{Measured, OURS, Row};
@@ -122,7 +122,7 @@ fn try_measure(subject: &Subject, setting: &Setting, reference: &Reference) -> R
     let [end, worst] = Errors::of(&points, &reference.points);
     let [steps, _, evaluations] = costs;
     Ok(Measured {
-        relative: Relative::of(&points, &reference.start, &reference.points),
+        relative: reference.relative(&points),
         told: points.len(),
         end,
         worst,

@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// Everything, for people.
 pub fn report(result: &Accuracy) -> String {
     let Accuracy { reference, rows, scale, .. } = result;
-    let (agreed, sizes) = (&reference.floor, reference.sizes());
+    let (agreed, sizes) = (&reference.floor, &reference.sizes);
     let name = |setting: &Setting| format!("{} at {}", setting.method, power(setting.value));
     let mut text = format!(
         "The place moves by {} m across e, the axis by {} rad, φ by {} rad: errors are relative to that. The reference is {}, \
@@ -98,7 +98,9 @@ fn is_best(row: &Row, rows: &[Row]) -> bool {
 
 /// How the setting of a row stands in a table: `1e-7`, or `order 4, 2e-3`.
 fn shown(row: &Row) -> String {
-    let value = power(row.value);
+    let exact = power(row.value);
+    // Steps of peers are parts of the span, with as many digits as a double has.
+    let value = if exact.len() > 8 { short(row.value) } else { exact };
     row.order.map_or(value.clone(), |order| format!("order {order}, {value}"))
 }
 
@@ -141,7 +143,14 @@ pub fn count(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::row::tests::row;
     use super::*;
+
+    #[test]
+    fn exact_a_setting_is_shown_as_short_as_it_is() {
+        let at = |value| shown(&row(OURS, "m", value, 1.0, 1.0));
+        assert_eq!([1e-7, 2e-13, 10.0 / 997.0].map(at), ["1e-7", "2e-13", "1.0e-2"]);
+    }
 
     #[test]
     fn exact_numbers_have_two_digits() {

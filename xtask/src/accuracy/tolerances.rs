@@ -77,7 +77,7 @@ fn measure(name: &str) -> Result<Measured> {
     let reference = Reference::of(&subject)?;
     let run = |method, tolerance| {
         let run = subject.run(&sweep::with_tolerance(method, tolerance), 1, PATIENCE);
-        let relative = run.map(|run| (Relative::of(&run.points, &reference.start, &reference.points), run.costs[2]));
+        let relative = run.map(|run| (reference.relative(&run.points), run.costs[2]));
         Found { method, tolerance, outcome: relative.map_err(|error| format!("{error:#}")) }
     };
     let found = METHODS.iter().flat_map(|method| TOLERANCES.map(|tolerance| run(*method, tolerance))).collect();
