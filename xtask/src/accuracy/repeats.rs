@@ -40,9 +40,9 @@ mod tests {
 
     #[test]
     fn exact_the_least_time_counts() {
-        let mut times = [3.0, 1.0, 2.0].into_iter().map(|time| 0.1 * time).cycle();
-        let (least, repeats) = least_time(0.25, || Ok(times.next().unwrap())).unwrap();
-        assert_eq!((least, repeats), (0.1, LEAST));
+        let mut times = [3.0, 1.0, 2.0].into_iter().map(|time| 0.05 * time).cycle();
+        let (least, repeats) = least_time(0.125, || Ok(times.next().unwrap())).unwrap();
+        assert_eq!((least, repeats), (0.05, LEAST));
     }
 
     #[test]
