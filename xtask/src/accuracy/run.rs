@@ -118,17 +118,15 @@ impl<'s> Subject<'s> {
         Ok(Run { start, points, cpu_time, costs: instance.get_real(&self.costs)?, said: instance.said() })
     }
 
-    /// To which of these times [s] such a run comes, from the first on, before it takes longer than `patience` [s of CPU time].
-    pub fn reach(&self, setting: &Setting, times: impl IntoIterator<Item = f64>, patience: f64) -> Result<f64> {
+    /// To which of these times [s] such a run comes, from the first on, with this many evaluations or a few more.
+    pub fn reach(&self, setting: &Setting, times: impl IntoIterator<Item = f64>, affordable: f64) -> Result<f64> {
         let mut instance = self.started(setting)?;
-        let began = ThreadTime::now();
         let mut at = self.experiment.start;
         for to in times {
-            if to > at {
-                instance.do_step(at, to - at)?;
-                at = to;
-            }
-            if began.elapsed().as_secs_f64() > patience {
+            instance.do_step(at, to - at)?;
+            at = to;
+            let [_, _, evaluations] = instance.get_real(&self.costs)?;
+            if evaluations > affordable {
                 break;
             }
         }
