@@ -63,7 +63,7 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
         energy: reference.energy_scale(),
         floor: reference.floor.worst(),
     };
-    let curves = sweep::curves(subject)?;
+    let curves = sweep::curves(subject);
     let progress = bar(curves.iter().map(Vec::len).sum());
     let mut rows = Vec::new();
     for curve in &curves {
