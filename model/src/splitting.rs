@@ -15,7 +15,7 @@ use crate::rotation::{Angle, Chart, Tilt, Turn, Turned};
 use crate::rotor::{BEYOND_LIMIT, FORBIDDEN, LIMIT, Rotor, groups};
 use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK};
 use nalgebra::Vector3;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// A motion of N equations on its way through a step.
 pub struct Flow<'r, E, const N: usize> {
@@ -74,6 +74,13 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
         // A drift turns the axis anew, and a direction is known to so many radians.
         squares[groups::GAMMA] = 1.0;
         squares
+    }
+
+    fn apart(&self, a: &[f64; N], b: &[f64; N]) -> [f64; N] {
+        let mut apart = std::array::from_fn(|n| a[n] - b[n]);
+        // From −e, φ jumps by whole turns where γ is on the other side of where its azimuth begins.
+        apart[PHI] -= TAU * (apart[PHI] / TAU).round();
+        apart
     }
 }
 

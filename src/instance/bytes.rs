@@ -11,7 +11,7 @@ use model::stored::{self, Damaged, Stored, Walk, choice};
 const MAGIC: &[u8; 8] = b"rotorFMU";
 
 /// Changes whenever what is stored does.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Magic, version, GUID, length of the numbers.
 const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;

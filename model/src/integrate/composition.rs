@@ -40,6 +40,11 @@ pub trait Splitting<const N: usize>: System<N> {
     fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
         self.roundings(y, h)
     }
+
+    /// How far apart two ends of the same step are.
+    fn apart(&self, a: &[f64; N], b: &[f64; N]) -> [f64; N] {
+        std::array::from_fn(|n| a[n] - b[n])
+    }
 }
 
 /// The parts γ_i of a step, the same from both ends.
@@ -299,7 +304,7 @@ impl<const N: usize> Composed<N> {
         let rounded = system.roundings_of_parts(&self.y, h).map(|square| square * parts * parts);
         let weights = self.sizes.weights(&tolerance, &rounded, &seen);
         // eq. 45
-        let apart = std::array::from_fn(|n| y[n] - halves[n]);
+        let apart = system.apart(y, &halves);
         let error = largest_square(&system.parts(&self.y, &apart), &weights).sqrt();
         if !error.is_finite() {
             return Some(0.5);
