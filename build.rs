@@ -4,6 +4,7 @@
 //! own child; without it, `scenes/paper.toml`.
 
 use model::scene::Scene;
+use model::variable::Role;
 use model::xml;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -15,8 +16,25 @@ fn main() {
     match Scene::read(&file) {
         Err(error) => println!("cargo::error={error}"),
         Ok(scene) => {
+            tell_tests(&scene);
             let out = std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR");
             std::fs::write(Path::new(&out).join("scene.rs"), source(&scene)).expect("OUT_DIR can be written");
+        }
+    }
+}
+
+/// Says as a cfg for which tests the scene is one, so that the others are told as ignored, not as passed.
+fn tell_tests(scene: &Scene) {
+    let has = |name: &str| scene.effects.iter().any(|(info, _)| info.name == name);
+    let has_inputs = scene.variables.iter().any(|variable| matches!(variable.meta.role, Role::Input { .. }));
+    for (cfg, holds) in [
+        ("scene_has_inputs", has_inputs),
+        ("scene_has_support", has("support")),
+        ("scene_is_driven", has("shaft") && has("support") && has("gravity")),
+    ] {
+        println!("cargo::rustc-check-cfg=cfg({cfg})");
+        if holds {
+            println!("cargo::rustc-cfg={cfg}");
         }
     }
 }

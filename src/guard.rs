@@ -10,6 +10,7 @@ use crate::instance::{Failure, Instance};
 use model::log::Category;
 use std::any::Any;
 use std::ffi::CStr;
+use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Runs `body` on the instance behind `component`, if `call` is legal now.
@@ -91,17 +92,28 @@ pub unsafe fn values<'a, T>(first: *const T, n: Size, what: &str) -> Result<&'a 
     Ok(unsafe { std::slice::from_raw_parts(first, n) })
 }
 
-/// `n` values to write.
+/// Room for values that a host asked for, and need not have initialised: it is written, never read.
+pub type Room<'a, T> = &'a mut [MaybeUninit<T>];
+
+/// Room for `n` values.
 ///
 /// # Safety
-/// `first` is null or points to `n` initialised values that nobody else uses meanwhile.
-pub unsafe fn places<'a, T>(first: *mut T, n: Size, what: &str) -> Result<&'a mut [T], Failure> {
+/// `first` is null or points to room for `n` values that nobody else uses meanwhile.
+pub unsafe fn room<'a, T>(first: *mut T, n: Size, what: &str) -> Result<Room<'a, T>, Failure> {
     if n == 0 {
         return Ok(&mut []);
     }
     check_array(first, n, what)?;
-    // SAFETY: see above.
-    Ok(unsafe { std::slice::from_raw_parts_mut(first, n) })
+    // SAFETY: see above; what is not initialised may stand in a MaybeUninit.
+    Ok(unsafe { std::slice::from_raw_parts_mut(first.cast(), n) })
+}
+
+/// Writes `values` to room for as many.
+pub fn fill<T: Copy>(room: Room<T>, values: &[T]) {
+    assert_eq!(room.len(), values.len());
+    for (place, value) in room.iter_mut().zip(values) {
+        place.write(*value);
+    }
 }
 
 /// A C string.
@@ -132,6 +144,26 @@ mod tests {
         // SAFETY: the environment is the test's own, and messages are strings.
         let (lines, message) = unsafe { (&*environment.cast::<Lines>(), CStr::from_ptr(message)) };
         lines.lock().unwrap().push((status, message.to_str().unwrap().to_owned()));
+    }
+
+    #[test]
+    fn what_a_host_lends_may_be_uninitialised() {
+        // Neither the types nor the calls let anything be read from it.
+        let mut lent = [const { MaybeUninit::<f64>::uninit() }; 3];
+        let first = lent.as_mut_ptr().cast::<f64>();
+        // SAFETY: room for three values, which only this thread uses.
+        let places: &mut [MaybeUninit<f64>] = unsafe { room(first, 2, "value") }.expect("it is not null");
+        fill(places, &[1.0, 2.0]);
+        // SAFETY: the first two were written.
+        assert_eq!(unsafe { [lent[0].assume_init(), lent[1].assume_init()] }, [1.0, 2.0]);
+        // SAFETY: null, or no room at all, which is not looked at.
+        unsafe {
+            assert_eq!(room::<f64>(std::ptr::null_mut(), 0, "value").expect("nothing is asked for").len(), 0);
+            let failure = room::<f64>(std::ptr::null_mut(), 1, "value").expect_err("it is null");
+            assert_eq!(failure.message, "value is a null pointer");
+            let failure = room(first, Size::MAX / 8, "value").expect_err("so much cannot be");
+            assert!(failure.message.ends_with("of value cannot be"), "{}", failure.message);
+        }
     }
 
     #[test]

@@ -504,7 +504,7 @@ fn fmi_status_kinds_without_an_answer_are_errors() {
 }
 
 /// Parameters that cannot be simulated, and what the message must name.
-const IMPOSSIBLE: [(&str, Real, [&str; 3]); 31] = [
+const IMPOSSIBLE: [(&str, Real, [&str; 3]); 33] = [
     ("rotor.m", 0.0, ["rotor.m = 0.0", "> 0", ""]),
     ("rotor.m", -1.0, ["rotor.m = -1.0", "> 0", ""]),
     ("rotor.m", Real::NAN, ["rotor.m = NaN", "finite", "> 0"]),
@@ -519,6 +519,8 @@ const IMPOSSIBLE: [(&str, Real, [&str; 3]); 31] = [
     ("start.gamma.y", 3.2, ["|start.gamma| = 3.2", "pi", ""]),
     ("start.gamma.z", -3.2, ["|start.gamma| = 3.2", "pi", ""]),
     ("start.gamma.y", Real::NAN, ["start.gamma.y = NaN", "finite", ""]),
+    ("start.phi", 5.66e16, ["start.phi = 5.66e16", "from -5.659390201622", "to 5.659390201622"]),
+    ("start.phi", -1e300, ["start.phi = -1e300", "from -5.65", "whole turns"]),
     ("start.omega.z", Real::NEG_INFINITY, ["start.omega.z = -inf", "finite", ""]),
     ("gravity.g.z", Real::NAN, ["gravity.g.z = NaN", "finite", ""]),
     ("support.c1", -1.0, ["support.c1 = -1.0", ">= 0", ""]),
@@ -571,6 +573,24 @@ fn fmi_impossible_parameters_are_named_at_exit_of_initialization_and_can_be_mend
         assert_eq!(instance.set_integer(reference("solver.order"), order), Status::Ok);
         assert_eq!(instance.enter_initialization(), Status::Ok);
         refused(&mut instance, exit, &["solver.order", &order.to_string(), "2 or 4 or 6 or 8"]);
+    }
+}
+
+#[test]
+fn regress_an_energy_that_overflows_at_the_start_names_the_parameters() {
+    // SAFETY: a live instance.
+    let exit = |c| unsafe { exports::fmi2ExitInitializationMode(c) };
+    let cases: [(&[(&str, Real)], &[&str]); 4] = [
+        (&[("rotor.m", 1e308), ("start.v_c.x", 100.0)], &["rotor.m = 1e308 cannot"]),
+        (&[("start.omega.y", -1e200)], &["start.omega.y = -1e200 cannot"]),
+        (&[("start.v_c.x", 1e155), ("start.v_c.z", 1e160)], &["start.v_c.z = 1e160 and start.v_c.x = 1e155 cannot"]),
+        (&[("rotor.Jt", 1e300), ("start.omega.z", 1e10)], &["rotor.Jt = 1e300 cannot"]),
+    ];
+    for (values, words) in cases {
+        let mut instance = Instance::quiet();
+        instance.set_all(values);
+        assert_eq!(instance.enter_initialization(), Status::Ok);
+        refused(&mut instance, exit, &[words, &["the energy at the start overflows"]].concat());
     }
 }
 

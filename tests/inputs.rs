@@ -4,7 +4,7 @@
 
 mod harness;
 
-use harness::{Instance, Saved, has, reference, refused, scene};
+use harness::{Instance, Saved, reference, refused, scene};
 use split_rotor::abi::{CO_SIMULATION, Integer, MODEL_EXCHANGE, Real, Status, ValueReference};
 use split_rotor::exports::{fmi2SetReal, fmi2SetRealInputDerivatives};
 
@@ -24,11 +24,6 @@ const FREE: [(&str, Real); 8] = [
 
 /// The value of the input [N·m], its rate [N·m/s], its second derivative [N·m/s²]: of order 0, 1 and 2.
 type Sent = [(Integer, Real)];
-
-/// Whether the scene is one for these tests.
-fn runs() -> bool {
-    FREE.iter().all(|(name, _)| has(&[name])) && has(&[TAU])
-}
 
 fn tau() -> ValueReference {
     reference(TAU)
@@ -81,10 +76,8 @@ fn follows(instance: &mut Instance, from: Real, polynomial: [Real; 3]) {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn exact_a_value_is_held() {
-    if !runs() {
-        return;
-    }
     let mut instance = free(&[]);
     let own = scene().starts[&tau()];
     assert_eq!(instance.get(TAU), own, "the value of the scene, until somebody sets it");
@@ -99,10 +92,8 @@ fn exact_a_value_is_held() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn exact_a_value_and_its_derivatives_belong_together_in_any_order() {
-    if !runs() {
-        return;
-    }
     let (value, slope, curvature) = ((0, 2.0), (1, -3.0), (2, 5.0));
     let orders = [
         [value, slope, curvature],
@@ -124,10 +115,8 @@ fn exact_a_value_and_its_derivatives_belong_together_in_any_order() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn exact_what_is_not_sent_is_zero_and_the_value_goes_on() {
-    if !runs() {
-        return;
-    }
     // Each alone and without the others, at a point where the polynomial of before has the value 2 − 3 + 5/2.
     let before: [(Integer, Real); 3] = [(0, 2.0), (1, -3.0), (2, 5.0)];
     let cases: [(&Sent, [Real; 3]); 6] = [
@@ -154,10 +143,8 @@ fn exact_what_is_not_sent_is_zero_and_the_value_goes_on() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn exact_what_is_sent_before_the_run_counts_from_its_start() {
-    if !runs() {
-        return;
-    }
     for start in [4.0, -8.0] {
         let mut instance = Instance::quiet();
         // Some before fmi2SetupExperiment, some after it, some in initialization mode.
@@ -174,10 +161,8 @@ fn exact_what_is_sent_before_the_run_counts_from_its_start() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn exact_a_rollback_brings_the_input_back_and_it_can_be_set_again() {
-    if !runs() {
-        return;
-    }
     let mut instance = free(&[(0, 2.0), (1, -3.0), (2, 5.0)]);
     follows(&mut instance, 0.0, [2.0, -3.0, 5.0]);
     let saved = Saved::of(&instance);
@@ -202,10 +187,8 @@ fn exact_a_rollback_brings_the_input_back_and_it_can_be_set_again() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn exact_a_saved_point_remembers_what_was_already_sent_there() {
-    if !runs() {
-        return;
-    }
     let mut instance = free(&[]);
     follows(&mut instance, 0.0, [scene().starts[&tau()], 0.0, 0.0]);
     send(&mut instance, &[(1, 6.0)]);
@@ -220,10 +203,8 @@ fn exact_a_saved_point_remembers_what_was_already_sent_there() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn fmi_values_that_are_no_numbers_are_refused_and_the_old_ones_kept() {
-    if !runs() {
-        return;
-    }
     for kind in [CO_SIMULATION, MODEL_EXCHANGE] {
         let mut instance = Instance::of(kind);
         send(&mut instance, &[(0, 2.0)]);
@@ -255,10 +236,8 @@ fn fmi_values_that_are_no_numbers_are_refused_and_the_old_ones_kept() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn fmi_a_reset_forgets_what_was_sent() {
-    if !runs() {
-        return;
-    }
     let mut instance = free(&[(0, 2.0), (1, -3.0), (2, 5.0)]);
     follows(&mut instance, 0.0, [2.0, -3.0, 5.0]);
     assert_eq!(instance.reset(), Status::Ok);
@@ -267,10 +246,8 @@ fn fmi_a_reset_forgets_what_was_sent() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn exact_in_model_exchange_an_input_acts_at_once() {
-    if !runs() {
-        return;
-    }
     let mut instance = Instance::of(MODEL_EXCHANGE).started(&FREE);
     instance.settled();
     let inertia = instance.get("rotor.Ja");
@@ -301,12 +278,10 @@ fn second(times: impl Fn(u32) -> u32) -> [Real; 6] {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn fmi_the_motion_does_not_depend_on_how_often_the_same_value_is_set() {
     /// Of the energy ledger [J]; measured 5e-13, allow 5e-12.
     const LEDGER: Real = 5e-12;
-    if !runs() {
-        return;
-    }
     let once = second(|n| u32::from(n == 0 || n == 32));
     for often in [second(|_| 1), second(|n| if n % 32 == 0 { 1 } else { n % 3 })] {
         assert_eq!(once[..5], often[..5]);
@@ -315,10 +290,8 @@ fn fmi_the_motion_does_not_depend_on_how_often_the_same_value_is_set() {
 }
 
 #[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
 fn regress_a_refused_start_leaves_the_inputs_as_they_were() {
-    if !runs() {
-        return;
-    }
     let mut instance = Instance::quiet();
     assert_eq!(instance.setup(None, 4.0, None), Status::Ok);
     send(&mut instance, &[(1, -3.0), (2, 5.0)]);

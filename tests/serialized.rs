@@ -5,12 +5,12 @@
 mod harness;
 mod journey;
 
-use harness::{Instance, Life, Saved, tumbling};
+use harness::{Instance, Life, Saved, inputs, reals, scene, tumbling};
 use journey::{Journey, journey};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
-use split_rotor::abi::Status;
+use split_rotor::abi::{CO_SIMULATION, MODEL_EXCHANGE, Real, Status};
 use split_rotor::scene::GUID;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -45,8 +45,9 @@ proptest! {
 }
 
 #[test]
+#[cfg_attr(not(scene_has_support), ignore = "needs a scene with support")]
 fn fmi_a_warning_comes_once_and_after_a_rollback_as_often_as_it_is_due() {
-    let Some(tumbling) = tumbling() else { return };
+    let tumbling = tumbling();
     // At 30 rad/s the tilt exceeds π/2 after 0.0524 s; a solver that runs ahead knows before.
     let mut instance = Instance::quiet().started(&tumbling);
     let warnings = |instance: &mut Instance, from: u32, to: u32| {
@@ -232,5 +233,73 @@ fn fmi_whole_bytes_that_mean_nothing_are_refused() {
             bytes[NUMBERS..NUMBERS + 8].copy_from_slice(&f64::to_le_bytes(nonsense));
             refused(&instance, &own, &sealed(bytes), &["damaged"]);
         }
+    }
+}
+
+/// What a number of a saved state may be altered to.
+const ALTERED: [Real; 9] = [Real::NAN, Real::INFINITY, -1.0, 0.5, 0.0, 4294967295.0, 9007199254740992.0, 1e300, -1e300];
+
+/// Whatever a host does next with this instance ends, and is not fatal.
+#[track_caller]
+fn goes_on_soundly(instance: &mut Instance, what: &str) {
+    let now = instance.last_successful_time().unwrap_or(0.0);
+    let mut statuses = vec![instance.do_step(now, 0.01), instance.do_step(now + 0.01, 0.3)];
+    for input in inputs() {
+        statuses.push(instance.write(&[input], &[1.0]));
+    }
+    let now = instance.last_successful_time().unwrap_or(0.0);
+    statuses.push(instance.do_step(now, 0.01));
+    statuses.push(instance.set_time(0.02));
+    statuses.push(instance.rates().err().unwrap_or(Status::Ok));
+    let references = reals(scene());
+    statuses.push(instance.read(&references, &mut vec![0.0; references.len()]));
+    assert!(!statuses.contains(&Status::Fatal), "{what}: {statuses:?} {:?}", instance.journal.take());
+    instance.journal.take();
+}
+
+#[test]
+fn fmi_whichever_number_was_altered_no_call_is_fatal_and_each_ends() {
+    let quick = [("solver.max_evaluations", 1000.0)];
+    for (kind, method) in
+        [(CO_SIMULATION, 1), (CO_SIMULATION, 2), (CO_SIMULATION, 4), (CO_SIMULATION, 5), (MODEL_EXCHANGE, 3)]
+    {
+        let mut instance = Instance::of(kind);
+        instance.set_method(method);
+        let mut instance = instance.started(&quick);
+        if kind == CO_SIMULATION {
+            instance.run(0.0, 0.01, 3);
+        }
+        let own = instance.serialized();
+        let numbers = (own.len() - NUMBERS - CHECKSUM) / 8;
+        let (mut refusals, mut other) = (0, Instance::of(kind));
+        for n in 0..numbers {
+            for altered in ALTERED {
+                let mut bytes = own.clone();
+                bytes[NUMBERS + 8 * n..][..8].copy_from_slice(&altered.to_le_bytes());
+                let Ok(saved) = Saved::read(&other, &sealed(bytes)) else {
+                    refusals += 1;
+                    continue;
+                };
+                saved.restore(&other);
+                saved.free(&other);
+                goes_on_soundly(&mut other, &format!("number {n} of {numbers}, method {method}, {altered:?}"));
+            }
+        }
+        other.journal.take();
+        // What a parameter, a tag, a count or a whole turn cannot be.
+        assert!(refusals > 300, "{refusals} of {numbers} times {}", ALTERED.len());
+    }
+}
+
+#[test]
+fn fmi_a_run_that_does_not_fit_its_parameters_is_refused() {
+    let mut instance = Instance::quiet().started(&[]);
+    instance.run(0.0, 0.01, 3);
+    let own = instance.serialized();
+    // State of life, kind of instance, and then the parameters in the order of the list, the mass first.
+    for wrong in [-1.0, 0.0, Real::NAN, 5.25] {
+        let mut bytes = own.clone();
+        bytes[NUMBERS + 16..][..8].copy_from_slice(&wrong.to_le_bytes());
+        refused(&instance, &own, &sealed(bytes), &["damaged"]);
     }
 }

@@ -147,6 +147,23 @@ fn files_are_short_and_finished() {
     }
 }
 
+/// The tests of a file that can end before they tested anything: with a bare `return` of their own.
+fn tests_that_return(text: &str) -> Vec<&str> {
+    let bodies = text.split("\n#[test]\n").skip(1).map(|rest| rest.split("\n}\n").next().unwrap_or(rest));
+    let returns = |body: &&str| body.contains("else { return };") || body.lines().any(|line| line.trim() == "return;");
+    bodies.filter(returns).flat_map(|body| names_after(body, "fn ").into_iter().next()).collect()
+}
+
+#[test]
+fn no_test_passes_without_having_run() {
+    // What a scene or machine does not suit is ignored (build.rs says which scenes do) or panics.
+    for file in rust_files().iter().filter(|file| file.iter().any(|part| part == "tests")) {
+        assert_eq!(tests_that_return(&read(file)), [""; 0], "{}", file.display());
+    }
+    let early = concat!("\n#[test]\n#[ignore]\nfn early() {\n    let Some(it) = it() else { ", "return };\n}\n");
+    assert_eq!(tests_that_return(early), ["early"]);
+}
+
 #[test]
 fn no_code_takes_the_larger_of_two_zeros() {
     // Of 0 and −0 `max` gives either, each build its own; behind a division the bits then differ.

@@ -32,7 +32,7 @@ const MOVED: f64 = 0.5;
 /// A communication step that makes the solver work [s].
 pub const LONG: f64 = 0.1;
 
-/// The tolerance of the steps, relative to nominals [1].
+/// The tolerance of the steps [1].
 const TOLERANCE: f64 = 1e-10;
 
 /// A system of N equations at a time [s] and a state, to be stepped within a tolerance.
@@ -41,7 +41,7 @@ pub struct At<S, const N: usize> {
     pub system: S,
     pub t: f64,
     pub y: [f64; N],
-    tolerance: Tolerance<N>,
+    tolerance: Tolerance,
 }
 
 /// The rotor under way: with 12 equations without the work integrals, with 14 with them.
@@ -51,13 +51,13 @@ pub fn rotor<const N: usize>() -> At<Rotor<Effects>, N> {
     let mut simulation = Simulation::with(Integrator::Method, parameters.clone());
     simulation.start(0.0, None).expect("a possible scene");
     simulation.advance(MOVED).expect("a possible motion");
-    let (state, nominals) = (simulation.state().expect("possible parameters"), simulation.nominals());
+    let state = simulation.state().expect("possible parameters");
     let chart = simulation.read().expect("possible parameters").motion.tilt.chart();
     At {
         system: Rotor::new(parameters.shape().inertia(), parameters.effects, chart, 0.0),
         t: MOVED,
         y: std::array::from_fn(|n| state[n]),
-        tolerance: Tolerance { absolute: std::array::from_fn(|n| TOLERANCE * nominals[n]), relative: [0.0; N] },
+        tolerance: Tolerance { relative: TOLERANCE, ..Tolerance::default() },
     }
 }
 

@@ -18,14 +18,33 @@ pub struct Dependencies {
 /// So many rotors and motions are tried, in both charts.
 const SAMPLES: usize = 64;
 
+/// Whether a rotor can have these parameters.
+type Possible = fn(&mut Simulation<All>) -> bool;
+
+fn can_start(simulation: &mut Simulation<All>) -> bool {
+    simulation.parameters().check().is_ok() && simulation.read().is_ok()
+}
+
 impl Dependencies {
     /// Those of a scene.
     pub fn of(scene: &Scene) -> Self {
+        Self::among(scene, can_start)
+    }
+
+    /// Those of a scene, found among the rotors that are possible.
+    fn among(scene: &Scene, possible: Possible) -> Self {
         let nothing = vec![Vec::new(); scene.variables.len()];
         let mut found = Self { at_start: nothing.clone(), later: nothing };
-        let mut random = Random(0x5eed);
+        let (mut random, mut varied) = (Random(0x5eed), vec![false; scene.variables.len()]);
         for _ in 0..SAMPLES {
-            found.sample(scene, &mut random);
+            found.sample(scene, &mut random, possible, &mut varied);
+        }
+        for (index, variable) in scene.variables.iter().enumerate() {
+            // What could never be changed alone may matter to everything that is calculated.
+            if is_drawn(variable) && !varied[index] {
+                let calculated = scene.variables.iter().zip(&mut found.at_start).filter(|(of, _)| !of.meta.has_start());
+                calculated.for_each(|(_, list)| list.push(index));
+            }
         }
         for list in found.at_start.iter_mut().chain(&mut found.later) {
             list.sort_unstable();
@@ -34,48 +53,36 @@ impl Dependencies {
         found
     }
 
-    fn sample(&mut self, scene: &Scene, random: &mut Random) {
-        let mut simulation = Simulation::with(Integrator::Host, scene.parameters());
-        for variable in &scene.variables {
-            if let Some(range) = range(variable) {
-                set(&mut simulation, variable, random.within(range));
-            }
-        }
-        switch_at_random(&mut simulation, scene, random);
+    fn sample(&mut self, scene: &Scene, random: &mut Random, possible: Possible, varied: &mut [bool]) {
+        let mut simulation = somewhere(scene, random, possible);
         let before = values(&mut simulation, scene);
-        for (index, variable) in scene.variables.iter().enumerate() {
-            let old = simulation.get(variable.place).expect("a possible rotor").expect("it is in the list");
-            let other = match range(variable) {
-                Some(range) => random.within(range),
-                None if variable.meta.kind == Kind::Boolean => 1.0 - old,
-                None => continue,
-            };
-            set(&mut simulation, variable, other);
-            if simulation.parameters().check().is_err() {
-                // It would be switched on beside what it excludes.
+        for (index, variable) in scene.variables.iter().enumerate().filter(|(_, variable)| is_drawn(variable)) {
+            let old = value(&mut simulation, variable);
+            if change(&mut simulation, variable, random, possible) {
+                varied[index] = true;
+                note(&mut self.at_start, index, &before, &values(&mut simulation, scene));
                 set(&mut simulation, variable, old);
-                continue;
             }
-            note(&mut self.at_start, index, &before, &values(&mut simulation, scene));
-            set(&mut simulation, variable, old);
         }
-        simulation.start(0.0, None).expect("a possible rotor");
-        let mut state: Whole<f64> = std::array::from_fn(|_| random.within(ANY));
-        move_to(&mut simulation, &state);
+        simulation.start(0.0, None).unwrap_or_else(|invalid| panic!("of a possible rotor {invalid}"));
+        let mut drawn = (0..TRIES).map(|_| std::array::from_fn(|_| random.within(ANY)));
+        // Where a law has no limit nothing is shown.
+        let Some(mut state) = drawn.find(|state| moves_to(&mut simulation, state)) else { return };
         let before = values(&mut simulation, scene);
         for n in 0..WITH_WORK {
             let old = std::mem::replace(&mut state[n], random.within(ANY));
-            move_to(&mut simulation, &state);
             let place = crate::variables::state_place(n);
-            if let Some(index) = scene.variables.iter().position(|variable| variable.place == place) {
+            if moves_to(&mut simulation, &state)
+                && let Some(index) = scene.variables.iter().position(|variable| variable.place == place)
+            {
                 note(&mut self.later, index, &before, &values(&mut simulation, scene));
             }
             state[n] = old;
         }
-        move_to(&mut simulation, &state);
+        moves_to(&mut simulation, &state);
         for (index, variable) in scene.variables.iter().enumerate() {
             if let Role::Input { .. } = variable.meta.role {
-                let old = simulation.get(variable.place).expect("a possible rotor").expect("it is in the list");
+                let old = value(&mut simulation, variable);
                 simulation.set_input(variable.place, random.within(ANY));
                 note(&mut self.later, index, &before, &values(&mut simulation, scene));
                 simulation.set_input(variable.place, old);
@@ -84,17 +91,70 @@ impl Dependencies {
     }
 }
 
-/// Switches effects, those that have switches, so that a rotor can exist.
-fn switch_at_random(simulation: &mut Simulation<All>, scene: &Scene, random: &mut Random) {
-    loop {
-        for variable in scene.variables.iter().filter(|variable| variable.meta.kind == Kind::Boolean) {
-            // Mostly on, so that what two effects do together is seen.
-            set(simulation, variable, f64::from(random.within(ANY) > -1.0));
-        }
-        if simulation.parameters().check().is_ok() {
-            return;
+/// Switches are drawn so often before parameters are drawn otherwise, and so often a state.
+const TRIES: usize = 64;
+
+/// A rotor with random parameters, effects that have switches mostly on, so that what two of them do together is seen.
+fn somewhere(scene: &Scene, random: &mut Random, possible: Possible) -> Simulation<All> {
+    let own = || Simulation::with(Integrator::Host, scene.parameters());
+    let mut simulation = own();
+    for variable in &scene.variables {
+        if let Some(range) = range(variable) {
+            set(&mut simulation, variable, random.within(range));
         }
     }
+    for _ in 0..TRIES {
+        for variable in scene.variables.iter().filter(|variable| variable.meta.kind == Kind::Boolean) {
+            set(&mut simulation, variable, f64::from(random.within(ANY) > -1.0));
+        }
+        if possible(&mut simulation) {
+            return simulation;
+        }
+    }
+    // Some parameters must go together: from the scene's own, which do, one is changed after another.
+    let mut simulation = own();
+    assert!(possible(&mut simulation), "{}: its own values are not possible", scene.name);
+    for variable in scene.variables.iter().filter(|variable| is_drawn(variable)) {
+        change(&mut simulation, variable, random, possible);
+    }
+    simulation
+}
+
+/// So often a change is halved before a parameter is left as it is.
+const HALVINGS: i32 = 8;
+
+/// Changes one variable, by less where that much is not possible; false, and all is as it was, where no change is.
+fn change(simulation: &mut Simulation<All>, variable: &Variable, random: &mut Random, possible: Possible) -> bool {
+    let old = value(simulation, variable);
+    let Some(range) = range(variable) else {
+        // Of a switch there is one.
+        set(simulation, variable, 1.0 - old);
+        let is_possible = possible(simulation);
+        if !is_possible {
+            set(simulation, variable, old);
+        }
+        return is_possible;
+    };
+    let drawn = random.within(range);
+    for halvings in 0..=HALVINGS {
+        // The first time what was drawn, to the last bit.
+        set(simulation, variable, if halvings == 0 { drawn } else { old + (drawn - old) * 0.5_f64.powi(halvings) });
+        if possible(simulation) {
+            return true;
+        }
+    }
+    set(simulation, variable, old);
+    false
+}
+
+/// Whether a variable is one that is changed.
+fn is_drawn(variable: &Variable) -> bool {
+    range(variable).is_some() || variable.meta.kind == Kind::Boolean
+}
+
+fn value(simulation: &mut Simulation<All>, variable: &Variable) -> f64 {
+    let value = simulation.get(variable.place).unwrap_or_else(|invalid| panic!("of a possible rotor {invalid}"));
+    value.unwrap_or_else(|| panic!("{} is in the list, and has no value", variable.name))
 }
 
 /// Where values of any sign are drawn from.
@@ -125,16 +185,15 @@ fn set<E: Effects>(simulation: &mut Simulation<E>, variable: &Variable, value: f
     assert!(found, "{} can be set", variable.name);
 }
 
-fn move_to(simulation: &mut Simulation<All>, state: &Whole<f64>) {
+/// Moves to a state; whether it can be calculated there.
+fn moves_to(simulation: &mut Simulation<All>, state: &Whole<f64>) -> bool {
     simulation.open().expect("it was started for a host").set_state(state);
+    simulation.admits().is_ok()
 }
 
 /// The values of all calculated variables; 0 of others.
 fn values(simulation: &mut Simulation<All>, scene: &Scene) -> Vec<f64> {
-    let value = |variable: &Variable| match variable.meta.has_start() {
-        true => 0.0,
-        false => simulation.get(variable.place).expect("a possible rotor").expect("it is in the list"),
-    };
+    let value = |variable: &Variable| if variable.meta.has_start() { 0.0 } else { value(simulation, variable) };
     scene.variables.iter().map(value).collect()
 }
 
@@ -142,10 +201,17 @@ fn values(simulation: &mut Simulation<All>, scene: &Scene) -> Vec<f64> {
 /// chart from −e and back.
 const ROUNDING: f64 = 1e-12;
 
+/// Whether a value changed. What is infinite or not a number is another unless it has the same bits.
+fn differ(before: f64, after: f64) -> bool {
+    let change = (after - before).abs();
+    let is_rounding = change.is_finite() && change <= ROUNDING * before.abs().max(1.0);
+    before.to_bits() != after.to_bits() && !is_rounding
+}
+
 /// Notes that each variable whose value changed depends on the one with this index.
 fn note(lists: &mut [Vec<usize>], index: usize, before: &[f64], after: &[f64]) {
     for ((list, before), after) in lists.iter_mut().zip(before).zip(after) {
-        if (after - before).abs() > ROUNDING * before.abs().max(1.0) {
+        if differ(*before, *after) {
             list.push(index);
         }
     }
@@ -162,5 +228,54 @@ impl Random {
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         z ^= z >> 31;
         low + (high - low) * ((z >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    fn driven() -> Scene {
+        let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+        Scene::find("driven", &scenes).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn parameters(simulation: &mut Simulation<All>) -> crate::variables::Setup {
+        simulation.parameters().setup.clone()
+    }
+
+    #[test]
+    fn regress_parameters_that_must_go_together_are_drawn_in_a_bounded_time() {
+        let scene = driven();
+        let free = Dependencies::of(&scene);
+        // One below the other, as an effect's `check` may ask, and so far apart as no two draws are.
+        let below = Dependencies::among(&scene, |s| can_start(s) && parameters(s).rotor.Jt < parameters(s).rotor.Ja);
+        let apart =
+            Dependencies::among(&scene, |s| can_start(s) && parameters(s).rotor.m > 2.0 * parameters(s).rotor.Ja);
+        for found in [below, apart] {
+            assert_eq!((&found.at_start, &found.later), (&free.at_start, &free.later));
+        }
+    }
+
+    #[test]
+    fn regress_what_cannot_be_changed_alone_may_matter_to_everything() {
+        let scene = driven();
+        let found = Dependencies::among(&scene, |s| can_start(s) && parameters(s).rotor.m == 5.0);
+        let index = scene.variables.iter().position(|variable| variable.name == "rotor.m").expect("each has one");
+        for (variable, list) in scene.variables.iter().zip(&found.at_start) {
+            assert_eq!(list.contains(&index), !variable.meta.has_start(), "{}", variable.name);
+        }
+    }
+
+    #[test]
+    fn regress_what_is_not_a_number_depends() {
+        let [nan, inf] = [f64::NAN, f64::INFINITY];
+        for (before, after) in [(nan, 1.0), (1.0, nan), (inf, 1.0), (1.0, inf), (inf, -inf), (1.0, 1.0 + 1e-11)] {
+            assert!(differ(before, after), "{before} and {after}");
+        }
+        for (before, after) in [(nan, nan), (inf, inf), (1.0, 1.0), (0.0, 1e-13), (-0.0, 0.0)] {
+            assert!(!differ(before, after), "{before} and {after}");
+        }
     }
 }

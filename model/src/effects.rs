@@ -8,7 +8,7 @@ mod list;
 mod terminal;
 mod wrench;
 
-pub use list::{Action, Called, Effects, Switched};
+pub use list::{Action, Called, Effects, Switched, follows_all_inputs};
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
@@ -64,6 +64,9 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Whether it can [impose](Effect::imposed) a speed.
     const IMPOSES: bool = false;
 
+    /// How many inputs it can foretell at most.
+    const MOST_FORETOLD: usize = usize::MAX;
+
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
 
@@ -103,7 +106,7 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// The ω_φ that it imposes at time `t` [rad/s], and the rate of that [rad/s²]; None where it imposes none.
     #[inline(always)]
-    fn imposed<S: Scalar>(&self, _t: f64) -> Option<[S; 2]> {
+    fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
         None
     }
 
@@ -127,9 +130,25 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Extrapolates the input of this number over the step that begins.
     fn foretell(&mut self, _number: usize, _signal: &mut Signal) {}
 
+    /// Hears that one of its inputs was set, of what it was `before`; whether that changes how anything goes on.
+    fn input_set(&mut self, _before: &Self, set: InputSet) -> bool {
+        !set.goes_on
+    }
+
+    /// Takes over what another like it remembers of its inputs.
+    fn take_over(&mut self, _other: &Self) {}
+
+    /// Hears where a communication step ended.
+    fn step_to(&mut self, _end: &Kinematics<f64>) {}
+
     /// What it remembers of a run besides its variables: saved and brought back with them.
     fn memory(&mut self) -> &mut [f64] {
         &mut []
+    }
+
+    /// Whether it can remember this: what was saved may have been altered.
+    fn remembers_rightly(&self) -> bool {
+        true
     }
 
     /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
@@ -137,6 +156,19 @@ pub trait Effect: Clone + Default + Send + 'static {
     fn works(&self) -> bool {
         Self::COULD_WORK
     }
+}
+
+/// What was set of an input.
+#[derive(Clone, Copy, Debug)]
+pub struct InputSet {
+    /// Its number among the effect's variables.
+    pub row: usize,
+    /// 0 for its value, else the order of the derivative.
+    pub order: u32,
+    /// At which communication point [s].
+    pub t: f64,
+    /// Whether it still holds what it held.
+    pub goes_on: bool,
 }
 
 /// An effect's place in the catalogue.

@@ -11,7 +11,7 @@ pub mod sizes;
 pub mod stiff;
 pub mod tableau;
 
-use crate::stored::stored;
+use crate::stored::{Damaged, Stored, Walk, count};
 use sizes::{GROUPS, Squares};
 
 pub use sizes::Tolerance;
@@ -86,6 +86,19 @@ pub enum Fault {
     },
 }
 
+impl Fault {
+    /// Why no step is possible beyond time `t` [s]: what stood in the way of the last one that was tried, or that none `advances` the
+    /// time, or may still be paid for.
+    fn of_no_step(t: f64, advances: bool, obstacle: Option<Fault>) -> Fault {
+        match obstacle {
+            Some(refused @ Fault::Refused { .. }) => refused,
+            Some(fault) if !advances => fault,
+            _ if advances => Fault::Spent { t },
+            _ => Fault::Underflow { t },
+        }
+    }
+}
+
 impl std::fmt::Display for Fault {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
@@ -123,7 +136,16 @@ pub struct Cost {
     pub error_estimate: f64,
 }
 
-stored!(Cost { steps, rejected, evaluations, next_step, error_estimate });
+impl Stored for Cost {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { steps, rejected, evaluations, next_step, error_estimate } = self;
+        count(steps, walk)?;
+        count(rejected, walk)?;
+        count(evaluations, walk)?;
+        next_step.walk(walk)?;
+        error_estimate.walk(walk)
+    }
+}
 
 /// A first step spans at least so many units in the last place of the time.
 const LEAST_FIRST: f64 = 100.0;

@@ -11,7 +11,7 @@ use crate::integrate::{Refusal, System};
 use crate::rotation::{Chart, Tilt};
 use crate::scalar::Scalar;
 use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, Whole};
-use crate::stored::stored;
+use crate::stored::{Damaged, Stored, Walk, whole};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
@@ -158,7 +158,7 @@ impl<E: Effects> Rotor<E> {
         y: &[S],
     ) -> Kinematics<S> {
         let inertia = if EVEN { self.body.even() } else { self.inertia() };
-        let motion = Kinematics::new(inertia, chart, Coordinates::from_slice(y)).when(t, self.turns);
+        let motion = Kinematics::new(inertia, chart, Coordinates::from_slice(y)).when(S::constant(t), self.turns);
         if FREE { motion } else { imposed(&self.effects, motion) }
     }
 
@@ -234,7 +234,18 @@ impl<E: Effects> Rotor<E> {
     }
 }
 
-stored!(Rotor<E: Effects> { body, effects, chart, turns, placeless });
+impl<E: Effects> Stored for Rotor<E> {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { body, effects, chart, turns, placeless } = self;
+        body.walk(walk)?;
+        effects.walk(walk)?;
+        chart.walk(walk)?;
+        whole(turns, walk)?;
+        placeless.walk(walk)?;
+        // A rotor that runs was checked, and what is asked once follows from its effects.
+        if effects.check().is_ok() && *placeless != effects.follows_place() { Ok(()) } else { Err(Damaged) }
+    }
+}
 
 impl<E: Effects, const N: usize> System<N> for Rotor<E> {
     /// The work integrals are quadratures: no law depends on them. φ is one too where no effect follows it.

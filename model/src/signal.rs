@@ -55,25 +55,33 @@ impl Signal {
 
     /// Its value at time `t` [s].
     #[inline(always)]
-    pub fn at<S: Scalar>(&self, t: f64) -> S {
-        let s = t - self.origin;
+    pub fn at<S: Scalar>(&self, t: S) -> S {
+        let s = t - S::constant(self.origin);
         // eq. 31: u(t₀ + s) = u₀ + u₁ s + ½ u₂ s²
-        S::moving(self.value + s * (self.slope + s * (0.5 * self.curvature)), self.seed)
+        S::moving(self.value, self.seed) + s * (S::constant(self.slope) + s * S::constant(0.5 * self.curvature))
     }
 
-    /// What it sums up to from time `from` to `t` [unit·s].
+    /// What it sums up to from time `from` to `t` [unit·s]: what is set now, it does not change.
     #[inline(always)]
-    pub fn sum<S: Scalar>(&self, from: f64, t: f64) -> S {
-        let s = t - from;
-        let further = s * (0.5 * self.rate_at(from) + s * (self.curvature / 6.0));
+    pub fn sum<S: Scalar>(&self, from: f64, t: S) -> S {
+        let s = t - S::constant(from);
+        let further = s * (S::constant(0.5 * self.rate_at(from)) + s * S::constant(self.curvature / 6.0));
         // eq. 31: ∫u dt = u s + ½ u₁ s² + ⅙ u₂ s³
-        (self.at::<S>(from) + S::constant(further)) * S::constant(s)
+        (S::constant(self.at(from)) + further) * s
+    }
+
+    /// What it gains from time `from` to `t` [unit].
+    #[inline(always)]
+    pub fn gain<S: Scalar>(&self, from: f64, t: S) -> S {
+        let s = t - S::constant(from);
+        // eq. 31: u₁ s + ½ u₂ s²
+        s * (S::constant(self.rate_at(from)) + s * S::constant(0.5 * self.curvature))
     }
 
     /// Its rate at time `t` [unit/s].
     #[inline(always)]
-    pub fn rate_at(&self, t: f64) -> f64 {
-        self.slope + (t - self.origin) * self.curvature
+    pub fn rate_at<S: Scalar>(&self, t: S) -> S {
+        S::constant(self.slope) + (t - S::constant(self.origin)) * S::constant(self.curvature)
     }
 
     /// When it was last set [s].

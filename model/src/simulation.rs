@@ -14,7 +14,8 @@ mod tangents;
 pub use open::{Open, Settled};
 pub use tangents::Tangents;
 
-use crate::effects::Effects;
+use crate::effects::{Effects, follows_all_inputs};
+use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::{Cost, Fault, Refusal};
@@ -92,25 +93,21 @@ impl<E: Effects> Simulation<E> {
 
     /// Sets an input from the communication point on; false where there is none at this place.
     pub fn set_input(&mut self, place: Place, value: f64) -> bool {
-        self.change_input(place, |signal, t| signal.set(t, value))
+        self.change_input(place, 0, |signal, t| signal.set(t, value))
     }
 
     /// Sets a derivative of an input, of order 1 or 2, at the communication point; false where there is no input.
     pub fn set_input_derivative(&mut self, place: Place, order: u32, value: f64) -> bool {
-        self.change_input(place, |signal, t| signal.set_derivative(t, order, value))
+        self.change_input(place, order, |signal, t| signal.set_derivative(t, order, value))
     }
 
-    fn change_input(&mut self, place: Place, change: impl FnOnce(&mut Signal, f64)) -> bool {
+    fn change_input(&mut self, place: Place, order: u32, change: impl FnOnce(&mut Signal, f64)) -> bool {
         let t = self.time().unwrap_or_default();
-        let Some(signal) = self.parameters.effects.signal_mut(place) else { return false };
-        let before = *signal;
-        change(signal, t);
-        if signal.goes_on_like(&before) {
-            *signal = signal.going_on(before);
-        } else {
+        let changes = self.parameters.effects.change_input(place, order, t, |signal| change(signal, t));
+        if changes == Some(true) {
             self.tell_of_inputs();
         }
-        true
+        changes.is_some()
     }
 
     /// A host's motion hears of inputs at once, a method when it goes on. What is shown follows them at once.
@@ -198,11 +195,23 @@ impl<E: Effects> Simulation<E> {
             Run::Open(_) => panic!("the host integrates"),
         }
         self.news = false;
+        if E::IMPOSES && self.parameters.effects.imposed::<f64>(t).is_some() {
+            self.tell_of_step();
+        }
         Ok(())
+    }
+
+    /// Effects hear where a communication step ended.
+    fn tell_of_step(&mut self) {
+        if let Ok(Reading { motion, .. }) = self.read() {
+            let end = *motion;
+            self.parameters.effects.step_to(&end);
+        }
     }
 
     /// Extrapolates inputs over the step that begins, where an effect does so.
     fn foretell(&mut self) {
+        const { assert!(follows_all_inputs::<E>(), "extrapolation.rs: MOST is less than this list has inputs") };
         let t = self.time().unwrap_or_default();
         let effects = &mut self.parameters.effects;
         effects.step_from(t);
@@ -349,6 +358,12 @@ impl<E: Effects> Simulation<E> {
         [0, 3, 6, 9].map(|n| LEAST * nominals[n])
     }
 
+    /// The energy at the start [J].
+    fn total_at_start(&self, parameters: &Parameters<E>, t: f64) -> f64 {
+        let Motion { rotor, state } = Motion::at_start(parameters, t);
+        Ledger::new(&rotor.motion(t, &state), &rotor.effects, [0.0; 2], 0.0).total()
+    }
+
     /// The start as the parameters make it, and what it shows. An error where it overflows.
     fn at_start(&self, parameters: &Parameters<E>, t: f64) -> Result<(Motion<E>, Reading), Invalid> {
         let mut start = Motion::at_start(parameters, t);
@@ -360,8 +375,7 @@ impl<E: Effects> Simulation<E> {
         let mut reading = Reading::new(motion, &rotor.effects, [0.0; 2], 0.0, Cost::default());
         reading.ledger.total_at_start = reading.ledger.total();
         if !reading.ledger.total().is_finite() {
-            let bound = "finite: the start values or parameters are too large";
-            return Err(Invalid::new("energy.total", reading.ledger.total(), bound));
+            return Err(parameters.blamed(|parameters| self.total_at_start(parameters, t).is_finite()));
         }
         Ok((start, reading))
     }
@@ -390,11 +404,22 @@ impl<E: Effects> Stored for Simulation<E> {
             (3, _) => *run = Some(Run::Open(Open::blank())),
             _ => return Err(Damaged),
         }
-        match run {
-            None => Ok(()),
-            Some(Run::Conservative(drive)) => drive.walk(walk),
-            Some(Run::Working(drive)) => drive.walk(walk),
-            Some(Run::Open(open)) => open.walk(walk),
-        }
+        let (integrates, fits) = match run {
+            None => return Ok(()),
+            Some(Run::Conservative(drive)) => {
+                drive.walk(walk)?;
+                (Integrator::Method, drive.is_of(parameters))
+            }
+            Some(Run::Working(drive)) => {
+                drive.walk(walk)?;
+                (Integrator::Method, drive.is_of(parameters))
+            }
+            Some(Run::Open(open)) => {
+                open.walk(walk)?;
+                (Integrator::Host, open.is_of(parameters))
+            }
+        };
+        // A run begins with parameters that were checked.
+        if integrates == *integrator && fits && parameters.check().is_ok() { Ok(()) } else { Err(Damaged) }
     }
 }

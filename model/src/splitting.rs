@@ -6,12 +6,13 @@ mod tumbling;
 pub use tumbling::{Beside, Tumbling};
 
 use crate::effects::{Action, Effects};
-use crate::integrate::Refusal;
 use crate::integrate::composition::{Composition, Split, Splitting};
+use crate::integrate::sizes::Squares;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
+use crate::integrate::{Refusal, System};
 use crate::rotation::arc::{Reduced, atan2};
 use crate::rotation::{Angle, Chart, Tilt, Turn, Turned};
-use crate::rotor::{BEYOND_LIMIT, FORBIDDEN, LIMIT, Rotor};
+use crate::rotor::{BEYOND_LIMIT, FORBIDDEN, LIMIT, Rotor, groups};
 use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -66,6 +67,13 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
             evaluations: 0.0,
             refusal: None,
         }
+    }
+
+    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
+        let mut squares = self.roundings(y, h);
+        // A drift turns the axis anew, and a direction is known to so many radians.
+        squares[groups::GAMMA] = 1.0;
+        squares
     }
 }
 

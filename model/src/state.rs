@@ -71,7 +71,7 @@ pub struct Kinematics<S: Scalar> {
     /// The body that moves.
     pub body: Inertia,
     /// Time [s].
-    pub t: f64,
+    pub t: S,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
     /// Its coordinates.
@@ -109,12 +109,12 @@ impl<S: Scalar> Kinematics<S> {
             }
         };
         let (omega, AngularVelocity { swing, spin }) = (velocity.omega(&tilt.axis), velocity);
-        Self { body, t: 0.0, turns: 0.0, at, tilt, swing, spin, omega, to_centre, impulse: None }
+        Self { body, t: S::zero(), turns: 0.0, at, tilt, swing, spin, omega, to_centre, impulse: None }
     }
 
     /// The same at time `t` [s], with whole turns counted apart.
     #[inline(always)]
-    pub fn when(self, t: f64, turns: f64) -> Self {
+    pub fn when(self, t: S, turns: f64) -> Self {
         Self { t, turns, ..self }
     }
 
@@ -137,6 +137,12 @@ impl<S: Scalar> Kinematics<S> {
             Some(uneven) => self.body.uneven_angular_velocity(uneven, momentum, &self.tilt.attitude(self.at.phi)),
         };
         velocity.omega(self.axis())
+    }
+
+    /// The inertia against a torque along n, 1/(n·I⁻¹n) [kg·m²].
+    pub fn inertia_along_joint(&self) -> S {
+        let n = self.tilt.joint_axis();
+        S::one() / n.dot(&self.angular_velocity(&n))
     }
 
     /// Angular momentum about G [kg·m²/s].

@@ -53,6 +53,20 @@ pub fn choice<T: Copy + PartialEq>(chosen: &mut T, these: &[T], walk: &mut impl 
     Ok(())
 }
 
+/// Shows a whole number of either sign.
+pub fn whole(number: &mut f64, walk: &mut impl Walk) -> Result<(), Damaged> {
+    number.walk(walk)?;
+    // Of what is not finite, nothing is left over that could be compared.
+    if *number % 1.0 == 0.0 { Ok(()) } else { Err(Damaged) }
+}
+
+/// Shows a number that counts something, and has room to count on by ones.
+pub fn count(number: &mut f64, walk: &mut impl Walk) -> Result<(), Damaged> {
+    const MOST: f64 = (1_u64 << 52) as f64;
+    whole(number, walk)?;
+    if (0.0..=MOST).contains(number) { Ok(()) } else { Err(Damaged) }
+}
+
 impl Stored for f64 {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
         walk.number(self)

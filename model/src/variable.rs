@@ -263,11 +263,11 @@ impl Bound {
         }
     }
 
-    /// The least and greatest value that the XML can state.
+    /// The least and greatest value that the XML can state: ends that are themselves possible.
     pub fn range(self) -> (Option<f64>, Option<f64>) {
         match self {
-            Bound::Finite => (None, None),
-            Bound::Positive | Bound::NotNegative => (Some(0.0), None),
+            Bound::Finite | Bound::Positive => (None, None),
+            Bound::NotNegative => (Some(0.0), None),
             Bound::ZeroOrWithin(_, high) => (Some(0.0), Some(high)),
             Bound::Within(low, high) => (Some(low), Some(high)),
             Bound::OneOf(these) => (these.first().copied(), these.last().copied()),

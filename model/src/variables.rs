@@ -18,7 +18,7 @@ use crate::stored::{Damaged, Stored, Walk};
 use crate::variable::units::*;
 use crate::variable::{Access, Bound, Kind, Meta, Output, Place, Readable, Role, Row, Shown, output, parameter};
 use nalgebra::{Vector2, Vector3};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// The parameters that are always there.
 #[derive(Clone, Debug, Default)]
@@ -105,12 +105,13 @@ impl<S: Scalar> Reading<S> {
 }
 
 impl Reading {
-    /// The same with the derivatives of a state that moves in the direction `seeds`, under these effects.
-    pub fn moving<S: Scalar, E: Effects>(&self, seeds: &Whole<f64>, effects: &E) -> Reading<S> {
+    /// The same with the derivatives of a state that moves in the direction `seeds` and of time that moves by `time` [s],
+    /// under these effects.
+    pub fn moving<S: Scalar, E: Effects>(&self, seeds: &Whole<f64>, time: f64, effects: &E) -> Reading<S> {
         let state = self.state();
         let moving: Whole<S> = std::array::from_fn(|n| S::moving(state[n], seeds[n]));
         let Kinematics { body, t, turns, .. } = self.motion;
-        let at = Coordinates::from_slice(&moving);
+        let (at, t) = (Coordinates::from_slice(&moving), S::moving(t, time));
         let motion = rotor::imposed(effects, Kinematics::new(body, self.motion.tilt.chart(), at).when(t, turns));
         let work = [moving[SUPPLIED], moving[DISSIPATED]];
         Reading::new(motion, effects, work, self.ledger.total_at_start, self.cost)
@@ -324,6 +325,9 @@ pub fn state_number(place: Place) -> Option<usize> {
     (place.block == STATES && place.row < WITH_WORK).then_some(place.row)
 }
 
+/// So many whole turns are counted without a gap: 2⁵³ of them [rad].
+const LARGEST_PHI: f64 = TAU * (1_u64 << 53) as f64;
+
 impl Setup {
     /// The first of its parameters whose value is not possible.
     fn check(&self) -> Result<(), Invalid> {
@@ -335,6 +339,11 @@ impl Setup {
         let theta = self.start.gamma.norm();
         if theta > PI {
             return Err(Invalid::new("|start.gamma|", theta, format!("at most pi = {PI:?}")));
+        }
+        let phi = self.start.phi;
+        if phi.abs() > LARGEST_PHI {
+            let bound = format!("from -{LARGEST_PHI:?} to {LARGEST_PHI:?}, or its whole turns could not be counted");
+            return Err(Invalid::new("start.phi", phi, bound));
         }
         Ok(())
     }
@@ -443,6 +452,37 @@ impl<E: Effects> Parameters<E> {
             return Err(Invalid::out_of_bound(solver.method_variable(), "symplectic", bound));
         }
         self.shape().check()
+    }
+
+    /// The parameters and inputs to blame for an energy at the start that overflows: with moderate values in their place it is
+    /// `sound`. That with the most extreme value, if it is one alone.
+    #[cold]
+    pub fn blamed(&self, sound: impl Fn(&Self) -> bool) -> Invalid {
+        const LAST: u32 = 1 << 8;
+        let metas = |block| (0..).map_while(move |row| Some((Place { block, row }, Self::meta(Place { block, row })?)));
+        let is_given = |(_, meta): &(Place, &Meta)| meta.kind == Kind::Real && meta.has_start();
+        let given = (0..LAST).flat_map(metas).filter(is_given);
+        let mut given: Vec<_> = given.filter_map(|(place, _)| Some((place, self.value(place, 0.0, None)?))).collect();
+        let extremity = |value: f64| if value == 0.0 { 1.0 } else { value.abs().max(1.0 / value.abs()) };
+        given.sort_by(|(_, one), (_, other)| extremity(*other).total_cmp(&extremity(*one)));
+        let moderated = |places: &[(Place, f64)]| {
+            let mut parameters = self.clone();
+            places.iter().for_each(|(place, value)| _ = parameters.begin_with(*place, value.signum()));
+            sound(&parameters)
+        };
+        let alone = given.iter().position(|one| moderated(std::slice::from_ref(one)));
+        let together = (1..=given.len()).find(|count| moderated(&given[..*count]));
+        let blamed = match (alone, together) {
+            (Some(n), _) => &given[n..=n],
+            (None, count) => &given[..count.unwrap_or(given.len())],
+        };
+        let words =
+            blamed.iter().map(|(place, value)| format!("{} = {value:?}", Self::name(*place).unwrap_or_default()));
+        let words: Vec<_> = words.collect();
+        Invalid {
+            variable: words.join(" and "),
+            reason: "cannot be simulated: the energy at the start overflows".into(),
+        }
     }
 
     /// The body with what effects make of it.

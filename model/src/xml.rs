@@ -154,10 +154,15 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
         Role::Mode => ("local", "discrete", Some("calculated")),
     };
     let reference_text = reference.to_string();
+    // `min` would be a possible value.
+    let description = match meta.role {
+        Role::Parameter { bound: Bound::Positive, .. } => format!("{}, > 0", meta.description),
+        _ => meta.description.to_owned(),
+    };
     let attributes = [
         ("name", Some(variable.name.as_str())),
         ("valueReference", Some(&reference_text)),
-        ("description", Some(meta.description)),
+        ("description", Some(&description)),
         ("causality", Some(causality)),
         ("variability", Some(variability)),
         ("initial", initial),

@@ -258,7 +258,7 @@ fn exact_impossible_steps_are_faults() {
     let (reached, fault) = run(&far, 0.01);
     assert!(matches!(fault, Fault::Refused { .. }), "{fault:?}");
     within("where", (reached - 0.28).abs(), 1e-5);
-    let (_, fault) = run(&Scene { c1: f64::MAX, ..Scene::paper() }, 0.01);
+    let (_, fault) = run(&Scene { c1: f64::MAX, c2: 0.0, ..Scene::paper() }, 0.01);
     assert!(matches!(fault, Fault::NotFinite { .. }), "{fault:?}");
     let (_, fault) = run(&Scene::paper(), f64::NAN);
     assert!(matches!(fault, Fault::Underflow { .. }), "{fault:?}");

@@ -221,3 +221,33 @@ fn exact_observed_order_of_the_dense_output() {
         within(&format!("{:?}: dense order {slope:.3}", claim.method), (slope - claim.dense as f64).abs(), OBSERVED);
     }
 }
+
+/// |R(iy)|² of one step of the whole tableau, y'= i y over a phase y [rad].
+fn grows(tableau: &Tableau, phase: f64) -> f64 {
+    let a = matrix(tableau);
+    let b = weights(tableau.stages[tableau.last - 1].a, a.len());
+    // R(z) = 1 + Σ z^k bᵀA^(k−1)1
+    let (mut part, mut power, mut r) = (vec![1.0; b.len()], [1.0, 0.0], [1.0, 0.0]);
+    for _ in 0..b.len() {
+        power = [-phase * power[1], phase * power[0]];
+        let of_order: f64 = b.iter().zip(&part).map(|(b, part)| b * part).sum();
+        r = [r[0] + of_order * power[0], r[1] + of_order * power[1]];
+        part = a.iter().map(|row| row.iter().zip(&part).map(|(a, part)| a * part).sum()).collect();
+    }
+    r[0] * r[0] + r[1] * r[1]
+}
+
+/// What rounding may add to |R|² [1].
+const UNIT: f64 = 1e-12;
+
+#[test]
+fn exact_what_swings_does_not_grow() {
+    for Claim { method, .. } in CLAIMS {
+        let tableau = method.tableau();
+        let within_reach = (1..=1000).map(|part| tableau.swings * f64::from(part) / 1000.0);
+        let most = largest(within_reach.map(|phase| grows(tableau, phase)));
+        assert!(most <= 1.0 + UNIT, "{method:?}: {most}");
+        let beyond = grows(tableau, 1.02 * tableau.swings);
+        assert!(beyond > 1.0 + UNIT, "{method:?}: {beyond} beyond what is claimed");
+    }
+}

@@ -3,7 +3,7 @@
 use super::absent;
 use crate::abi::*;
 use crate::calls::{Call, call};
-use crate::guard::{enter, places, values};
+use crate::guard::{enter, room, values};
 use crate::instance::{Failure, Instance};
 
 /// Asks for one status and writes the answer to `value`.
@@ -64,7 +64,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
             instance.output_derivatives(
                 values(references, n, "vr")?,
                 values(order, n, "order")?,
-                places(value, n, "value")?,
+                room(value, n, "value")?,
             )
         })
     }

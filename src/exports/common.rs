@@ -2,7 +2,7 @@
 
 use crate::abi::*;
 use crate::calls::call;
-use crate::guard::{caught, enter, places, text, values};
+use crate::guard::{caught, enter, fill, room, text, values};
 use crate::instance::{Failure, Instance, Memory, Type};
 use crate::logger::Logger;
 use crate::scene::GUID;
@@ -154,7 +154,7 @@ pub unsafe extern "C" fn fmi2GetReal(
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
         enter(component, &call::GET_REAL, |instance| {
-            instance.get_real(values(references, n, "vr")?, places(value, n, "value")?)
+            instance.get_real(values(references, n, "vr")?, room(value, n, "value")?)
         })
     }
 }
@@ -170,7 +170,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
         enter(component, &call::GET_INTEGER, |instance| {
-            instance.get_integer(values(references, n, "vr")?, places(value, n, "value")?)
+            instance.get_integer(values(references, n, "vr")?, room(value, n, "value")?)
         })
     }
 }
@@ -186,7 +186,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
         enter(component, &call::GET_BOOLEAN, |instance| {
-            instance.get_boolean(values(references, n, "vr")?, places(value, n, "value")?)
+            instance.get_boolean(values(references, n, "vr")?, room(value, n, "value")?)
         })
     }
 }
@@ -310,8 +310,10 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(component: Component, state:
     // SAFETY: as above.
     unsafe {
         enter(component, &call::SERIALIZED_FMU_STATE_SIZE, |_| {
-            let size = size.as_mut().ok_or_else(|| Failure::error("size is a null pointer"))?;
-            *size = memory(state)?.to_bytes().len();
+            if size.is_null() {
+                return Err(Failure::error("size is a null pointer"));
+            }
+            size.write(memory(state)?.to_bytes().len());
             Ok(Status::Ok)
         })
     }
@@ -333,7 +335,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
                 let message = format!("size = {size} must be {}, as fmi2SerializedFMUstateSize says", written.len());
                 return Err(Failure::error(message));
             }
-            places(bytes.cast::<u8>(), size, "serializedState")?.copy_from_slice(&written);
+            fill(room(bytes.cast::<u8>(), size, "serializedState")?, &written);
             Ok(Status::Ok)
         })
     }
@@ -387,7 +389,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 values(unknown, n_unknown, "vUnknown_ref")?,
                 values(known, n_known, "vKnown_ref")?,
                 values(seed, n_known, "dvKnown")?,
-                places(sensitivity, n_unknown, "dvUnknown")?,
+                room(sensitivity, n_unknown, "dvUnknown")?,
             )
         })
     }

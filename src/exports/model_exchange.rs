@@ -2,7 +2,7 @@
 
 use crate::abi::*;
 use crate::calls::call;
-use crate::guard::{enter, places, values};
+use crate::guard::{enter, room, values};
 use crate::instance::Failure;
 
 /// Enters event mode.
@@ -86,9 +86,7 @@ pub unsafe extern "C" fn fmi2SetContinuousStates(component: Component, states: *
 pub unsafe extern "C" fn fmi2GetDerivatives(component: Component, derivatives: *mut Real, n: Size) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
-        enter(component, &call::GET_DERIVATIVES, |instance| {
-            instance.derivatives(places(derivatives, n, "derivatives")?)
-        })
+        enter(component, &call::GET_DERIVATIVES, |instance| instance.derivatives(room(derivatives, n, "derivatives")?))
     }
 }
 
@@ -104,7 +102,7 @@ pub unsafe extern "C" fn fmi2GetEventIndicators(component: Component, _indicator
 pub unsafe extern "C" fn fmi2GetContinuousStates(component: Component, states: *mut Real, n: Size) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
     unsafe {
-        enter(component, &call::GET_CONTINUOUS_STATES, |instance| instance.continuous_states(places(states, n, "x")?))
+        enter(component, &call::GET_CONTINUOUS_STATES, |instance| instance.continuous_states(room(states, n, "x")?))
     }
 }
 
@@ -116,5 +114,5 @@ pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
     n: Size,
 ) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.
-    unsafe { enter(component, &call::GET_NOMINALS, |instance| instance.nominals(places(nominals, n, "x_nominal")?)) }
+    unsafe { enter(component, &call::GET_NOMINALS, |instance| instance.nominals(room(nominals, n, "x_nominal")?)) }
 }

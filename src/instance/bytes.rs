@@ -4,6 +4,7 @@ use super::{Experiment, Failure, Instance, Memory};
 use crate::abi::Status;
 use crate::calls::State;
 use crate::scene::GUID;
+use model::simulation::Integrator;
 use model::stored::{self, Damaged, Stored, Walk, choice};
 
 /// What the bytes begin with.
@@ -44,7 +45,8 @@ impl Instance {
     }
 }
 
-const DAMAGED: &str = "the serialized FMU state is damaged: its checksum or its length is wrong";
+const DAMAGED: &str =
+    "the serialized FMU state is damaged: its checksum or its length is wrong, or its numbers mean nothing";
 
 /// The numbers between head and checksum.
 fn numbers(bytes: &[u8]) -> Result<&[u8], String> {
@@ -84,7 +86,13 @@ impl Stored for Memory {
         let Self { state, simulation, experiment, step_status, warned } = self;
         choice(state, &STATES, walk)?;
         simulation.walk(walk)?;
-        if simulation.time().is_some() == matches!(state, State::Instantiated | State::Initialization) {
+        let kinds = match state {
+            State::Instantiated | State::Initialization => None,
+            State::StepComplete | State::StepFailed => Some(Integrator::Method),
+            State::EventMode | State::ContinuousTime => Some(Integrator::Host),
+            _ => Some(simulation.integrator()),
+        };
+        if simulation.time().map(|_| simulation.integrator()) != kinds {
             return Err(Damaged);
         }
         let Experiment { start, stop, tolerance, host_set_tolerance } = experiment;

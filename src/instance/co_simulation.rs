@@ -4,6 +4,7 @@ use super::values::{Type, finite, shown, typed};
 use super::{Failure, Instance, Reply};
 use crate::abi::{Boolean, Choice, Integer, Real, Status, status_kind};
 use crate::calls::State;
+use crate::guard::Room;
 use model::scalar::ulp;
 use model::signal::HIGHEST_DERIVATIVE;
 use model::variable::{Place, Role};
@@ -87,7 +88,7 @@ impl Instance {
     }
 
     /// fmi2GetRealOutputDerivatives
-    pub fn output_derivatives(&mut self, references: &[u32], orders: &[Integer], values: &mut [Real]) -> Reply {
+    pub fn output_derivatives(&mut self, references: &[u32], orders: &[Integer], values: Room<Real>) -> Reply {
         for (reference, order) in references.iter().zip(orders) {
             if !matches!(typed(*reference, Type::Real)?.role, Role::Output) {
                 return Err(Failure::error(format!("{} is not an output", shown(*reference))));
@@ -99,7 +100,7 @@ impl Instance {
         }
         let derivatives = self.memory.simulation.time_derivatives()?;
         for (reference, value) in references.iter().zip(values) {
-            *value = finite(*reference, derivatives.of(Place::of(*reference)).unwrap_or(Real::NAN))?;
+            value.write(finite(*reference, derivatives.of(Place::of(*reference)).unwrap_or(Real::NAN))?);
         }
         Ok(Status::Ok)
     }

@@ -3,6 +3,7 @@
 use super::values::{Type, finite, shown, typed};
 use super::{Failure, Instance, Reply};
 use crate::abi::{Real, Status};
+use crate::guard::Room;
 use model::variable::{Place, Role};
 use model::variables::state_number;
 
@@ -13,7 +14,7 @@ impl Instance {
         unknown: &[u32],
         known: &[u32],
         seeds: &[Real],
-        sensitivities: &mut [Real],
+        sensitivities: Room<Real>,
     ) -> Reply {
         for reference in unknown {
             if !matches!(typed(*reference, Type::Real)?.role, Role::Output | Role::State) {
@@ -36,7 +37,7 @@ impl Instance {
         let seeds = known.iter().map(|reference| Place::of(*reference)).zip(seeds.iter().copied());
         let tangents = simulation.tangents(seeds)?;
         for (reference, sensitivity) in unknown.iter().zip(sensitivities) {
-            *sensitivity = finite(*reference, tangents.of(Place::of(*reference)).unwrap_or(Real::NAN))?;
+            sensitivity.write(finite(*reference, tangents.of(Place::of(*reference)).unwrap_or(Real::NAN))?);
         }
         Ok(Status::Ok)
     }

@@ -3,6 +3,7 @@
 use super::{Failure, Instance, Reply};
 use crate::abi::{Real, Status};
 use crate::calls::State;
+use crate::guard::{Room, fill};
 use crate::scene::Simulation;
 use model::log::Category;
 use model::simulation::Open;
@@ -81,31 +82,31 @@ impl Instance {
     }
 
     /// fmi2GetContinuousStates
-    pub fn continuous_states(&mut self, states: &mut [Real]) -> Reply {
+    pub fn continuous_states(&mut self, states: Room<Real>) -> Reply {
         check_number(states.len())?;
         let state = self.memory.simulation.state()?;
-        states.copy_from_slice(&state[..Simulation::STATES]);
+        fill(states, &state[..Simulation::STATES]);
         Ok(Status::Ok)
     }
 
     /// fmi2GetDerivatives
-    pub fn derivatives(&mut self, derivatives: &mut [Real]) -> Reply {
+    pub fn derivatives(&mut self, derivatives: Room<Real>) -> Reply {
         check_number(derivatives.len())?;
         self.memory.simulation.admits()?;
         let rates = self.memory.simulation.rates()?;
         if rates.iter().any(|rate| !rate.is_finite()) {
             return Err(Failure::discard("a force or a rate is infinite or not a number"));
         }
-        derivatives.copy_from_slice(&rates[..Simulation::STATES]);
+        fill(derivatives, &rates[..Simulation::STATES]);
         Ok(Status::Ok)
     }
 
     /// fmi2GetNominalsOfContinuousStates
-    pub fn nominals(&mut self, nominals: &mut [Real]) -> Reply {
+    pub fn nominals(&mut self, nominals: Room<Real>) -> Reply {
         check_number(nominals.len())?;
         // Before the start their parameters may be impossible.
         self.memory.simulation.parameters().check()?;
-        nominals.copy_from_slice(&self.memory.simulation.nominals()[..Simulation::STATES]);
+        fill(nominals, &self.memory.simulation.nominals()[..Simulation::STATES]);
         Ok(Status::Ok)
     }
 

@@ -3,9 +3,11 @@
 use super::{Failure, Instance, Reply};
 use crate::abi::{Boolean, Integer, Real, Status};
 use crate::calls::State;
+use crate::guard::{Room, fill};
 use crate::scene::Effects;
 use model::variable::{Kind, Meta, Place, Role};
 use model::variables::Parameters;
+use std::mem::MaybeUninit;
 
 /// The FMI type through which a variable is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +27,7 @@ const SHORT: usize = 32;
 
 impl Instance {
     /// fmi2GetReal
-    pub fn get_real(&mut self, references: &[u32], values: &mut [Real]) -> Reply {
+    pub fn get_real(&mut self, references: &[u32], values: Room<Real>) -> Reply {
         if !self.get_at_hand(references, values) {
             self.make_ready(references, Type::Real)?;
             if !self.get_at_hand(references, values) {
@@ -37,30 +39,28 @@ impl Instance {
 
     /// What hosts do most, made quick: a short list of what is calculated already. If it is not that, nothing is written.
     #[inline(always)]
-    fn get_at_hand(&self, references: &[u32], values: &mut [Real]) -> bool {
+    fn get_at_hand(&self, references: &[u32], values: Room<Real>) -> bool {
         let mut got = [0.0; SHORT];
         if references.len() > SHORT || !self.memory.simulation.reals_at_hand(references, &mut got[..values.len()]) {
             return false;
         }
-        for (value, got) in values.iter_mut().zip(&got) {
-            *value = *got;
-        }
+        fill(values, &got[..values.len()]);
         true
     }
 
     /// fmi2GetInteger
-    pub fn get_integer(&mut self, references: &[u32], values: &mut [Integer]) -> Reply {
+    pub fn get_integer(&mut self, references: &[u32], values: Room<Integer>) -> Reply {
         self.get(references, values, Type::Integer, |value| value as Integer)
     }
 
     /// fmi2GetBoolean
-    pub fn get_boolean(&mut self, references: &[u32], values: &mut [Boolean]) -> Reply {
+    pub fn get_boolean(&mut self, references: &[u32], values: Room<Boolean>) -> Reply {
         self.get(references, values, Type::Boolean, |value| Boolean::from(value != 0.0))
     }
 
     /// fmi2GetString: there is no variable of this type.
     pub fn get_other(&mut self, references: &[u32], kind: Type) -> Reply {
-        self.get(references, &mut vec![(); references.len()], kind, |_| ())
+        self.get(references, &mut vec![MaybeUninit::new(()); references.len()], kind, |_| ())
     }
 
     /// fmi2SetReal
@@ -83,14 +83,14 @@ impl Instance {
         self.set(references, &vec![(); references.len()], kind, |()| 0.0)
     }
 
-    fn get<T>(&mut self, references: &[u32], values: &mut [T], kind: Type, convert: fn(f64) -> T) -> Reply {
+    fn get<T>(&mut self, references: &[u32], values: Room<T>, kind: Type, convert: fn(f64) -> T) -> Reply {
         self.make_ready(references, kind)?;
         for (reference, value) in references.iter().zip(values) {
             let place = Place::of(*reference);
             let got = self.memory.simulation.value(place).ok_or_else(|| unknown(*reference))?;
             // A parameter that a host set may be anything until the run starts.
             let has_start = Parameters::<Effects>::meta(place).is_some_and(Meta::has_start);
-            *value = convert(if has_start { got } else { finite(*reference, got)? });
+            value.write(convert(if has_start { got } else { finite(*reference, got)? }));
         }
         Ok(Status::Ok)
     }

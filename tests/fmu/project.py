@@ -7,8 +7,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
-# Those that leave the method to auto are too stiff, too fast or too long for other methods and for differences.
-GENTLE = [scene for scene in SCENES if 'method = "auto"' not in (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
+# Those that name no adaptive method are too stiff, too fast or too long for most methods and for differences.
+UNLIKE = ('method = "auto"', 'method = "symplectic"')
+GENTLE = [
+    scene for scene in SCENES if not any(word in (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8") for word in UNLIKE)
+]
 GENERAL = [scene for scene in SCENES if "\ngeneral = true" in "\n" + (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
 PACKAGES = ROOT / "target" / "fmu"
 

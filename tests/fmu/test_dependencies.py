@@ -18,7 +18,7 @@ TURN = 7.0
 """[rad]: more than a whole turn, for phi."""
 ROUNDING = 1e-12  # relative to the larger of the value and 1
 POSITIVE = re.compile(
-    r"rotor\.m|rotor\.Jt|support\..*|drag\..*|rotating_damping\.d|unbalance.*\.(mass|radius)|bearing.*\.(cyy|czz|cxx|ct)"
+    r"rotor\.m|rotor\.Jt|support\..*|drag\..*|rotating_damping\.d|.*partner_J|unbalance.*\.(mass|radius)|bearing.*\.(cyy|czz|cxx|ct)"
 )
 SMALL = re.compile(r"bearing.*\.(cyz|czy)")
 """|cyz + czy|/2 <= sqrt(cyy czz)."""

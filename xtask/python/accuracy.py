@@ -1,5 +1,7 @@
 """Draw error against time: accuracy.svg from the accuracy.json beside it. `cargo xtask accuracy` runs it.
 
+The error is the worst of place across e, axis and phi over the run, each over the motion's own size.
+
 A curve is a tool's method, a point one of its settings, if no other setting of the same method is better in both. Our
 curves are drawn full and in strong colours, those of peers dashed and muted; `auto`, which is one of our others, is marks
 only. Orders of a method are one curve.
@@ -26,20 +28,22 @@ MUTED = ("#3d3d3d", "#b08d57", "#6f9a6a", "#a3839b", "#8c8c8c", "#4f9ea0", "#b57
 MARKERS = "sD^vPX<>p"
 SIZE = 8.3, 5.0  # [in]; 830 px wide where 100 px make an inch
 GREY = "#666666"
-LARGEST = 0.5
-"""Errors beyond are no results [rad]."""
+LARGEST = 1.0
+"""Errors beyond the motion's own size are no results."""
+LEAST = 1e-16
+"""Where errors of 0 are drawn: a double has no more digits."""
 FEW = 16
 """A curve of fewer points has a marker at each, one of more at powers of ten."""
 
 
 def curves(rows):
     """((tool, method), rows of it to be drawn, from loose to tight), in the order of the file."""
-    measured = [row for row in rows if row["failure"] is None and 0.0 < (row["axis_error_rad"] or 0.0) < LARGEST]
+    measured = [row for row in rows if row["failure"] is None and row["error"] is not None and row["error"] < LARGEST]
     for name, of_it in groupby(measured, lambda row: (row["tool"], row["method"])):
         best, least = [], math.inf
         for row in sorted(of_it, key=lambda row: row["cpu_time_s"]):
-            if row["axis_error_rad"] < least:
-                least = row["axis_error_rad"]
+            if row["error"] < least:
+                least = row["error"]
                 best.append(row)
         yield name, best
 
@@ -55,7 +59,7 @@ def draw(figure, found):
     ours, peers = iter(COLOURS), iter(zip(MUTED, MARKERS))
     for (tool, method), rows in curves(found["rows"]):
         times = [1e3 * row["cpu_time_s"] for row in rows]
-        errors = [row["axis_error_rad"] for row in rows]
+        errors = [max(row["error"], LEAST) for row in rows]
         marked = [i for i, row in enumerate(rows) if len(rows) < FEW or is_power_of_ten(row["value"])]
         if method == AUTO:
             look = {"color": BLACK, "linewidth": 0.0, "marker": "o", "markersize": 9, "fillstyle": "none", "zorder": 5}
@@ -64,13 +68,13 @@ def draw(figure, found):
         else:
             colour, marker = next(peers)
             look = {"color": colour, "linewidth": 1.0, "linestyle": (0, (4, 1.6)), "marker": marker, "markersize": 3.8}
-        axes.plot(times, errors, markevery=marked, label=f"{tool} {method}", **look)
+        told = "" if rows[0]["points_told"] == found["experiment"]["points"] else " (its end only)"
+        axes.plot(times, errors, markevery=marked, label=f"{tool} {method}{told}", **look)
     if not axes.lines:
         axes.set(xlim=(0.1, 10.0), ylim=(1e-16, 1.0))
-        axes.text(0.5, 0.5, "no method has an error to draw", transform=axes.transAxes, ha="center", color=GREY)
-    shade_what_cannot_be_told(axes, found["reference"]["agreement_at_worst"]["axis_rad"])
-    stop, start = found["experiment"]["stop_s"], found["experiment"]["start_s"]
-    axes.set(xlabel=f"CPU time for {stop - start:g} s of motion [ms]", ylabel=f"error of the rotor axis at t = {stop:g} s [rad]")
+        axes.text(0.5, 0.5, "no method errs by less than the motion itself", transform=axes.transAxes, ha="center", color=GREY)
+    shade_what_cannot_be_told(axes, found["reference"]["agreement"]["error"])
+    axes.set(xlabel=f"CPU time for {span(found['experiment'])} [ms]", ylabel="worst error over the motion's own size")
     axes.xaxis.set_major_formatter("{x:g}")
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.yaxis.set_major_locator(LogLocator(numticks=20))
@@ -86,13 +90,20 @@ def draw(figure, found):
 
 
 def shade_what_cannot_be_told(axes, floor):
-    """Below what the two references agree on [rad]."""
-    if floor == 0.0:
+    """Below what the two references agree on."""
+    if not floor:
         return
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, floor / 10.0), high)
     axes.axhspan(axes.get_ylim()[0], floor, color="#eeeeee", zorder=0, linewidth=0)
     axes.text(0.01, 0.015, "cannot be told: the references agree no closer", transform=axes.transAxes, fontsize=8, color=GREY)
+
+
+def span(experiment):
+    """What was run, and of how much."""
+    start, stop, whole = (experiment[name] for name in ("start_s", "stop_s", "scene_stop_s"))
+    part = f" (of the scene's {whole - start:g} s)" if stop < whole else ""
+    return f"the first {stop - start:g} s{part}" if part else f"{stop - start:g} s of motion"
 
 
 def caption(found):

@@ -10,8 +10,10 @@ mod reference;
 mod repeats;
 mod row;
 mod run;
+mod span;
 mod sweep;
 mod table;
+mod tolerances;
 
 use crate::unpacked::unpack;
 use crate::{package, scenes};
@@ -21,6 +23,8 @@ use model::scene::{Experiment, Scene};
 use reference::Reference;
 use row::{Row, Scale};
 use run::{Setting, Subject};
+use table::short;
+pub use tolerances::tolerances;
 
 /// What was measured of a scene.
 struct Accuracy {
@@ -44,9 +48,8 @@ pub fn accuracy(scene: &str, with_peers: bool) -> Result<Vec<String>> {
     let scene = scenes::find(scene)?;
     let unpacked = unpack(&fmu)?;
     let mut subject = Subject::load(&scene, &unpacked.library)?;
-    let part = shortened(&mut subject)?;
-    let mut result = measure(&scene, &subject, with_peers)?;
-    result.sentences.splice(0..0, part);
+    span::shorten(&mut subject);
+    let result = measure(&scene, &subject, with_peers)?;
     files::write(&scene, &result)?;
     Ok(result.left_out)
 }
@@ -56,10 +59,11 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
     let experiment = subject.experiment;
     let scale = Scale {
         simulated: experiment.stop - experiment.start,
+        scene: scene.experiment.stop - scene.experiment.start,
         energy: reference.energy_scale(),
-        floor: reference.floor().axis,
+        floor: reference.floor.worst(),
     };
-    let curves = sweep::curves(subject)?;
+    let curves = sweep::curves(subject);
     let progress = bar(curves.iter().map(Vec::len).sum());
     let mut rows = Vec::new();
     for curve in &curves {
@@ -69,10 +73,10 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
         rows.extend(sweep::measure(subject, curve, &reference, || progress.inc(1)));
     }
     progress.finish_and_clear();
-    let mut sentences = advice::sentences(&rows, scale.floor, scale.simulated, experiment.stop);
-    let l = scene.parameters().setup.rotor.l.abs();
-    sentences.extend(advice::meaning(&rows, if l > 0.0 { l } else { 1.0 }, reference.floor()));
-    sentences.extend(auto::sentence(scene, experiment, &rows, &reference));
+    let mut sentences: Vec<_> = span::told(&experiment, &scene.experiment).into_iter().collect();
+    sentences.extend(advice::sentences(&rows, scale.floor, scale.simulated));
+    sentences.extend(advice::meaning(&rows, scale.floor));
+    sentences.extend(auto::sentence(&rows, scale.floor));
     sentences.extend(substeps(subject, &curves, &rows, scale)?);
     let mut left_out = Vec::new();
     if with_peers {
@@ -83,25 +87,6 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
         left_out = theirs.left_out;
     }
     Ok(Accuracy { reference, rows, scale, experiment, sentences, left_out })
-}
-
-/// Runs whose loosest setting takes longer are shortened by tens [s of CPU time].
-const AFFORDABLE: f64 = 1.5;
-
-/// Shortens the runs of a scene that are too long to be repeated many times, and says so.
-fn shortened(subject: &mut Subject) -> Result<Option<String>> {
-    let Experiment { start, stop, .. } = subject.experiment;
-    let part = |tens: i32| (stop - start) / 10_f64.powi(tens);
-    let setting = sweep::with_tolerance("dop853", 1e-6);
-    // Tried on a thousandth, so that the trial is affordable too.
-    subject.experiment.stop = start + part(3);
-    let trial = 1e3 * subject.run(&setting, 1, f64::INFINITY).map_or(0.0, |run| run.cpu_time);
-    let tens = (0..).find(|tens| trial * 0.1_f64.powi(*tens) <= AFFORDABLE).expect("some part is short");
-    subject.experiment.stop = if tens == 0 { stop } else { start + part(tens) };
-    Ok((tens > 0).then(|| {
-        let (all, some) = (stop - start, part(tens));
-        format!("Of the {all} s of the scene {some} s are run: all of them, at so many settings, would take hours.")
-    }))
 }
 
 /// A bar where a person watches.
@@ -125,13 +110,12 @@ fn substeps(subject: &Subject, curves: &[Vec<Setting>], rows: &[Row], scale: Sca
     let is_it = |s: &&Setting| s.method == row.method && s.order == row.order && s.value == row.value;
     let setting = curves.iter().flatten().find(is_it).context("a row of ours has its setting")?;
     let ratio = sweep::cost_of_substeps(subject, setting, SUBSTEPS)?;
-    let step = scale.simulated / run::POINTS as f64;
+    let step = scale.simulated / span::POINTS as f64;
     Ok(Some(format!(
-        "With communication steps of {} s instead of {} s, outputs read every {} s in both, {} at {} costs {ratio:.2} \
-         times as much.",
-        step / SUBSTEPS as f64,
-        step,
-        step,
+        "With communication steps of {} s instead of {} s on average, outputs read as often, {} at {} costs {ratio:.2} times as \
+         much.",
+        short(step / SUBSTEPS as f64),
+        short(step),
         setting.method,
         table::setting(row),
     )))

@@ -17,8 +17,10 @@ type Text = *const c_char;
 type Status = c_int;
 type Component = *mut c_void;
 
+/// fmi2OK
+const OK: Status = 0;
 /// fmi2OK and fmi2Warning: what was asked is done.
-const DONE: [Status; 2] = [0, 1];
+const DONE: [Status; 2] = [OK, 1];
 /// fmi2Discard
 pub const DISCARD: Status = 2;
 /// fmi2Error
@@ -90,6 +92,15 @@ impl Fmu {
 
     /// A new instance for co-simulation.
     pub fn instantiate(&self) -> Result<Instance<'_>> {
+        self.instance(FALSE)
+    }
+
+    /// One that also says what it does and why: [`Instance::said`].
+    pub fn instantiate_with_log(&self) -> Result<Instance<'_>> {
+        self.instance(TRUE)
+    }
+
+    fn instance(&self, logging_on: c_int) -> Result<Instance<'_>> {
         let journal = Box::<Journal>::default();
         let callbacks = Callbacks {
             logger: listen,
@@ -102,7 +113,7 @@ impl Fmu {
         // SAFETY: strings and a struct of callbacks that live during the call; the FMU keeps copies. Its journal is boxed
         // and outlives the instance.
         let component =
-            unsafe { (self.instantiate)(name, CO_SIMULATION, guid, null(), &raw const callbacks, FALSE, FALSE) };
+            unsafe { (self.instantiate)(name, CO_SIMULATION, guid, null(), &raw const callbacks, FALSE, logging_on) };
         match NonNull::new(component) {
             Some(component) => Ok(Instance { fmu: self, component, journal }),
             None => bail!("fmi2Instantiate: {}", journal.take()),
@@ -112,20 +123,22 @@ impl Fmu {
 
 /// What an instance logged. It logs only from within calls, so nobody else looks at the same time.
 #[derive(Default)]
-struct Journal(RefCell<Vec<String>>);
+struct Journal(RefCell<Vec<(Status, String)>>);
 
 impl Journal {
+    /// What went wrong.
     fn take(&self) -> String {
-        self.0.take().join("; ")
+        let wrong = self.0.take().into_iter().filter(|(status, _)| *status != OK);
+        wrong.map(|(_, message)| message).collect::<Vec<_>>().join("; ")
     }
 }
 
 /// The logger of each instance. What is variadic in C travels as here where no arguments follow the message.
-extern "C" fn listen(environment: *mut c_void, _instance: Text, _status: Status, _category: Text, message: Text) {
+extern "C" fn listen(environment: *mut c_void, _instance: Text, status: Status, _category: Text, message: Text) {
     // SAFETY: the FMU hands back the pointer that it was given, and a string.
     let (journal, message) = unsafe { (&*environment.cast::<Journal>(), CStr::from_ptr(message)) };
     // The message is a format without conversions.
-    journal.0.borrow_mut().push(message.to_string_lossy().replace("%%", "%"));
+    journal.0.borrow_mut().push((status, message.to_string_lossy().replace("%%", "%")));
 }
 
 /// A call that was not done.
@@ -214,9 +227,15 @@ impl Instance<'_> {
         Ok(values)
     }
 
-    /// What was logged and not told yet.
+    /// What went wrong, or may, and was not told yet.
     pub fn journal(&self) -> String {
         self.journal.take()
+    }
+
+    /// What it said as fmi2OK.
+    pub fn said(&self) -> Vec<String> {
+        let all = self.journal.0.borrow();
+        all.iter().filter(|(status, _)| *status == OK).map(|(_, message)| message.clone()).collect()
     }
 
     /// The time that the last step reached [s].

@@ -76,6 +76,12 @@ enum Command {
         /// Also what a user would pick instead: heyoka, SciPy, CVODE, Exudyn, MuJoCo, and two Rust crates
         #[arg(long)]
         peers: bool,
+        /// Instead the error over the tolerance of all scenes, into docs/accuracy.md and docs/accuracy/tolerances.csv
+        #[arg(long, conflicts_with_all = ["scene", "peers"])]
+        tolerances: bool,
+        /// With the FMUs as they were packaged last
+        #[arg(long, requires = "tolerances")]
+        packaged: bool,
     },
     /// Run the gallery of hard cases, each against an exact or independent answer: table, CSV and JSON in target/hard-cases
     HardCases {
@@ -126,7 +132,8 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { part, long } => test::test(&part, long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
-        Command::Accuracy { scene, peers } => accuracy::accuracy(&scene, peers).map(drop),
+        Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),
+        Command::Accuracy { scene, peers, .. } => accuracy::accuracy(&scene, peers).map(drop),
         Command::HardCases { part, short, mutants, packaged } => {
             let extent = Extent { part, whole: !short, mutants };
             if packaged { hard_cases::run(&extent) } else { hard_cases::hard_cases(&extent) }

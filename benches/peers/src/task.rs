@@ -10,7 +10,7 @@ use std::time::Instant;
 pub struct Task {
     pub rotor: Rotor,
     pub start: State,
-    /// The start, then the communication points [s].
+    /// The start, then the points at which the motion is read [s]: irregular.
     pub times: Vec<f64>,
     tolerances: Vec<f64>,
     repeats: Value,

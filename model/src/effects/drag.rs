@@ -1,4 +1,4 @@
-//! `drag`: a torque against the spin, linear and quadratic in it.
+//! `drag`: what the medium around the rotor does to its spin, linear and quadratic in it.
 
 use super::{Effect, Row, Wrench};
 use crate::scalar::Scalar;
@@ -8,7 +8,7 @@ use crate::variable::units::{
 };
 use crate::variable::{Bound, output, parameter};
 
-/// Drag on the shaft that a constant-velocity joint connects with the rotor.
+/// Windage: a torque along t against the spin about it.
 #[derive(Clone, Debug, Default)]
 pub struct Drag {
     /// Of oil [N·m·s/rad].
@@ -25,49 +25,47 @@ impl Drag {
         S::constant(self.linear) + S::constant(self.quadratic) * size
     }
 
-    /// The torque on the rotor [N·m].
+    /// ω_a, the spin about t [rad/s], and the torque on the rotor [N·m].
     #[inline(always)]
-    fn tau<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let speed = motion.axial_rate();
-        // eq. 65: τ = −(linear + quadratic |ω_φ|) ω_φ
-        -(self.per_speed(speed) * speed)
+    fn torque<S: Scalar>(&self, motion: &Kinematics<S>) -> [S; 2] {
+        let speed = motion.omega.dot(motion.axis());
+        // eq. 65: τ = −(linear + quadratic |ω_a|) ω_a, ω_a = ω·t
+        [speed, -(self.per_speed(speed) * speed)]
     }
 }
 
 impl Effect for Drag {
     const ROWS: &'static [Row<Self>] = &[
-        parameter!(linear, &NEWTON_METRE_SECOND_PER_RADIAN, Some(0.0), Bound::NotNegative, "drag over the axial rate"),
+        parameter!(
+            linear,
+            &NEWTON_METRE_SECOND_PER_RADIAN,
+            Some(0.0),
+            Bound::NotNegative,
+            "drag over the spin about the axis"
+        ),
         parameter!(
             quadratic,
             &NEWTON_METRE_SECOND_SQUARED_PER_RADIAN_SQUARED,
             Some(0.0),
             Bound::NotNegative,
-            "drag over the square of the axial rate"
+            "drag over the square of the spin about the axis"
         ),
-        output!(
-            "tau",
-            &NEWTON_METRE,
-            "torque of the drag on the rotor, passed on by a constant-velocity joint",
-            |d, m| { d.tau(m) }
-        ),
+        output!("tau", &NEWTON_METRE, "torque of the drag on the rotor, along its axis", |d, m| d.torque(m)[1]),
     ];
 
     const FOLLOWS_PLACE: bool = false;
 
     #[inline(always)]
     fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        // eq. 32: M = τ n
-        Wrench::couple(motion.tilt.joint_axis() * self.tau(motion))
+        // eq. 65: M = τ t
+        Wrench::couple(motion.axis() * self.torque(motion)[1])
     }
 
     #[inline(always)]
     fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        // eq. 65: P = −τ ω_φ
-        -(self.tau(motion) * motion.axial_rate())
-    }
-
-    fn needs_gamma(&self) -> bool {
-        self.works()
+        let [speed, tau] = self.torque(motion);
+        // eq. 65: P = −τ ω_a
+        -(tau * speed)
     }
 
     fn works(&self) -> bool {

@@ -3,15 +3,15 @@
 use super::{Effect, Row};
 use crate::signal::Signal;
 use crate::variable::units::ONE;
-use crate::variable::{Access, Bound, Kind, Meta, Role};
+use crate::variable::{Access, Bound, Kind, Meta, Role, parameter};
 
 /// Every input as a polynomial through its last values, for masters that send no derivatives, or send values late.
 #[derive(Clone, Debug)]
 pub struct Extrapolation {
     /// Degree of the polynomials: 0, 1 or 2.
     pub order: i32,
-    /// How many communication steps the values are late.
-    pub lag: i32,
+    /// How many communication steps the values are late [1].
+    pub lag: f64,
     /// How many communication points are known; those points, the latest first; the values of each input there.
     memory: [f64; 1 + POINTS + MOST * NODES],
 }
@@ -23,14 +23,14 @@ const NODES: usize = 3;
 const LATEST: usize = 8;
 
 /// So many communication points are remembered.
-const POINTS: usize = LATEST + 1;
+const POINTS: usize = LATEST + NODES;
 
-/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come.
+/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come. A list with more does not compile.
 const MOST: usize = 32;
 
 impl Default for Extrapolation {
     fn default() -> Self {
-        Self { order: 0, lag: 0, memory: [0.0; _] }
+        Self { order: 0, lag: 0.0, memory: [0.0; _] }
     }
 }
 
@@ -41,6 +41,15 @@ impl Extrapolation {
 
     fn points(&self) -> &[f64] {
         &self.memory[1..=POINTS]
+    }
+
+    /// The communication point so many steps back [s], interpolated between two; the first one from there on.
+    fn point(&self, back: f64) -> f64 {
+        let back = back.min((self.known() - 1) as f64);
+        let n = back as usize;
+        let (later, part) = (self.points()[n], back - n as f64);
+        // No point is read that is not known.
+        if part == 0.0 { later } else { later + part * (self.points()[n + 1] - later) }
     }
 
     fn values(&mut self, number: usize) -> &mut [f64] {
@@ -71,7 +80,13 @@ impl Effect for Extrapolation {
             Bound::OneOf(&[0.0, 1.0, 2.0]),
             "degree of the polynomials through the last values of each input"
         ),
-        whole!(lag, Bound::Within(0.0, LATEST as f64), "how many communication steps the values of inputs are late"),
+        parameter!(
+            lag,
+            &ONE,
+            Some(0.0),
+            Bound::Within(0.0, LATEST as f64),
+            "how many communication steps the values of inputs are late"
+        ),
     ];
 
     const PUSHES: bool = false;
@@ -81,6 +96,8 @@ impl Effect for Extrapolation {
     const COULD_WORK: bool = false;
 
     const FORETELLS: bool = true;
+
+    const MOST_FORETOLD: usize = MOST;
 
     fn begin(&mut self, _start: &crate::state::Kinematics<f64>) {
         self.memory[0] = 0.0;
@@ -104,9 +121,6 @@ impl Effect for Extrapolation {
 
     fn foretell(&mut self, number: usize, signal: &mut Signal) {
         let t = self.points()[0];
-        if number >= MOST {
-            return;
-        }
         if let Some(value) = signal.set_at(t) {
             self.values(number)[0] = value;
         }
@@ -116,13 +130,16 @@ impl Effect for Extrapolation {
         }
         let known = self.known();
         let degree = (self.order as usize).min(known - 1);
-        let [t0, t1, t2] = [0, 1, 2].map(|n| self.points()[n]);
-        let ahead = t - self.points()[(self.lag as usize).min(known - 1)];
+        // What is late belongs to the point so many steps back.
+        let [t0, t1, t2] = [0.0, 1.0, 2.0].map(|n| self.point(n + self.lag));
+        let ahead = t - t0;
         let values = self.values(number);
-        let slope = |n: usize, from: f64, to: f64| (values[n] - values[n + 1]) / (to - from);
+        // Before the first point nothing is known of an input but its value.
+        let over = |rise: f64, run: f64| if run > 0.0 { rise / run } else { 0.0 };
+        let slope = |n: usize, from: f64, to: f64| over(values[n] - values[n + 1], to - from);
         // eq. 67: P(t) = u₀ + [u₀u₁](t − t₀) + [u₀u₁u₂](t − t₀)(t − t₁)
         let first = if degree > 0 { slope(0, t1, t0) } else { 0.0 };
-        let second = if degree > 1 { (first - slope(1, t2, t1)) / (t0 - t2) } else { 0.0 };
+        let second = if degree > 1 { over(first - slope(1, t2, t1), t0 - t2) } else { 0.0 };
         let last_step = if degree > 1 { t0 - t1 } else { 0.0 };
         let value = values[0] + ahead * (first + second * (ahead + last_step));
         signal.foretell(t, [value, first + second * (2.0 * ahead + last_step), 2.0 * second]);
@@ -130,5 +147,61 @@ impl Effect for Extrapolation {
 
     fn memory(&mut self) -> &mut [f64] {
         &mut self.memory
+    }
+
+    fn remembers_rightly(&self) -> bool {
+        let is_count = (0..=POINTS).any(|count| self.memory[0] == count as f64);
+        // Slopes are divided by the time between two points.
+        is_count && self.points()[..self.known()].is_sorted_by(|later, earlier| later > earlier)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::list::Called;
+    use super::super::list::follows_all_inputs;
+    use super::super::port::Port;
+    use super::super::shaft::Shaft;
+    use super::*;
+    use crate::effects::Effects;
+    use crate::stored::{Damaged, from_bytes, to_bytes};
+
+    type List = (Called<Shaft, 1>, (Called<Extrapolation, 1>, ()));
+
+    #[test]
+    fn regress_no_input_is_silently_not_followed() {
+        // A shaft has one input, a port six; nobody extrapolates what an imposed speed tells of itself.
+        assert_eq!(<List as Effects>::FORETOLD, 1);
+        assert_eq!(<crate::effects::All as Effects>::FORETOLD, 25);
+        assert!(follows_all_inputs::<crate::effects::All>());
+        type Ports = (Called<Port, 1>, (Called<Port, 2>, (Called<Port, 3>, (Called<Port, 4>, ()))));
+        type Many = (Called<Shaft, 1>, (Called<Port, 1>, (Called<Port, 2>, Ports)));
+        assert!(follows_all_inputs::<Many>(), "37 inputs that nobody extrapolates");
+        assert!(!follows_all_inputs::<(Called<Extrapolation, 1>, Many)>(), "the same, extrapolated");
+    }
+
+    #[test]
+    fn regress_a_memory_that_cannot_be_is_refused() {
+        let mut list = List::default();
+        for t in [0.0, 0.5, 1.0] {
+            list.step_from(t);
+        }
+        let bytes = to_bytes(&mut list);
+        assert_eq!(from_bytes(&mut List::default(), &bytes), Ok(()));
+        let memory = bytes.len() / 8 - Extrapolation::default().memory().len();
+        let altered = |n: usize, value: f64| {
+            let mut bytes = bytes.clone();
+            bytes[8 * (memory + n)..][..8].copy_from_slice(&value.to_le_bytes());
+            from_bytes(&mut List::default(), &bytes)
+        };
+        for count in [-1.0, 0.5, POINTS as f64 + 1.0, 1e300, f64::INFINITY, f64::NAN] {
+            assert_eq!(altered(0, count), Err(Damaged), "{count} points");
+        }
+        // Known points descend; what stands behind them is not looked at.
+        for t in [0.5, 0.0, f64::NAN, f64::NEG_INFINITY] {
+            assert_eq!(altered(1, t), Err(Damaged), "{t} s");
+        }
+        assert_eq!(altered(4, 7.0), Ok(()));
+        assert_eq!(altered(0, 2.0), Ok(()));
     }
 }

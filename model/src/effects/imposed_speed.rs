@@ -1,23 +1,53 @@
 //! `imposed_speed`: a shaft that turns as it is told, whatever torque that takes.
 //!
-//! Both inputs tell one signal: ω_φ, and its rate. Where a host sends derivatives of w, they tell the rate themselves.
+//! Both inputs tell one signal, a speed that is continuous: a new rate bends it from where it is, a new speed sets it. Where a
+//! host sends derivatives of w, they tell the rate themselves.
 
-use super::{Effect, Row};
+use super::{Effect, InputSet, Row, Terminal};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::state::{Coordinates, Kinematics};
-use crate::variable::units::{NEWTON_METRE, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
-use crate::variable::{input, output};
+use crate::variable::units::{KILOGRAM_METRE_SQUARED, NEWTON_METRE, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
+use crate::variable::{Bound, input, output, parameter};
 use nalgebra::Vector3;
 
 /// The speed of a shaft that turns the rotor through a constant-velocity joint.
 #[derive(Clone, Debug, Default)]
 pub struct ImposedSpeed {
-    /// ω_φ where either was last set [rad/s].
+    /// ω_φ where it was last set [rad/s].
     pub w: Signal,
-    /// Its rate from there on, where w has no derivatives of its own [rad/s²].
+    /// Its rate, where w has no derivatives of its own [rad/s²].
     pub a: Signal,
+    /// Inertia of a partner that sends w alone [kg·m²]; 0 where it is not known.
+    pub partner_inertia: f64,
+    memory: [f64; MEMORY],
 }
+
+/// What is remembered, by its place.
+mod at {
+    /// What the speed gained over w where an input was last set [rad/s], and whether that was a.
+    pub const GAINED: usize = 0;
+    pub const BENT: usize = 1;
+    /// The value of w that was set last [rad/s], and whether it differed from the one before.
+    pub const TOLD: usize = 2;
+    pub const DIFFERED: usize = 3;
+    /// The last two communication points, the later first [s].
+    pub const T: usize = 4;
+    /// λ at the last one, before w jumps there [N·m·s], and ω_φ [rad/s].
+    pub const IMPULSE: usize = 6;
+    pub const SPEED: usize = 7;
+    /// ω_φ as the last step began, after w jumped [rad/s].
+    pub const BEGAN: usize = 8;
+    /// What is sent to a partner, and what was sent at the point before [N·m].
+    pub const SENT: usize = 9;
+    /// Whether there was a step.
+    pub const MOVED: usize = 11;
+}
+
+const MEMORY: usize = 12;
+
+/// The row of w.
+const W: usize = 0;
 
 impl ImposedSpeed {
     /// The torque of the shaft on the rotor, where the state has these rates [N·m].
@@ -29,13 +59,37 @@ impl ImposedSpeed {
 
     /// ω_φ [rad/s] and its rate [rad/s²] at time `t` [s].
     #[inline(always)]
-    fn told<S: Scalar>(&self, t: f64) -> [S; 2] {
-        if !self.w.is_held() {
-            return [self.w.at(t), S::constant(self.w.rate_at(t))];
-        }
-        let since = self.w.since().max(self.a.since());
+    fn told<S: Scalar>(&self, t: S) -> [S; 2] {
+        // A host that integrates goes back in time, so that what was set last is not what was set latest.
+        let since = if self.memory[at::BENT] == 0.0 { self.w.since() } else { self.a.since() };
+        let start = self.w.at(S::constant(since)) + S::constant(self.memory[at::GAINED]);
         // eq. 75: ω_φ = w + ∫a dt
-        [self.w.at::<S>(since) + self.a.sum::<S>(since, t), self.a.at(t)]
+        if self.w.is_held() {
+            [start + self.a.sum(since, t), self.a.at(t)]
+        } else {
+            [start + self.w.gain(since, t), self.w.rate_at(t)]
+        }
+    }
+
+    /// The mean torque over the step of `h` [s] that ended here [N·m].
+    fn mean(&self, end: &Kinematics<f64>, impulse: f64, h: f64) -> f64 {
+        let memory = &self.memory;
+        // eq. 77: τ = (∫τ dt + Σ impulses)/H, since dλ/dt = τ, and λ jumps by an impulse
+        let mean = (impulse - memory[at::IMPULSE]) / h;
+        let partner = self.partner_inertia;
+        if partner == 0.0 {
+            return mean;
+        }
+        let rotor = end.inertia_along_joint();
+        let load = mean - rotor * (end.axial_rate() - memory[at::SPEED]) / h;
+        let outside = if memory[at::MOVED] == 0.0 {
+            0.0
+        } else {
+            let [gained, past] = [self.told(memory[at::T])[0] - memory[at::BEGAN], memory[at::T] - memory[at::T + 1]];
+            partner * gained / past + memory[at::SENT + 1]
+        };
+        // eq. 78: τ = (J_r (J_p Δw/H + τ_s) + J_p τ_l)/(J_r + J_p)
+        (rotor * outside + partner * load) / (rotor + partner)
     }
 }
 
@@ -46,11 +100,25 @@ impl Effect for ImposedSpeed {
             a,
             &RADIAN_PER_SECOND_SQUARED,
             0.0,
-            "rate of w, until either is set again; does not count where derivatives of w are sent"
+            "rate of w, from where it is; does not count where derivatives of w are sent"
         ),
-        output!("tau", &NEWTON_METRE, "torque of the shaft on the rotor", |s, m, rates| {
+        output!("tau", &NEWTON_METRE, "torque of the shaft on the rotor at this moment", |s, m, rates| {
             s.torque(m, &Coordinates::from_slice(rates))
         }),
+        parameter!(
+            "partner_J",
+            partner_inertia,
+            &KILOGRAM_METRE_SQUARED,
+            Some(0.0),
+            Bound::NotNegative,
+            "inertia of a partner that sends w alone and takes tau_mean; 0: not known"
+        ),
+        output!(
+            "tau_mean",
+            &NEWTON_METRE,
+            "mean torque of the shaft on the rotor over the last communication step, jumps of w included",
+            |s, _| Scalar::constant(s.memory[at::SENT])
+        ),
     ];
 
     const FOLLOWS_PLACE: bool = false;
@@ -61,12 +129,62 @@ impl Effect for ImposedSpeed {
 
     const EXCLUDES: &'static [&'static str] = &["motor"];
 
+    // A partner has one of the two torques.
+    const TERMINAL: Option<Terminal> =
+        Some(Terminal { kind: "Modelica.Mechanics.Rotational.Interfaces.Flange_a", flows: &["tau", "tau_mean"] });
+
     #[inline(always)]
-    fn imposed<S: Scalar>(&self, t: f64) -> Option<[S; 2]> {
+    fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]> {
         Some(self.told(t))
     }
 
     fn needs_gamma(&self) -> bool {
         true
+    }
+
+    fn begin(&mut self, start: &Kinematics<f64>) {
+        self.memory = [0.0; MEMORY];
+        self.memory[at::TOLD] = self.w.at(start.t);
+        self.memory[at::T] = start.t;
+        self.memory[at::IMPULSE] = start.impulse.unwrap_or_default();
+        self.memory[at::SPEED] = start.axial_rate();
+    }
+
+    fn input_set(&mut self, before: &Self, set: InputSet) -> bool {
+        let InputSet { row, order, t, goes_on } = set;
+        let mut counts = false;
+        if row == W && order == 0 {
+            let value: f64 = self.w.at(t);
+            let differs = value != self.memory[at::TOLD];
+            // A sampled speed is followed point by point; one that is only repeated leaves a ramp alone.
+            counts = differs || self.memory[at::DIFFERED] != 0.0;
+            (self.memory[at::TOLD], self.memory[at::DIFFERED]) = (value, f64::from(differs));
+        }
+        if goes_on && !counts {
+            return false;
+        }
+        let [speed, _] = before.told(t);
+        self.memory[at::GAINED] = if counts { 0.0 } else { speed - self.w.at(t) };
+        self.memory[at::BENT] = f64::from(row != W);
+        true
+    }
+
+    fn take_over(&mut self, other: &Self) {
+        self.memory = other.memory;
+    }
+
+    fn step_to(&mut self, end: &Kinematics<f64>) {
+        let h = end.t - self.memory[at::T];
+        let Some(impulse) = end.impulse.filter(|_| h > 0.0) else { return };
+        let sent = self.mean(end, impulse, h);
+        let began = self.told(self.memory[at::T])[0];
+        let memory = &mut self.memory;
+        (memory[at::SENT + 1], memory[at::T + 1]) = (memory[at::SENT], memory[at::T]);
+        (memory[at::SENT], memory[at::T], memory[at::MOVED]) = (sent, end.t, 1.0);
+        (memory[at::IMPULSE], memory[at::SPEED], memory[at::BEGAN]) = (impulse, end.axial_rate(), began);
+    }
+
+    fn memory(&mut self) -> &mut [f64] {
+        &mut self.memory
     }
 }

@@ -16,6 +16,11 @@ use crate::stored::Stored;
 use crate::variable::{Meta, Place, Readable};
 use std::ops::Add;
 
+/// Whether what foretells inputs has room for all of the list's.
+pub const fn follows_all_inputs<E: Effects>() -> bool {
+    E::FORETOLD <= E::MOST_FORETOLD
+}
+
 /// What effects do to a rotor.
 #[derive(Clone, Copy)]
 pub struct Action<S: Scalar> {
@@ -55,8 +60,12 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     const FOLLOWS_PHI: bool;
     /// Whether any of them can impose a speed.
     const IMPOSES: bool;
+    /// How many inputs they have that may be foretold.
+    const FORETOLD: usize;
+    /// How many can be.
+    const MOST_FORETOLD: usize;
     /// The ω_φ that one of them imposes at time `t` [rad/s], and the rate of that [rad/s²].
-    fn imposed<S: Scalar>(&self, t: f64) -> Option<[S; 2]>;
+    fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
     /// What they make of the body.
     fn shape(&self, body: &mut Shape);
     /// Force on the rotor and moment about c [N, N·m], without what damps.
@@ -118,6 +127,11 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn signal(&self, place: Place) -> Option<&Signal>;
     /// An input to set; None where there is none at this place.
     fn signal_mut(&mut self, place: Place) -> Option<&mut Signal>;
+    /// Changes an input at the communication point `t` [s], its value or its derivative of an order; whether anything goes on
+    /// otherwise, None where there is none at this place.
+    fn change_input(&mut self, place: Place, order: u32, t: f64, change: impl FnOnce(&mut Signal)) -> Option<bool>;
+    /// Hear where a communication step ended.
+    fn step_to(&mut self, end: &Kinematics<f64>);
     /// Whether any of them foretells inputs.
     fn foretells(&self) -> bool;
     /// Hear that a communication step begins at time `t` [s].

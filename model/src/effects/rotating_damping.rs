@@ -17,11 +17,10 @@ pub struct RotatingDamping {
 }
 
 impl RotatingDamping {
-    /// dq/dt − ω_φ e×q, the velocity of the station in the turning axes [m/s].
+    /// dq/dt − Ω e×q, Ω = e·ω, the velocity of the station in the turning axes [m/s].
     #[inline(always)]
     fn slip<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
-        let (q, v, speed) =
-            (motion.station(self.position), motion.station_velocity(self.position), motion.axial_rate());
+        let (q, v, speed) = (motion.station(self.position), motion.station_velocity(self.position), motion.omega.x);
         Vector3::new(S::zero(), v.y + speed * q.z, v.z - speed * q.y)
     }
 }
@@ -33,7 +32,7 @@ impl Effect for RotatingDamping {
             &NEWTON_SECOND_PER_METRE,
             Some(0.0),
             Bound::NotNegative,
-            "damping in axes that turn with the rotor"
+            "damping in axes that turn with the rotor about e"
         ),
         parameter!(position, &METRE, Some(0.0), Bound::Finite, "place along t from c"),
     ];
@@ -43,21 +42,17 @@ impl Effect for RotatingDamping {
     #[inline(always)]
     fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
         let (q, slip) = (motion.station(self.position), self.slip(motion));
-        // eq. 64: F = −d (dq/dt − ω_φ e×q), τ = −e·(q×F)
+        // eq. 64: F = −d (dq/dt − Ω e×q), and the couple −e·(q×F) along e
         let force = slip * S::constant(-self.d);
-        let tau = -q.yz().perp(&force.yz());
-        Wrench::at_station(motion, self.position, force) + Wrench::couple(motion.tilt.joint_axis() * tau)
+        let couple = -q.yz().perp(&force.yz());
+        Wrench::at_station(motion, self.position, force) + Wrench::couple(Vector3::new(couple, S::zero(), S::zero()))
     }
 
     #[inline(always)]
     fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
         let slip = self.slip(motion);
-        // eq. 64: P = d |dq/dt − ω_φ e×q|²
+        // eq. 64: P = d |dq/dt − Ω e×q|²
         slip.dot(&slip) * S::constant(self.d)
-    }
-
-    fn needs_gamma(&self) -> bool {
-        self.d != 0.0
     }
 
     fn works(&self) -> bool {

@@ -8,7 +8,7 @@ pub use coefficients::{KAHAN, SOFRONIOU, STRANG, SUZUKI};
 
 use super::answer::Answer;
 use super::power::power;
-use super::sizes::{Sizes, largest_square};
+use super::sizes::{Sizes, Squares, largest_square};
 use super::{Cost, Fault, LEAST_FIRST, Refusal, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::{Damaged, Stored, Walk, choice, stored};
@@ -35,6 +35,11 @@ pub trait Splitting<const N: usize>: System<N> {
 
     /// Sets out from y on a step of size `h` [s].
     fn flow<'s>(&'s self, y: &[f64; N], composition: &Composition, h: f64) -> Self::Flow<'s>;
+
+    /// [`System::roundings`] of one part of a step of size `h` [s] from `y`.
+    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
+        self.roundings(y, h)
+    }
 }
 
 /// The parts γ_i of a step, the same from both ends.
@@ -159,9 +164,14 @@ impl<const N: usize> Composed<N> {
         t: f64,
         y: [f64; N],
     ) -> Self {
+        let tolerance = Tolerance {
+            relative: SHARE * tolerance.relative,
+            absolute: tolerance.absolute.map(|square| SHARE * SHARE * square),
+            ..tolerance
+        };
         let rate = system.rates(t, &y);
         let sizes = Sizes::at_start(&tolerance, system, &y, &rate);
-        let weights = sizes.weights(&tolerance, system, &y, f64::INFINITY, &sizes.seen(system, &y, &rate));
+        let weights = sizes.weights(&tolerance, &system.roundings(&y, f64::INFINITY), &sizes.seen(system, &y, &rate));
         let speed = largest_square(&system.parts(&y, &rate), &weights).sqrt();
         // In which some size changes by a hundredth; what is too long is rejected.
         let size = (0.01 / (tolerance.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t));
@@ -239,8 +249,7 @@ impl<const N: usize> Composed<N> {
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * h > self.t && h > SHRUNK * self.h;
             if !advances || self.cost.evaluations > most {
-                let last = if advances { Fault::Spent { t: self.t } } else { Fault::Underflow { t: self.t } };
-                return Err(fault.unwrap_or(last));
+                return Err(Fault::of_no_step(self.t, advances, fault));
             }
             let end = end_of_step(self.t, h, until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
@@ -285,10 +294,13 @@ impl<const N: usize> Composed<N> {
         let rate = system.rates(end, y);
         self.cost.evaluations += 1.0;
         let seen = self.sizes.seen(system, y, &rate);
-        let weights = self.sizes.weights(&tolerance, system, &self.y, h, &seen);
+        // Each part of a step rounds.
+        let parts = self.composition.parts().count() as f64;
+        let rounded = system.roundings_of_parts(&self.y, h).map(|square| square * parts * parts);
+        let weights = self.sizes.weights(&tolerance, &rounded, &seen);
         // eq. 45
         let apart = std::array::from_fn(|n| y[n] - halves[n]);
-        let error = largest_square(&system.parts(&self.y, &apart), &weights).sqrt() / SHARE;
+        let error = largest_square(&system.parts(&self.y, &apart), &weights).sqrt();
         if !error.is_finite() {
             return Some(0.5);
         }
@@ -334,7 +346,7 @@ impl<const N: usize> Composed<N> {
         (self.start, self.start_y, self.last) = (self.t, self.y, h);
         (self.t, self.y, self.h) = (end, y, self.size);
         self.answer = Answer::none();
-        self.unchecked += 1;
+        self.unchecked = self.unchecked.saturating_add(1);
         self.cost.steps += 1.0;
     }
 

@@ -9,7 +9,7 @@ use super::power::power;
 use super::segment::Segment;
 use super::sizes::{Sizes, Squares, largest_square};
 use super::tableau::{DOP853, MOST_STAGES, Tableau};
-use super::{Cost, Fault, LEAST_FIRST, Refusal, SHRUNK, System, Tolerance, end_of_step};
+use super::{Cost, Fault, LEAST_FIRST, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::stored;
 use std::ops::Range;
@@ -91,6 +91,11 @@ impl<const N: usize> Explicit<N> {
     /// The state at the time reached.
     pub fn state(&self) -> &[f64; N] {
         &self.y
+    }
+
+    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase [rad].
+    pub fn swings(&self) -> f64 {
+        self.tableau.swings
     }
 
     /// Its rate there.
@@ -177,8 +182,7 @@ impl<const N: usize> Explicit<N> {
             let advances = self.t + 0.1 * self.h > self.t && self.h > SHRUNK * h;
             if !advances || self.cost.evaluations > most {
                 (self.k[self.tableau.last], self.h) = (rate, h);
-                let fault = if advances { Fault::Spent { t: self.t } } else { Fault::Underflow { t: self.t } };
-                return Err(obstacle.map_or(fault, |obstacle: Obstacle| obstacle.fault(self.t)));
+                return Err(Fault::of_no_step(self.t, advances, obstacle));
             }
             let wish = self.h;
             let end = end_of_step(self.t, self.h, until);
@@ -188,12 +192,12 @@ impl<const N: usize> Explicit<N> {
             let Attempt { y, error, seen } = self.attempt::<true>(system);
             let mut least_factor = 0.0;
             obstacle = if !error.is_finite() {
-                Some(Obstacle::NotFinite)
+                Some(Fault::NotFinite { t: self.t })
             } else if error > 1.0 {
                 None
             } else if let Err(refusal) = system.admits(end, &y) {
                 least_factor = REFUSED;
-                Some(Obstacle::Refused(refusal))
+                Some(Fault::Refused { t: self.t, reason: refusal })
             } else {
                 let share = if self.h < 0.999 * wish { self.h / wish } else { 1.0 };
                 self.accept(end, y, error, &seen, share);
@@ -260,7 +264,7 @@ impl<const N: usize> Explicit<N> {
     /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
     #[inline(always)]
     fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
-        self.sizes.weights(&self.tolerance, system, &self.y, h, seen)
+        self.sizes.weights(&self.tolerance, &system.roundings(&self.y, h), seen)
     }
 }
 
@@ -272,20 +276,4 @@ struct Attempt<const N: usize> {
     error: f64,
     /// The sizes of the motion there.
     seen: Squares,
-}
-
-/// What stood in the way of an attempt, besides its error.
-#[derive(Clone, Copy, Debug)]
-enum Obstacle {
-    NotFinite,
-    Refused(Refusal),
-}
-
-impl Obstacle {
-    fn fault(self, t: f64) -> Fault {
-        match self {
-            Obstacle::NotFinite => Fault::NotFinite { t },
-            Obstacle::Refused(reason) => Fault::Refused { t, reason },
-        }
-    }
 }

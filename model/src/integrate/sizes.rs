@@ -44,7 +44,7 @@ const KEPT: f64 = 0.9;
 pub const LEAST: f64 = 1e-3;
 
 /// What rounding takes from a step, beside the numbers that go into it [1].
-const ROUNDING: f64 = 1e-15;
+const ROUNDING: f64 = 3e-16;
 
 impl<const N: usize> Sizes<N> {
     /// Of a motion that begins at `y`, where its rate is `rate`.
@@ -82,22 +82,15 @@ impl<const N: usize> Sizes<N> {
         }
     }
 
-    /// What the square of one unit of each group's error counts in a step of size `h` [s] from `y` to where the sizes are `seen`.
+    /// What the square of one unit of each group's error counts in a step to where the sizes are `seen` that rounds numbers as large as
+    /// `rounded`.
     #[inline(always)]
-    pub fn weights(
-        &self,
-        tolerance: &Tolerance,
-        system: &impl System<N>,
-        y: &[f64; N],
-        h: f64,
-        seen: &Squares,
-    ) -> Squares {
-        let rounded = system.roundings(y, h);
+    pub fn weights(&self, tolerance: &Tolerance, rounded: &Squares, seen: &Squares) -> Squares {
         let mut weights = [0.0; GROUPS];
         for p in 0..pairs(GROUPS) {
             // eq. 22: sc = max(rtol·S, atol·n, ε·R)
             let size = pair(&self.recent, p).max(pair(seen, p)) * both(tolerance.relative * tolerance.relative);
-            let rounded = pair(&rounded, p) * both(ROUNDING * ROUNDING);
+            let rounded = pair(rounded, p) * both(ROUNDING * ROUNDING);
             put(&mut weights, p, both(1.0) / size.max(pair(&tolerance.absolute, p)).max(rounded));
         }
         weights

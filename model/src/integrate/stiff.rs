@@ -227,8 +227,7 @@ impl<const N: usize> Stiff<N> {
             let advances = self.t + 0.1 * self.h > self.t && self.h > SHRUNK * before;
             if !advances || self.cost.evaluations > most {
                 self.h = before;
-                let fault = if advances { Fault::Spent { t: self.t } } else { Fault::Underflow { t: self.t } };
-                return Err(obstacle.unwrap_or(fault));
+                return Err(Fault::of_no_step(self.t, advances, obstacle));
             }
             let wish = self.h;
             let end = end_of_step(self.t, self.h, until);
@@ -315,7 +314,7 @@ impl<const N: usize> Stiff<N> {
 
     /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
     fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
-        self.sizes.weights(&self.tolerance, system, &self.y, h, seen)
+        self.sizes.weights(&self.tolerance, &system.roundings(&self.y, h), seen)
     }
 
     /// The stages that the polynomial of the last step leads to.
@@ -342,7 +341,7 @@ impl<const N: usize> Stiff<N> {
         collocation: &Collocation<N>,
         guess: [[f64; N]; STAGES],
     ) -> Option<[[f64; N]; STAGES]> {
-        let weights = self.sizes.weights(&self.tolerance, system, &y, collocation.h, &[0.0; GROUPS]);
+        let weights = self.sizes.weights(&self.tolerance, &system.roundings(&y, collocation.h), &[0.0; GROUPS]);
         let (mut z, mut before) = (guess, f64::INFINITY);
         let mut w = collocation.transformed(&z);
         for iteration in 0..MOST_ITERATIONS {

@@ -45,6 +45,8 @@ pub struct Tableau {
     /// What the estimate is multiplied by, so that the tolerance means for every method about the same: that the error of a
     /// smooth run is of its size (measured in `model/tests/exact_honest_tolerance.rs`).
     pub calibration: f64,
+    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase [rad].
+    pub swings: f64,
     /// The power of h with which the estimate falls.
     pub error_order: f64,
     /// More stages, which only dense output needs.

@@ -12,6 +12,9 @@ use nalgebra::Vector3;
 pub const NAMES: [&str; 8] =
     ["r along e", "r across e", "v along e", "v across e", "K along K", "K across K", "gamma", "phi"];
 
+/// The number of γ among them.
+pub const GAMMA: usize = 6;
+
 /// |v|² along e and across it.
 #[inline(always)]
 fn split(v: &Vector3<f64>) -> [f64; 2] {

@@ -122,13 +122,13 @@ impl Auto {
 
     fn change(&mut self, rest: u32) -> Verdict {
         (self.rest, self.since) = (rest, f64::NAN);
-        self.changes += 1;
+        self.changes = self.changes.saturating_add(1);
         Verdict::Change
     }
 
     /// A pause so many times as long as the last.
     fn paused(&mut self, times: u32) -> u32 {
-        self.pause = (times * self.pause).min(LONGEST_PAUSE);
+        self.pause = times.saturating_mul(self.pause).min(LONGEST_PAUSE);
         self.pause
     }
 }

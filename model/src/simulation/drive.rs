@@ -12,8 +12,8 @@ use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart};
 use crate::rotor::{self, Rotor, imposed};
 use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK};
-use crate::stored::stored;
-use crate::variables::{Reading, Setup};
+use crate::stored::{Damaged, Stored, Walk, stored, whole};
+use crate::variables::{Parameters, Reading, Setup};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
@@ -56,7 +56,15 @@ struct LastStep {
     closest: Option<(f64, Vector2<f64>)>,
 }
 
-stored!(LastStep { chart, turns, gamma, closest });
+impl Stored for LastStep {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { chart, turns, gamma, closest } = self;
+        chart.walk(walk)?;
+        whole(turns, walk)?;
+        gamma.walk(walk)?;
+        closest.walk(walk)
+    }
+}
 
 /// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely: on a
 /// curved path it may have turned by more than π. What whirls steadily turns by less ([`LONGEST_WHIRL`]).
@@ -132,6 +140,13 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         }
     }
 
+    /// Whether a run of these parameters can be this one: what was saved may have been altered.
+    pub(super) fn is_of(&self, parameters: &Parameters<E>) -> bool {
+        let most = parameters.setup.solver.max_evaluations;
+        let works = N == WITH_WORK;
+        self.rotor.body == parameters.shape().inertia() && self.most == most && self.rotor.effects.works() == works
+    }
+
     /// The communication point [s].
     pub(super) fn time(&self) -> f64 {
         self.t
@@ -170,10 +185,11 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let before = (self.t, self.method.clone(), self.last, self.rotor.chart, self.rotor.turns);
         let outcome = self.run_to(t, until);
         // Where the motion is lost, what stands in its way has another cause.
-        self.keeps_energy().inspect_err(|_| {
-            (self.t, self.method, self.last, self.rotor.chart, self.rotor.turns) = before;
-        })?;
-        outcome
+        if self.keeps_energy() {
+            return outcome;
+        }
+        (self.t, self.method, self.last, self.rotor.chart, self.rotor.turns) = before;
+        Err(Fault::Refused { t: self.t, reason: TOO_LONG })
     }
 
     /// How often `auto` has gone on with another method.
@@ -221,13 +237,10 @@ impl<E: Effects, const N: usize> Drive<E, N> {
     }
 
     /// Whether the motion reached has anything to do with the one asked for: steps of a given size estimate no error.
-    fn keeps_energy(&self) -> Result<(), Fault> {
+    fn keeps_energy(&self) -> bool {
         let ledger = self.ledger();
         let all = ledger.kinetic + ledger.potential.abs() + ledger.supplied.abs() + ledger.dissipated;
-        if ledger.residual().abs() <= LOST * (all + ledger.total_at_start.abs()) {
-            return Ok(());
-        }
-        Err(Fault::Refused { t: self.t, reason: TOO_LONG })
+        ledger.residual().abs() <= LOST * (all + ledger.total_at_start.abs())
     }
 
     /// The ledger of the state that the method has reached.
@@ -266,6 +279,15 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let (h, turning) = (self.method.next_step(), rates[PHI].abs());
         if h * turning > LONGEST_TURN {
             self.method.limit_step(LONGEST_TURN / turning);
+        }
+        // A nutation that nothing damps would grow out of rounding, unseen until it is as large as what moves the axis.
+        let nutation = Coordinates::from_slice(self.method.state()).k.norm_squared()
+            * self.rotor.body.per_jt
+            * self.rotor.body.per_jt;
+        if let Some(most) = self.method.swings()
+            && nutation * h * h > most * most
+        {
+            self.method.limit_step(most / nutation.sqrt());
         }
         // At its present rate γ stays within reach of its chart.
         let far = at.norm_squared() < (Chart::REACH - LONGEST_TILT) * (Chart::REACH - LONGEST_TILT);

@@ -98,6 +98,11 @@ impl<const N: usize> Method<N> {
         }
     }
 
+    /// Steps may span so much of the phase of a motion that does not die out [rad], or it grows; None where none does.
+    pub fn swings(&self) -> Option<f64> {
+        if let OfPair(method) = self { Some(method.swings()) } else { None }
+    }
+
     /// Where the last step began [s].
     pub fn start_time(&self) -> f64 {
         each!(self, method => method.start_time())

@@ -10,7 +10,7 @@ use crate::rotation::chart::crossed_exactly;
 use crate::rotor::{LIMIT, Rotor};
 use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK, Whole};
 use crate::stored::stored;
-use crate::variables::Reading;
+use crate::variables::{Parameters, Reading};
 use nalgebra::Vector2;
 
 /// A rotor whose state a host sets.
@@ -92,6 +92,11 @@ impl<E: Effects> Open<E> {
             tilted: false,
             watch: Watch::default(),
         }
+    }
+
+    /// Whether a run of these parameters can be this one: what was saved may have been altered.
+    pub(super) fn is_of(&self, parameters: &Parameters<E>) -> bool {
+        self.rotor.body == parameters.shape().inertia()
     }
 
     /// The time [s].

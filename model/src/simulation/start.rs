@@ -24,11 +24,7 @@ impl<E: Effects> Motion<E> {
         let (chart, gamma) = Chart::best(start.gamma);
         let phi = chart.own_angle(Angle { turns: 0.0, remainder: start.phi }.wrapped(), gamma);
         let tilt = Tilt::new(chart, gamma);
-        let mut omega = start.omega;
-        if let Some([speed, _]) = parameters.effects.imposed::<f64>(t) {
-            // eq. 75: ω ← ω + (w − n·ω) t
-            omega += tilt.axis * (speed - tilt.axial_rate(&omega));
-        }
+        let omega = start.omega;
         let mut coordinates = Coordinates {
             r: start.r_c,
             v: start.v_c,
@@ -47,6 +43,9 @@ impl<E: Effects> Motion<E> {
         let mut state = [0.0; WITH_WORK];
         coordinates.write(&mut state);
         let mut rotor = Rotor::new(body, parameters.effects.clone(), chart, phi.turns);
+        // An imposed speed strikes along n, as at every jump, and λ counts from there (eq. 75).
+        coordinates.k = rotor.motion(t, &state).momentum();
+        coordinates.write(&mut state);
         let motion = rotor.motion(t, &state);
         rotor.effects.begin(&motion);
         Self { rotor, state }

@@ -28,15 +28,13 @@ impl<E: Effects> Tangents<E> {
                 signal.ask(seed);
             }
         }
-        Self { reading: reading.moving(&moved, &parameters.effects), parameters }
+        Self { reading: reading.moving(&moved, 0.0, &parameters.effects), parameters }
     }
 
     /// Where everything moves with time, the state at these rates.
     pub(super) fn along_motion(parameters: &Parameters<E>, reading: &Reading, rates: &Whole<f64>) -> Self {
-        let mut parameters = parameters.clone();
-        let t = reading.motion.t;
-        parameters.effects.for_each_signal(&mut |signal| signal.ask(signal.rate_at(t)));
-        Self { reading: reading.moving(rates, &parameters.effects), parameters }
+        let parameters = parameters.clone();
+        Self { reading: reading.moving(rates, 1.0, &parameters.effects), parameters }
     }
 
     /// The derivative of the calculated variable at this place; None where there is none.

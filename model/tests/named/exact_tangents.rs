@@ -2,6 +2,7 @@
 //! the motion; and dual numbers over dual numbers.
 
 use crate::harness::named::{Named, gentle};
+use crate::harness::uneven::Case;
 use crate::harness::{Random, largest, within};
 use crate::oracles::numerics::derivative;
 use model::dual::{Dual, Tangent};
@@ -10,6 +11,7 @@ use model::simulation::Integrator;
 use model::state::{WITH_WORK, Whole};
 use model::variable::{Kind, Place, Role};
 use model::variables::state_place;
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// The Real outputs, states and rates: name and place.
@@ -175,56 +177,87 @@ fn exact_a_direction_is_the_sum_of_its_parts() {
 /// which take up the error of the integration, to the kinetic one too [1]: measured 1.1e-9.
 const ALONG: f64 = 4e-9;
 
+/// Follows a motion about 0.05 s and notes how far exact rates of change are from differences, for each variable.
+fn along(named: &mut Named, worst: &mut BTreeMap<String, f64>) {
+    const H: f64 = 0.004;
+    let wanted = calculated(named);
+    let now = 0.05;
+    let mut offsets: Vec<f64> =
+        (0..6).flat_map(|level| [1.0, -1.0].map(|sign| sign * H / f64::from(1 << level))).collect();
+    offsets.push(0.0);
+    offsets.sort_by(f64::total_cmp);
+    let (mut shown, mut rates) = (Vec::new(), Vec::new());
+    for offset in &offsets {
+        named.simulation.advance(now + offset).expect("a possible motion");
+        shown.push(values(named, &wanted));
+        if *offset == 0.0 {
+            let along = named.simulation.time_derivatives().expect("possible parameters");
+            rates = wanted.iter().map(|(_, place)| along.of(*place).expect("it is calculated")).collect();
+        }
+    }
+    let at = |x: f64| shown[offsets.iter().position(|offset| *offset == x).expect("a time that was read")].clone();
+    let found = differences(wanted.len(), at, H);
+    let here = at(0.0);
+    let kinetic = here[wanted.iter().position(|one| one.0 == "energy.kinetic").expect("there")];
+    for (i, (name, _)) in wanted.iter().enumerate() {
+        // In co-simulation state.phi is what is left of φ less its whole turns. A mean over a step has no rate.
+        if jumps(name) || name == "state.phi" || name.starts_with("solver.") || name.ends_with("tau_mean") {
+            continue;
+        }
+        let energy = if name.starts_with("energy.") { kinetic } else { 0.0 };
+        let size = largest([1.0, here[i].abs(), rates[i].abs(), energy]);
+        let worst = worst.entry(name.clone()).or_default();
+        *worst = largest([*worst, (rates[i] - found[i]).abs() / size]);
+    }
+}
+
 #[test]
 fn exact_time_derivatives_are_the_rates_of_change() {
-    const H: f64 = 0.004;
     let mut worst: BTreeMap<String, f64> = BTreeMap::new();
     for name in gentle() {
         for tilt in [0.5, 2.5] {
             let mut named = Named::new(&name, Integrator::Method);
             named.set("start.gamma.y", tilt);
             named.set("start.omega.z", 3.0);
-            named.set("solver.relative_tolerance", 1e-13);
+            named.set("solver.relative_tolerance", 1e-14);
             named.start();
             for input in inputs(&named) {
                 named.simulation.set_input(input, 1.0);
                 named.simulation.set_input_derivative(input, 1, -30.0);
                 named.simulation.set_input_derivative(input, 2, 80.0);
             }
-            let wanted = calculated(&named);
-            let now = 0.05;
-            let mut offsets: Vec<f64> =
-                (0..6).flat_map(|level| [1.0, -1.0].map(|sign| sign * H / f64::from(1 << level))).collect();
-            offsets.push(0.0);
-            offsets.sort_by(f64::total_cmp);
-            let (mut shown, mut rates) = (Vec::new(), Vec::new());
-            for offset in &offsets {
-                named.simulation.advance(now + offset).expect("a possible motion");
-                shown.push(values(&mut named, &wanted));
-                if *offset == 0.0 {
-                    let along = named.simulation.time_derivatives().expect("possible parameters");
-                    rates = wanted.iter().map(|(_, place)| along.of(*place).expect("it is calculated")).collect();
-                }
-            }
-            let at =
-                |x: f64| shown[offsets.iter().position(|offset| *offset == x).expect("a time that was read")].clone();
-            let found = differences(wanted.len(), at, H);
-            let here = at(0.0);
-            let kinetic = here[wanted.iter().position(|one| one.0 == "energy.kinetic").expect("there")];
-            for (i, (name, _)) in wanted.iter().enumerate() {
-                // In co-simulation state.phi is what is left of φ less its whole turns.
-                if jumps(name) || name == "state.phi" || name.starts_with("solver.") {
-                    continue;
-                }
-                let energy = if name.starts_with("energy.") { kinetic } else { 0.0 };
-                let size = largest([1.0, here[i].abs(), rates[i].abs(), energy]);
-                let worst = worst.entry(name.clone()).or_default();
-                *worst = largest([*worst, (rates[i] - found[i]).abs() / size]);
-            }
+            along(&mut named, &mut worst);
         }
     }
     for (name, worst) in worst {
         within(&name, worst, ALONG);
+    }
+}
+
+/// The same where a speed is imposed [1]: measured 3.4e-11.
+const IMPOSED: f64 = 1.5e-10;
+
+#[test]
+fn exact_time_derivatives_follow_an_imposed_speed() {
+    for sent in [&[][..], &[("a", 1, 30.0), ("a", 2, -80.0)], &[("w", 1, -10.0), ("w", 2, 60.0)]] {
+        let mut worst: BTreeMap<String, f64> = BTreeMap::new();
+        let case = Case { omega: Vector3::new(20.0, 0.5, -0.4), ..Case::held() };
+        let solver = "method = \"dop853\"\nrelative_tolerance = 1e-13";
+        let mut named = Named::written(&format!("{}[effects.imposed_speed]\nw = 20.0\na = -10.0\n", case.text(solver)));
+        named.start();
+        for (name, order, value) in sent {
+            let place = named.place(&format!("imposed_speed.{name}"));
+            named.simulation.set_input_derivative(place, *order, *value);
+        }
+        along(&mut named, &mut worst);
+        if sent.is_empty() {
+            let rates = named.simulation.time_derivatives().expect("possible parameters");
+            let rate = rates.of(named.place("omega_phi")).expect("it is calculated");
+            within("omega_phi", (rate + 10.0).abs(), 1e-12);
+        }
+        for (name, worst) in worst {
+            within(&name, worst, IMPOSED);
+        }
     }
 }
 

@@ -23,5 +23,6 @@ mod exact_turns;
 mod exact_uneven;
 mod general;
 mod ledger;
+mod ordinary;
 mod scenes;
 mod symplectic;

@@ -119,3 +119,15 @@ fn exact_a_folder_is_no_scene() {
     let refused = Scene::find(&given, &scenes).expect_err("a folder").to_string();
     assert_eq!(refused, format!("{given}: is a folder: a scene is a TOML file"));
 }
+
+/// A host reads a run at so many points at most, if it takes the scene's own step.
+const POINTS: f64 = 1e4;
+
+#[test]
+fn regress_no_scene_asks_a_host_for_too_many_points() {
+    for name in crate::harness::named::names() {
+        let experiment = Named::new(&name, model::simulation::Integrator::Method).scene.experiment;
+        let points = (experiment.stop - experiment.start) / experiment.step;
+        assert!(points <= POINTS, "{name} asks for {points} points");
+    }
+}

@@ -192,7 +192,7 @@ fn exact_energy_of_a_million_steps_has_no_trend() {
     }
 }
 
-/// The energy's largest relative error in `long_run`, as `auto` runs it, at a thousand points [1]: measured 8.3e-10 over a hundredth of
+/// The energy's largest relative error in `long_run` at a thousand points [1]: measured 8.3e-10 over a hundredth of
 /// 10⁶ revolutions.
 const LONG_RUN: f64 = 1e-9;
 
@@ -238,5 +238,75 @@ fn exact_energy_at_very_high_spin() {
     for (order, h) in [(2, 0.7e-3), (4, 1e-3)] {
         let (_, worst) = energy_errors(&scene, order, h, 1_000_000);
         within(&format!("order {order}: energy"), worst, ROUNDING);
+    }
+}
+
+// -------------------------------------------------------------------------------------------- steps that are not given
+
+/// The general rotor with nothing that holds it and with these changes, by this method of this order at this tolerance [1].
+fn loose(changes: &[(&str, f64)], [method, order, tolerance]: [f64; 3]) -> Named {
+    let mut named = Named::new("rotor", Integrator::Method);
+    let bare = [("effects.gravity", 0.0), ("effects.support", 0.0), ("start.omega.y", 5.0)];
+    let solver = [("solver.method", method), ("solver.order", order), ("solver.relative_tolerance", tolerance)];
+    bare.iter().chain(changes).chain(&solver).for_each(|(name, value)| named.set(name, *value));
+    named
+}
+
+/// What acts though nothing depends on the place: steps of up to 1 s, of the size that the first state allowed, erred by 1e-3 to 0.3.
+const ACTS: [&[(&str, f64)]; 5] = [
+    &[("effects.drag", 1.0), ("drag.linear", 0.01)],
+    &[("effects.rotating_damping", 1.0), ("rotating_damping.d", 1.0), ("rotating_damping.position", 0.2)],
+    &[("effects.support", 1.0), ("support.c1", 0.0), ("support.c2", 0.0), ("support.d2", 0.05)],
+    &[("effects.port[1]", 1.0), ("port[1].m.y", 2.0)],
+    &[("effects.support", 1.0), ("support.c2", 5.0), ("effects.asymmetry", 1.0), ("asymmetry.Jt2", 0.1)],
+];
+
+/// Error of r_c over l and of the axis over the tolerance [1].
+const FOUND: f64 = 100.0;
+
+#[test]
+fn regress_steps_that_are_not_given_keep_the_tolerance() {
+    let shown = |changes: &[(&str, f64)], solver: [f64; 3]| -> Vec<f64> {
+        let mut named = loose(changes, solver);
+        named.start();
+        let mut at = |i: u32| {
+            named.simulation.advance(0.1 * f64::from(i)).expect("a possible motion");
+            ["r_c.x", "r_c.y", "r_c.z", "axis.x", "axis.y", "axis.z"].map(|name| named.get(name))
+        };
+        (1..=20).flat_map(|i| at(i)).collect()
+    };
+    for changes in ACTS {
+        let exact = shown(changes, [3.0, 6.0, 1e-13]);
+        for order in [2.0, 4.0, 6.0, 8.0] {
+            for tolerance in if order == 2.0 { [1e-4, 1e-6] } else { [1e-6, 1e-10] } {
+                let found = shown(changes, [4.0, order, tolerance]);
+                let error = largest(found.iter().zip(&exact).map(|(a, b)| (a - b).abs()));
+                within(&format!("{changes:?} by order {order} at {tolerance:e}"), error / tolerance, FOUND);
+            }
+        }
+    }
+}
+
+/// When a tumbling rotor meets the limit of 3.1 rad [s], to the shortest part of a step that is tried.
+const LIMIT: [f64; 2] = [0.31, 1e-6];
+
+#[test]
+fn regress_no_step_passes_the_limit() {
+    let spring = [("effects.support", 1.0), ("support.c1", 0.0), ("support.c2", 1e-9)];
+    let asymmetric = [("effects.asymmetry", 1.0), ("asymmetry.Jt2", 0.1)];
+    let tumbling = [("start.omega.x", 0.0), ("start.omega.y", 10.0)];
+    for body in [&[] as &[_], &asymmetric] {
+        let changes: Vec<_> = spring.iter().chain(&tumbling).chain(body).copied().collect();
+        for order in [2.0, 4.0, 6.0, 8.0] {
+            for step in [0.0, 0.02, 0.5] {
+                let mut named = loose(&changes, [4.0, order, 1e-10]);
+                named.set("solver.step_size", step);
+                named.start();
+                let fault = named.simulation.advance(1.0).expect_err("the limit");
+                assert!(fault.to_string().contains("3.1 rad"), "{fault}");
+                let t = named.simulation.time().expect("started");
+                within(&format!("order {order}, step {step} s"), (t - LIMIT[0]).abs(), LIMIT[1]);
+            }
+        }
     }
 }

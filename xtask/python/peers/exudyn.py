@@ -77,20 +77,21 @@ def main():
 
     def prepare(step):
         mbs, sensors = assembled(asked.rotor)
-        count = steps[step] * (len(times) - 1)
+        count = steps[step] * asked.parts[-1]
         settings = exudyn.SimulationSettings()
         settings.timeIntegration.startTime = times[0]
         settings.timeIntegration.endTime = times[-1]
         settings.timeIntegration.numberOfSteps = count
         settings.solution.file.write = False
-        settings.solution.sensors.writePeriod = times[1] - times[0]
+        settings.solution.sensors.writePeriod = (times[-1] - times[0]) / asked.parts[-1]
 
         def run():
             mbs.SolveDynamic(settings, solverType=exudyn.DynamicSolverType.RK67)
 
         def read(_):
-            # The first row is the start, the first column the time.
-            r_c, v_c, omega, attitude = (mbs.GetSensorStoredData(sensor)[1:, 1:] for sensor in sensors)
+            # A row a part, the start before them; the first column is the time.
+            shown = (mbs.GetSensorStoredData(sensor)[asked.parts[1:], 1:] for sensor in sensors)
+            r_c, v_c, omega, attitude = shown
             return task.Motion(r_c, v_c, omega, attitude[:, ::3], None, count)
 
         return task.Attempt(run, read)

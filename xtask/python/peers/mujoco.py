@@ -58,7 +58,7 @@ def support(rotor):
 
 def main():
     asked = task.read("mujoco")
-    rotor, times = asked.rotor, asked.times
+    rotor = asked.rotor
     model = mujoco.MjModel.from_xml_string(MODEL.format(rotor=rotor, gravity=" ".join(map(repr, rotor.g))))
     data = mujoco.MjData(model)
     quaternion = np.empty(4)
@@ -76,8 +76,8 @@ def main():
 
         def run():
             states = []
-            for _ in times[1:]:
-                mujoco.mj_step(model, data, steps[step])
+            for parts in np.diff(asked.parts).tolist():
+                mujoco.mj_step(model, data, parts * steps[step])
                 states.append(np.concatenate([data.qpos, data.qvel]))
             return np.array(states)
 
@@ -87,7 +87,7 @@ def main():
                 mujoco.mju_quat2Mat(frame, state[3:7])
             frames = frames.reshape(-1, 3, 3)
             omega = np.einsum("nij,nj->ni", frames, states[:, 10:])
-            count = steps[step] * (len(times) - 1)
+            count = steps[step] * asked.parts[-1]
             return task.Motion(states[:, :3], states[:, 7:10], omega, frames[:, :, 0], None, count, 4 * count)
 
         return task.Attempt(run, read, reset)

@@ -54,7 +54,7 @@ class Rotor:
 
 @dataclass
 class Motion:
-    """What a run showed at the communication points, in rows, and what it cost; phi None: only known modulo 2 pi."""
+    """What a run showed at the points, in rows, and what it cost; phi None: only known modulo 2 pi."""
 
     r_c: np.ndarray
     v_c: np.ndarray
@@ -85,7 +85,9 @@ class Task:
         self._version = version(package)
         self.rotor = Rotor(asked["values"])
         self.times = np.array(asked["times"])
-        """The start, then the communication points [s]."""
+        """The start, then the points at which the motion is read [s]: irregular."""
+        self.parts = asked["parts"]
+        """After how many of the equal parts of the span each of them lies."""
         self.largest_tilt = asked["largest_tilt"]
         """Of the axis against e, on the whole way [rad]."""
         self.tolerances = asked["tolerances"]
@@ -95,9 +97,9 @@ class Task:
         self._budget = asked["budget"]
 
     def steps(self):
-        """Step sizes [s], with the number of them between two communication points."""
-        between = self.times[1] - self.times[0]
-        return {between / n: n for n in (round(m * 10**k) for k in range(1, 6) for m in (1, 2, 5))}
+        """Step sizes [s] that end at every point, with the number of them in a part of the span."""
+        part = (self.times[-1] - self.times[0]) / self.parts[-1]
+        return {part / n: n for n in (m * 10**k for k in range(5) for m in (1, 2, 5))}
 
     def answer(self, method, parameter, values, prepare):
         """Try each value, from loose to tight; `prepare` makes an `Attempt` of it."""

@@ -1,7 +1,8 @@
 //! What the command leaves behind in target/accuracy/<scene>/: accuracy.md, .csv, .json and .svg.
 
 use super::row::csv;
-use super::run::{POINTS, Setting};
+use super::run::Setting;
+use super::span::POINTS;
 use super::{Accuracy, machine, table};
 use crate::run::run;
 use crate::{paths, python};
@@ -36,16 +37,29 @@ fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
     let [end, worst] = reference
         .agreement
         .map(|errors| json!({ "axis_rad": errors.axis, "r_c_m": errors.r_c, "phi_rad": errors.phi }));
+    let (sizes, floor, whole) = (&reference.sizes, reference.floor, scene.experiment);
     Ok(json!({
         "scene": scene.name,
         "title": scene.title,
         "machine": machine::described()?,
-        "experiment": { "start_s": experiment.start, "stop_s": experiment.stop, "points": POINTS },
+        "experiment": {
+            "start_s": experiment.start,
+            "stop_s": experiment.stop,
+            "scene_stop_s": whole.stop,
+            "points": POINTS,
+        },
+        "sizes": { "place_m": sizes.place, "axis_rad": sizes.axis, "phi_rad": sizes.phi },
         "reference": {
             "by": setting(&reference.setting),
             "checked_by": setting(&reference.check),
             "agreement_at_end": end,
             "agreement_at_worst": worst,
+            "agreement": {
+                "error": floor.worst(),
+                "place_error": floor.place,
+                "axis_error": floor.axis,
+                "phi_error": floor.phi,
+            },
         },
         "sentences": sentences,
         "left_out": left_out,

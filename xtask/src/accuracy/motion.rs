@@ -19,6 +19,82 @@ pub struct Point {
     pub kinetic: f64,
 }
 
+impl Point {
+    /// Whether it shows numbers.
+    pub fn is_finite(&self) -> bool {
+        let shown = [self.r_c, self.axis, [self.turns, self.angle, self.residual]];
+        shown.iter().flatten().all(|x| x.is_finite())
+    }
+
+    /// How far the place is from that of another, across e [m].
+    fn across(&self, other: &Self) -> f64 {
+        (self.r_c[1] - other.r_c[1]).hypot(self.r_c[2] - other.r_c[2])
+    }
+
+    /// The angle between the axes [rad].
+    fn tilt(&self, other: &Self) -> f64 {
+        length(cross(self.axis, other.axis)).atan2(dot(self.axis, other.axis))
+    }
+
+    /// By what φ differs [rad].
+    fn turn(&self, other: &Self) -> f64 {
+        (std::f64::consts::TAU * (self.turns - other.turns) + (self.angle - other.angle)).abs()
+    }
+}
+
+/// The least size of a motion, of place [m] and axis [rad]: smaller ones are rounding.
+const LEAST: [f64; 2] = [1e-12, 1e-9];
+
+/// How large a motion is, which its errors are relative to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sizes {
+    /// How far the place goes from where it starts, across e [m].
+    pub place: f64,
+    /// How far the axis goes from where it starts [rad].
+    pub axis: f64,
+    /// How far φ goes from where it starts [rad].
+    pub phi: f64,
+}
+
+impl Sizes {
+    /// Of these points after a start.
+    pub fn of(start: &Point, points: &[Point]) -> Self {
+        let largest = |of: fn(&Point, &Point) -> f64| points.iter().map(|point| of(point, start)).fold(0.0, f64::max);
+        Self { place: largest(Point::across), axis: largest(Point::tilt), phi: largest(Point::turn) }
+    }
+}
+
+/// The worst errors of a run, each over the motion's own size [1]. What nobody tells is NaN.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relative {
+    /// Of the place across e, over how far it goes.
+    pub place: f64,
+    /// Of the axis, over how far it goes.
+    pub axis: f64,
+    /// Of φ, over how far it has come by then, but 1 rad at least.
+    pub phi: f64,
+}
+
+impl Relative {
+    /// Of these points against the exact ones after a start, of a motion of these sizes; points that do not tell are passed over.
+    pub fn of(points: &[Point], start: &Point, exact: &[Point], sizes: &Sizes) -> Self {
+        let worst = |off: fn(&Point, &Point) -> f64, size: &dyn Fn(&Point) -> f64| {
+            let all = points.iter().zip(exact).map(|(point, exact)| off(point, exact) / size(exact));
+            all.fold(f64::NAN, f64::max)
+        };
+        Self {
+            place: worst(Point::across, &|_| sizes.place.max(LEAST[0])),
+            axis: worst(Point::tilt, &|_| sizes.axis.max(LEAST[1])),
+            phi: worst(Point::turn, &|exact| exact.turn(start).max(1.0)),
+        }
+    }
+
+    /// The worst of the three, of those that are told: the error of the run.
+    pub fn worst(&self) -> f64 {
+        self.place.max(self.axis).max(self.phi)
+    }
+}
+
 /// How far a motion is off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
@@ -37,8 +113,8 @@ impl Errors {
     pub fn between(point: &Point, exact: &Point) -> Self {
         Self {
             r_c: length(difference(point.r_c, exact.r_c)),
-            axis: length(cross(point.axis, exact.axis)).atan2(dot(point.axis, exact.axis)),
-            phi: (std::f64::consts::TAU * (point.turns - exact.turns) + (point.angle - exact.angle)).abs(),
+            axis: point.tilt(exact),
+            phi: point.turn(exact),
             energy: point.residual.abs(),
         }
     }
@@ -108,6 +184,48 @@ mod tests {
         assert!((errors.axis - 1e-9).abs() < 1e-24, "{errors:?}");
         assert!((errors.phi - 1e-6).abs() < 1e-14, "{errors:?}");
         assert_eq!(errors.energy, 2e-7);
+    }
+
+    /// A whirl of 20 µm that an upright axis goes with: only the place tells that it is wrong.
+    #[test]
+    fn exact_an_error_of_the_place_counts_where_the_axis_does_not_tilt() {
+        let at = |y: f64, z: f64, angle: f64| Point { r_c: [1.0, y, z], angle, turns: 0.0, ..EXACT };
+        let start = at(1e-3, 0.0, 0.0);
+        let exact = [at(1e-3, 2e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.0)];
+        let wrong = [at(1e-3, 0.8e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.5)];
+        assert_eq!(Sizes::of(&start, &exact), Sizes { place: 2e-5, axis: 0.0, phi: 100.0 });
+        let sizes = Sizes::of(&start, &exact);
+        let off = Relative::of(&wrong, &start, &exact, &sizes);
+        assert!((off.place - 0.6).abs() < 1e-12, "{off:?}");
+        assert_eq!((off.axis, off.phi), (0.0, 5e-3));
+        assert_eq!(off.worst(), off.place);
+        // Along e there is no size to compare with.
+        let along = [Point { r_c: [2.0, 1e-3, 2e-5], ..exact[0] }, exact[1]];
+        assert_eq!(Relative::of(&along, &start, &exact, &sizes).worst(), 0.0);
+    }
+
+    #[test]
+    fn exact_each_error_is_relative_to_its_own_size() {
+        let tilted = |tilt: f64, y: f64| Point { r_c: [0.0, y, 0.0], axis: [tilt.cos(), 0.0, tilt.sin()], ..EXACT };
+        let (start, exact) = (tilted(0.5, 0.0), [tilted(0.5 + 1e-4, 0.0), tilted(0.5, 0.0)]);
+        let sizes = Sizes::of(&start, &exact);
+        let off = Relative::of(&[exact[0], tilted(0.5 - 1e-6, 0.0)], &start, &exact, &sizes);
+        assert!((off.axis - 1e-2).abs() < 1e-9, "{off:?}");
+        // What does not move counts with the least size: that it moves is an error, and nothing off is none.
+        assert_eq!(off.place, 0.0);
+        assert_eq!(Relative::of(&[tilted(0.5, 1e-3), exact[1]], &start, &exact, &sizes).place, 1e9);
+    }
+
+    #[test]
+    fn exact_what_is_not_told_is_passed_over() {
+        let nan = Point { r_c: [f64::NAN; 3], axis: [f64::NAN; 3], angle: f64::NAN, ..EXACT };
+        let moved = Point { r_c: [1.0, 2.0, 3.5], ..EXACT };
+        let sizes = Sizes::of(&EXACT, &[moved]);
+        let off = Relative::of(&[nan, Point { angle: f64::NAN, ..EXACT }], &EXACT, &[moved, moved], &sizes);
+        assert_eq!((off.place, off.axis), (1.0, 0.0));
+        assert!(off.phi.is_nan() && off.worst() == 1.0);
+        assert!(!nan.is_finite() && moved.is_finite());
+        assert!(Relative::of(&[nan], &EXACT, &[moved], &sizes).worst().is_nan());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use super::motion::{Errors, Point};
 use super::reference::Reference;
 use super::repeats;
 use super::row::{Measured, Row};
-use super::run::{self, POINTS};
+use super::span::{self, POINTS};
 use super::sweep;
 use crate::run::{cargo, fed, run};
 use crate::{paths, python};
@@ -19,7 +19,7 @@ use std::process::Command;
 const EFFECTS: [&str; 3] = ["gravity", "support", "shaft"];
 
 /// A method of a peer begins no further setting once it took so long [s].
-const BUDGET: f64 = 15.0;
+const BUDGET: f64 = 5.0;
 
 /// Between two points of the reference the axis may lean further than at both.
 const TILT_MARGIN: f64 = 1.2;
@@ -121,10 +121,12 @@ fn task(scene: &Scene, experiment: &Experiment, reference: &Reference) -> Value 
         let start = scene.starts.get(&variable.place.value_reference())?;
         Some((variable.name.clone(), json!(start)))
     });
-    let times: Vec<_> = (0..=POINTS).map(|n| run::time(experiment, n, POINTS)).collect();
+    let times: Vec<_> = (0..=POINTS).map(|n| span::time(experiment, n)).collect();
+    let parts: Vec<_> = (0..=POINTS).map(span::part).collect();
     json!({
         "values": named.collect::<Map<_, _>>(),
         "times": times,
+        "parts": parts,
         "largest_tilt": TILT_MARGIN * reference.largest_tilt(),
         "tolerances": sweep::swept_tolerances(),
         "repeats": repeats::rule(),
@@ -162,20 +164,25 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
             kinetic: f64::NAN,
         }
     });
-    let [end, worst] = Errors::of(&points.collect::<Vec<_>>(), &reference.points);
+    let points: Vec<_> = points.collect();
+    let [end, worst] = Errors::of(&points, &reference.points);
     Ok(Measured {
+        relative: reference.relative(&points),
+        told: points.iter().filter(|point| point.axis[0].is_finite()).count(),
         end,
         worst,
         cpu_time: line["cpu_time"].as_f64().context("it lacks cpu_time")?,
         repeats: line["repeats"].as_u64().context("it lacks repeats")? as usize,
         steps: line["steps"].as_f64(),
         evaluations: line["evaluations"].as_f64(),
+        taken: None,
     })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accuracy::motion::{Relative, Sizes};
     use crate::accuracy::sweep::with_tolerance;
     use crate::scenes;
 
@@ -190,8 +197,11 @@ mod tests {
             kinetic: 2.0,
         };
         let errors = Errors { r_c: 0.0, axis: 0.0, phi: 0.0, energy: 0.0 };
+        let sizes = Sizes { place: 0.5, axis: 0.0, phi: 0.0 };
+        let floor = Relative { place: 0.0, axis: 0.0, phi: 0.0 };
+        let start = Point { r_c: [1.0, 0.5, 0.0], ..point };
         let [setting, check] = ["dop853", "dopri5"].map(|method| with_tolerance(method, 1e-14));
-        Reference { setting, check, points: vec![point; 2], agreement: [errors; 2] }
+        Reference { setting, check, start, points: vec![point; 2], sizes, agreement: [errors; 2], floor }
     }
 
     #[test]
@@ -200,7 +210,7 @@ mod tests {
         let line = json!({
             "version": "1.0", "method": "RK", "parameter": "step", "value": 0.01, "cpu_time": 0.2, "repeats": 4,
             "steps": 7, "evaluations": null,
-            "r_c": [[null, null, null], [1.0, 1e-3, 0.0]], "axis": [[1.0, 0.0, 0.0], [1.0, 0.0, 1e-5]],
+            "r_c": [[null, null, null], [1.0, 1e-3, 0.0]], "axis": [[null, null, null], [1.0, 0.0, 1e-5]],
             "phi": [phi, phi], "energy": [3.0, 3.5],
         });
         let row = row("peer", &line.to_string(), &reference()).unwrap();
@@ -209,6 +219,8 @@ mod tests {
         assert_eq!((m.end.r_c, m.end.energy, m.cpu_time, m.repeats), (1e-3, 0.5, 0.2, 4));
         assert!((m.end.axis - 1e-5).abs() < 1e-14 && (m.end.phi - 1e-6).abs() < 1e-14, "{m:?}");
         assert!(m.worst.r_c.is_nan());
+        // It tells one point only: by that it is judged.
+        assert_eq!((m.told, m.relative.place), (1, 2e-3));
         assert_eq!((m.steps, m.evaluations), (Some(7.0), None));
     }
 

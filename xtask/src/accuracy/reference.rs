@@ -1,12 +1,13 @@
 //! The motion that counts as exact: the most accurate method at its limit, cross-checked by a second one.
 
-use super::motion::{Errors, Point};
+use super::motion::{Errors, Point, Relative, Sizes};
 use super::run::{Run, Setting, Subject};
+use super::span::{POINTS, part};
 use super::sweep;
 use anyhow::{Context, Result};
 
 /// The most accurate method, and the one that checks it: of another order, with other coefficients.
-const METHODS: [&str; 2] = ["dop853", "dopri5"];
+const METHODS: [&str; 2] = ["dop853", sweep::DOPRI5];
 
 /// The motion that counts as exact, as far as two methods agree on it.
 pub struct Reference {
@@ -14,10 +15,16 @@ pub struct Reference {
     pub setting: Setting,
     /// By whom it was checked.
     pub check: Setting,
+    /// The start.
+    pub start: Point,
     /// The motion.
     pub points: Vec<Point>,
+    /// How large it is: seen at the end of every part of the span, since few points could miss where it goes farthest.
+    pub sizes: Sizes,
     /// How far the two are apart at the end and at worst.
     pub agreement: [Errors; 2],
+    /// How far at worst, over the motion's own size: no smaller error can be told.
+    pub floor: Relative,
 }
 
 impl Reference {
@@ -25,13 +32,17 @@ impl Reference {
     pub fn of(subject: &Subject) -> Result<Self> {
         let [(setting, exact), (check, second)] = METHODS.map(|method| tightest(subject, method));
         let (exact, second) = (exact?, second?);
-        let agreement = Errors::of(&second.points, &exact.points);
-        Ok(Self { setting, check, points: exact.points, agreement })
+        let sizes = Sizes::of(&exact.start, &exact.points);
+        let [points, checked] =
+            [&exact, &second].map(|run| (1..=POINTS).map(|n| run.points[part(n) - 1]).collect::<Vec<_>>());
+        let agreement = Errors::of(&checked, &points);
+        let floor = Relative::of(&checked, &exact.start, &points, &sizes);
+        Ok(Self { setting, check, start: exact.start, points, sizes, agreement, floor })
     }
 
-    /// No smaller error can be told: how far the two are apart at worst.
-    pub fn floor(&self) -> Errors {
-        self.agreement[1]
+    /// The worst errors of these points, over the motion's own size.
+    pub fn relative(&self, points: &[Point]) -> Relative {
+        Relative::of(points, &self.start, &self.points, &self.sizes)
     }
 
     /// The largest angle of the axis with e at a communication point [rad].
@@ -53,7 +64,7 @@ fn tightest(subject: &Subject, method: &'static str) -> (Setting, Result<Run>) {
         (
             setting,
             subject
-                .run(&setting, 1, f64::INFINITY)
+                .run_in_parts(&setting)
                 .with_context(|| format!("no method can run {} to its end", subject.scene.name)),
         )
     });

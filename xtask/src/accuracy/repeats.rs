@@ -8,9 +8,9 @@ const LEAST: usize = 3;
 /// No more than so many, however short they are.
 const MOST: usize = 200;
 /// Enough, once they took so long together [s of CPU time].
-const ENOUGH: f64 = 0.3;
-/// Enough, whatever their number [s of CPU time]: a run of a minute is not made five times.
-const PATIENCE: f64 = 3.0;
+const ENOUGH: f64 = 0.1;
+/// Enough, whatever their number [s of CPU time]: a run of a second is not made five times.
+const PATIENCE: f64 = 0.15;
 
 /// Whether so many repeats are enough that took so long together [s].
 fn are_enough(repeats: usize, spent: f64) -> bool {
@@ -40,9 +40,9 @@ mod tests {
 
     #[test]
     fn exact_the_least_time_counts() {
-        let mut times = [3.0, 1.0, 2.0].into_iter().map(|time| 0.1 * time).cycle();
-        let (least, repeats) = least_time(0.25, || Ok(times.next().unwrap())).unwrap();
-        assert_eq!((least, repeats), (0.1, LEAST));
+        let mut times = [3.0, 1.0, 2.0].into_iter().map(|time| 0.016 * time).cycle();
+        let (least, repeats) = least_time(0.04, || Ok(times.next().unwrap())).unwrap();
+        assert_eq!((least, repeats), (0.016, LEAST));
     }
 
     #[test]

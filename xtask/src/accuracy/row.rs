@@ -1,7 +1,7 @@
 //! One row of the result: who ran with which setting, and what came of it. Its columns are those of the CSV and the keys
 //! of the JSON.
 
-use super::motion::Errors;
+use super::motion::{Errors, Relative};
 use crate::sheets;
 use serde_json::{Value, json};
 
@@ -30,9 +30,13 @@ pub struct Row {
 /// What a row measured.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// Errors at the last communication point.
+    /// The worst errors over the motion's own size.
+    pub relative: Relative,
+    /// At how many points it tells its motion: fewer than all where a peer tells its end only.
+    pub told: usize,
+    /// Errors at the last point.
     pub end: Errors,
-    /// The worst over all communication points.
+    /// The worst over all points.
     pub worst: Errors,
     /// The least of all repeats [s].
     pub cpu_time: f64,
@@ -42,6 +46,15 @@ pub struct Measured {
     pub steps: Option<f64>,
     /// Evaluations of the right-hand side, where they are told.
     pub evaluations: Option<f64>,
+    /// Which methods `auto` took.
+    pub taken: Option<String>,
+}
+
+impl Measured {
+    /// The error of the run: the worst of place across e, axis and φ, each over the motion's own size [1].
+    pub fn error(&self) -> f64 {
+        self.relative.worst()
+    }
 }
 
 /// What the numbers of a row compare with.
@@ -49,9 +62,11 @@ pub struct Measured {
 pub struct Scale {
     /// Simulated time [s].
     pub simulated: f64,
+    /// That of the whole scene [s].
+    pub scene: f64,
     /// For the relative energy drift [J].
     pub energy: f64,
-    /// No smaller axis error at the end can be told [rad].
+    /// No smaller error can be told [1].
     pub floor: f64,
 }
 
@@ -68,8 +83,15 @@ impl Row {
             ("order", json!(self.order)),
             ("parameter", json!(self.parameter)),
             ("value", json!(self.value)),
+            ("error", number(&|m| m.error())),
+            ("error_told", json!(measured.map(|m| m.error() > scale.floor))),
+            ("place_error", number(&|m| m.relative.place)),
+            ("axis_error", number(&|m| m.relative.axis)),
+            ("phi_error", number(&|m| m.relative.phi)),
+            ("points_told", json!(measured.map(|m| m.told))),
+            ("simulated_s", json!(scale.simulated)),
+            ("scene_s", json!(scale.scene)),
             ("axis_error_rad", number(&|m| m.end.axis)),
-            ("axis_error_told", json!(measured.map(|m| m.end.axis > scale.floor))),
             ("r_c_error_m", number(&|m| m.end.r_c)),
             ("phi_error_rad", number(&|m| m.end.phi)),
             ("energy_drift_J", number(&|m| m.end.energy)),
@@ -83,6 +105,7 @@ impl Row {
             ("real_time_factor", number(&|m| scale.simulated / m.cpu_time)),
             ("evaluations", optional(&|m| m.evaluations)),
             ("steps", optional(&|m| m.steps)),
+            ("taken", json!(measured.and_then(|m| m.taken.clone()))),
             ("failure", json!(self.outcome.as_ref().err())),
         ]
     }
@@ -97,11 +120,20 @@ pub fn csv(rows: &[Row], scale: Scale) -> String {
 pub mod tests {
     use super::*;
 
-    /// A row of ours, or of a peer, with this axis error [rad] and time [s].
-    pub fn row(tool: &str, method: &str, value: f64, axis: f64, cpu_time: f64) -> Row {
-        let errors = Errors { r_c: 0.01 * axis, axis, phi: f64::NAN, energy: axis };
-        let measured =
-            Measured { end: errors, worst: errors, cpu_time, repeats: 5, steps: Some(7.0), evaluations: None };
+    /// A row of ours, or of a peer, with this error [1] and time [s]: that of the place, while the axis is right.
+    pub fn row(tool: &str, method: &str, value: f64, error: f64, cpu_time: f64) -> Row {
+        let errors = Errors { r_c: 0.01 * error, axis: 0.0, phi: f64::NAN, energy: error };
+        let measured = Measured {
+            relative: Relative { place: error, axis: 0.0 * error, phi: f64::NAN },
+            told: 100,
+            end: errors,
+            worst: errors,
+            cpu_time,
+            repeats: 5,
+            steps: Some(7.0),
+            evaluations: None,
+            taken: None,
+        };
         let (tool, version, method, parameter) = (tool.into(), "1.0".into(), method.into(), "tolerance".into());
         Row { tool, version, method, order: None, parameter, value, outcome: Ok(measured) }
     }
@@ -109,15 +141,17 @@ pub mod tests {
     #[test]
     fn exact_what_is_not_known_stays_empty_and_text_is_quoted() {
         let failed = Row { outcome: Err("a \"word\", and more".into()), ..row("peer", "m", 1e-3, 1.0, 1.0) };
-        let scale = Scale { simulated: 10.0, energy: 2.0, floor: 1e-9 };
+        let scale = Scale { simulated: 10.0, scene: 60.0, energy: 2.0, floor: 1e-9 };
         let text = csv(&[row("split-rotor", "m", 1e-3, 1e-6, 0.5), failed], scale);
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[0].starts_with("tool,version,method,order,parameter,value,axis_error_rad,axis_error_told,"));
+        assert!(lines[0].starts_with("tool,version,method,order,parameter,value,error,error_told,place_error,"));
         let ours: Vec<_> = lines[1].split(',').collect();
         assert_eq!(ours.len(), lines[0].split(',').count());
         assert_eq!(ours[..8], ["split-rotor", "1.0", "m", "", "tolerance", "0.001", "1e-6", "true"]);
         let column = |name| ours[lines[0].split(',').position(|column| column == name).unwrap()];
+        assert_eq!(["place_error", "axis_error", "phi_error"].map(column), ["1e-6", "0.0", ""]);
+        assert_eq!(["simulated_s", "scene_s"].map(column), ["10.0", "60.0"]);
         assert_eq!(column("phi_error_rad"), "");
         assert_eq!(column("energy_drift_relative"), "5e-7");
         assert_eq!(column("real_time_factor"), "20.0");

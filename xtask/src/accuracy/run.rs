@@ -1,6 +1,8 @@
 //! One timed run of a scene's FMU, from its start to the stop of its experiment.
 
 use super::motion::Point;
+use super::span::{PARTS, POINTS, end_of_part, time};
+use super::sweep::AUTO;
 use crate::fmu::{Fmu, Instance, Reference};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
@@ -9,10 +11,7 @@ use model::variables::METHODS;
 use model::xml;
 use std::path::Path;
 
-/// Outputs are read at so many communication points, evenly apart; the start is not one of them.
-pub const POINTS: usize = 100;
-
-/// What is read at each of them.
+/// What is read at each point.
 const OUTPUTS: [&str; 11] = [
     "r_c.x",
     "r_c.y",
@@ -56,12 +55,16 @@ pub struct Subject<'s> {
 
 /// What a run showed and cost.
 pub struct Run {
-    /// The communication points.
+    /// The start.
+    pub start: Point,
+    /// What was read later.
     pub points: Vec<Point>,
     /// From after initialization to the last output read [s of CPU time].
     pub cpu_time: f64,
     /// Accepted steps, rejected steps, evaluations.
     pub costs: [f64; COSTS.len()],
+    /// What `auto` said that it took.
+    pub said: Vec<String>,
 }
 
 impl<'s> Subject<'s> {
@@ -75,22 +78,59 @@ impl<'s> Subject<'s> {
     /// A run with this setting; between two points that are read, `substeps` communication steps. An error once it takes
     /// longer than `patience` [s of CPU time].
     pub fn run(&self, setting: &Setting, substeps: usize, patience: f64) -> Result<Run> {
+        let between = |n: usize| {
+            let [from, to] = [n - 1, n].map(|n| time(&self.experiment, n));
+            (1..=substeps).map(move |k| {
+                let is_last = k == substeps;
+                (if is_last { to } else { from + (to - from) * k as f64 / substeps as f64 }, is_last)
+            })
+        };
+        self.run_through(setting, &(1..=POINTS).flat_map(between).collect::<Vec<_>>(), patience)
+    }
+
+    /// A run that is read at the end of every part of the span, however long it takes.
+    pub fn run_in_parts(&self, setting: &Setting) -> Result<Run> {
+        let ends: Vec<_> = (1..=PARTS).map(|k| (end_of_part(&self.experiment, k), true)).collect();
+        self.run_through(setting, &ends, f64::INFINITY)
+    }
+
+    /// A run through communication points [s], with whether it is read there.
+    fn run_through(&self, setting: &Setting, stops: &[(f64, bool)], patience: f64) -> Result<Run> {
         let mut instance = self.started(setting)?;
-        let steps = POINTS * substeps;
-        let time = |n| time(&self.experiment, n, steps);
-        let mut points = Vec::with_capacity(POINTS);
+        let start = point(instance.get_real(&self.outputs)?);
+        let mut points = Vec::with_capacity(stops.len());
+        let mut at = self.experiment.start;
         let began = ThreadTime::now();
-        for n in 1..=steps {
-            instance.do_step(time(n - 1), time(n) - time(n - 1))?;
-            if n % substeps == 0 {
+        for &(to, is_read) in stops {
+            instance.do_step(at, to - at)?;
+            at = to;
+            if is_read {
                 points.push(point(instance.get_real(&self.outputs)?));
                 if began.elapsed().as_secs_f64() > patience {
-                    bail!("takes more than {patience} s: stopped at t = {} s", time(n));
+                    bail!("takes more than {patience} s: stopped at t = {to} s");
                 }
             }
         }
         let cpu_time = began.elapsed().as_secs_f64();
-        Ok(Run { points, cpu_time, costs: instance.get_real(&self.costs)? })
+        if !points.iter().all(Point::is_finite) {
+            bail!("shows what is not a number");
+        }
+        Ok(Run { start, points, cpu_time, costs: instance.get_real(&self.costs)?, said: instance.said() })
+    }
+
+    /// To which of these times [s] such a run comes, from the first on, with this many evaluations or a few more.
+    pub fn reach(&self, setting: &Setting, times: impl IntoIterator<Item = f64>, affordable: f64) -> Result<f64> {
+        let mut instance = self.started(setting)?;
+        let mut at = self.experiment.start;
+        for to in times {
+            instance.do_step(at, to - at)?;
+            at = to;
+            let [_, _, evaluations] = instance.get_real(&self.costs)?;
+            if evaluations > affordable {
+                break;
+            }
+        }
+        Ok(at)
     }
 
     /// The step that this setting begins with [s].
@@ -100,7 +140,9 @@ impl<'s> Subject<'s> {
     }
 
     fn started(&self, setting: &Setting) -> Result<Instance<'_>> {
-        let mut instance = self.fmu.instantiate()?;
+        // `auto` says what it takes.
+        let is_auto = setting.method == AUTO;
+        let mut instance = if is_auto { self.fmu.instantiate_with_log()? } else { self.fmu.instantiate()? };
         self.set(&mut instance, setting)?;
         instance.initialize(self.experiment.start, self.experiment.stop)?;
         Ok(instance)
@@ -119,12 +161,6 @@ impl<'s> Subject<'s> {
         instance.set_real(absolute, 0.0)?;
         instance.set_real(parameter, setting.value)
     }
-}
-
-/// The end of the `n`th of so many communication steps [s].
-pub fn time(experiment: &Experiment, n: usize, steps: usize) -> f64 {
-    let Experiment { start, stop, .. } = *experiment;
-    if n == steps { stop } else { start + (stop - start) * n as f64 / steps as f64 }
 }
 
 /// The value references of the scene's variables with these names.

@@ -10,19 +10,20 @@ use std::fmt::Write;
 /// Everything, for people.
 pub fn report(result: &Accuracy) -> String {
     let Accuracy { reference, rows, scale, .. } = result;
-    let [end, worst] = &reference.agreement;
+    let (agreed, sizes) = (&reference.floor, &reference.sizes);
     let name = |setting: &Setting| format!("{} at {}", setting.method, power(setting.value));
     let mut text = format!(
-        "The reference is {}, checked by {}: at the end they agree to {} rad in the axis, {} m in r_c and {} rad in φ \
-         (at worst {}, {} and {}). No smaller error can be told: it is given as `<`.\n",
+        "The place moves by {} m across e, the axis by {} rad, φ by {} rad: errors are relative to that. The reference is {}, \
+         checked by {}: at worst they differ by {} in place, {} in axis and {} in φ. No smaller error can be told: it is given \
+         as `<`.\n",
+        short(sizes.place),
+        short(sizes.axis),
+        short(sizes.phi),
         name(&reference.setting),
         name(&reference.check),
-        short(end.axis),
-        short(end.r_c),
-        short(end.phi),
-        short(worst.axis),
-        short(worst.r_c),
-        short(worst.phi),
+        short(agreed.place),
+        short(agreed.axis),
+        short(agreed.phi),
     );
     // In Markdown, each sentence is an item.
     let sentences = result.sentences.iter().chain(&result.left_out).map(|sentence| format!("- {sentence}\n"));
@@ -34,8 +35,8 @@ pub fn report(result: &Accuracy) -> String {
 
 /// What each method needs for each goal.
 fn overview(rows: &[Row], scale: Scale) -> String {
-    let mut text = "| CPU time [ms] for an axis error of at most".to_owned();
-    text += &GOALS.map(|goal| format!(" | {} rad", power(goal))).concat();
+    let mut text = "| CPU time [ms] for an error of at most".to_owned();
+    text += &GOALS.map(|goal| format!(" | {}", power(goal))).concat();
     text += " |\n|---|--:|--:|--:|\n";
     for (tool, method) in methods(rows) {
         let own = || rows.iter().filter(|row| row.tool == tool && row.method == method);
@@ -58,10 +59,11 @@ pub fn methods(rows: &[Row]) -> Vec<(&str, &str)> {
 /// Our rows at powers of ten, and what went wrong.
 fn decades(result: &Accuracy) -> String {
     let Accuracy { rows, scale, reference, .. } = result;
-    let floor = &reference.floor();
-    let mut text = "| method | setting | axis [rad] | r_c [m] | φ [rad] | energy [J] | relative | evaluations \
-                    | CPU time [ms] | × real time |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
-        .to_owned();
+    let floor = &reference.floor;
+    let mut text =
+        "| method | setting | error | place | axis | φ | energy | evaluations | CPU time [ms] | × real time |\n\
+                    |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
+            .to_owned();
     let is_shown = |row: &&Row| match row.parameter.as_str() {
         STEP => is_best(row, rows),
         _ => power(row.value).starts_with("1e"),
@@ -69,11 +71,11 @@ fn decades(result: &Accuracy) -> String {
     for row in rows.iter().filter(|row| row.tool == OURS).filter(is_shown) {
         let cells = match &row.outcome {
             Ok(m) => [
-                at_least(m.end.axis, floor.axis),
-                at_least(m.end.r_c, floor.r_c),
-                at_least(m.end.phi, floor.phi),
-                short(m.end.energy),
-                short(m.end.energy / scale.energy),
+                at_least(m.error(), scale.floor),
+                at_least(m.relative.place, floor.place),
+                at_least(m.relative.axis, floor.axis),
+                at_least(m.relative.phi, floor.phi),
+                short(m.worst.energy / scale.energy),
                 m.evaluations.map_or("-".into(), count),
                 short(1e3 * m.cpu_time),
                 about(scale.simulated / m.cpu_time),
@@ -88,7 +90,7 @@ fn decades(result: &Accuracy) -> String {
 
 /// Whether no other row of the same method is better in both error and time.
 fn is_best(row: &Row, rows: &[Row]) -> bool {
-    let told = |row: &Row| row.outcome.as_ref().ok().map(|m| (m.cpu_time, m.end.axis));
+    let told = |row: &Row| row.outcome.as_ref().ok().map(|m| (m.cpu_time, m.error()));
     let Some((time, error)) = told(row) else { return false };
     let better = |other: &&Row| told(other).is_some_and(|(t, e)| t < time && e <= error);
     !rows.iter().filter(|other| other.tool == row.tool && other.method == row.method).any(|other| better(&other))
@@ -96,7 +98,9 @@ fn is_best(row: &Row, rows: &[Row]) -> bool {
 
 /// How the setting of a row stands in a table: `1e-7`, or `order 4, 2e-3`.
 fn shown(row: &Row) -> String {
-    let value = power(row.value);
+    let exact = power(row.value);
+    // Steps of peers are parts of the span, with as many digits as a double has.
+    let value = if exact.len() > 8 { short(row.value) } else { exact };
     row.order.map_or(value.clone(), |order| format!("order {order}, {value}"))
 }
 
@@ -139,7 +143,14 @@ pub fn count(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::row::tests::row;
     use super::*;
+
+    #[test]
+    fn exact_a_setting_is_shown_as_short_as_it_is() {
+        let at = |value| shown(&row(OURS, "m", value, 1.0, 1.0));
+        assert_eq!([1e-7, 2e-13, 10.0 / 997.0].map(at), ["1e-7", "2e-13", "1.0e-2"]);
+    }
 
     #[test]
     fn exact_numbers_have_two_digits() {

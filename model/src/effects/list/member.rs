@@ -102,7 +102,8 @@ fn walk_rows<E: Effect>(effect: &mut E, walk: &mut impl Walk) -> Result<(), Dama
             Access::Output(_) | Access::Rate(_) => {}
         }
     }
-    effect.memory().iter_mut().try_for_each(|number| number.walk(walk))
+    effect.memory().iter_mut().try_for_each(|number| number.walk(walk))?;
+    if effect.remembers_rightly() { Ok(()) } else { Err(Damaged) }
 }
 
 pub(super) fn full_name<M: Member>(name: &str) -> String {

@@ -22,9 +22,11 @@ impl Effects for () {
     const SHAPES: bool = false;
     const FOLLOWS_PHI: bool = false;
     const IMPOSES: bool = false;
+    const FORETOLD: usize = 0;
+    const MOST_FORETOLD: usize = usize::MAX;
 
     #[inline(always)]
-    fn imposed<S: Scalar>(&self, _t: f64) -> Option<[S; 2]> {
+    fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
         None
     }
 
@@ -113,6 +115,12 @@ impl Effects for () {
     fn signal_mut(&mut self, _place: Place) -> Option<&mut Signal> {
         None
     }
+
+    fn change_input(&mut self, _place: Place, _order: u32, _t: f64, _change: impl FnOnce(&mut Signal)) -> Option<bool> {
+        None
+    }
+
+    fn step_to(&mut self, _end: &Kinematics<f64>) {}
 
     fn foretells(&self) -> bool {
         false

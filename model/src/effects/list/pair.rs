@@ -1,6 +1,6 @@
 //! An effect and the rest of the list: sums over both.
 
-use super::super::{Effect, Entry, Row, SWITCH, Wrench};
+use super::super::{Effect, Entry, InputSet, Row, SWITCH, Wrench};
 use super::member::{Member, block_of, full_name, is_switch, row, switch_of};
 use super::{Action, Effects};
 use crate::body::Shape;
@@ -36,9 +36,12 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     const SHAPES: bool = H::Effect::SHAPES || T::SHAPES;
     const FOLLOWS_PHI: bool = H::Effect::FOLLOWS_PHI || T::FOLLOWS_PHI;
     const IMPOSES: bool = H::Effect::IMPOSES || T::IMPOSES;
+    const FORETOLD: usize = inputs_foretold::<H::Effect>() + T::FORETOLD;
+    const MOST_FORETOLD: usize =
+        if H::Effect::MOST_FORETOLD < T::MOST_FORETOLD { H::Effect::MOST_FORETOLD } else { T::MOST_FORETOLD };
 
     #[inline(always)]
-    fn imposed<S: Scalar>(&self, t: f64) -> Option<[S; 2]> {
+    fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]> {
         self.0.active().and_then(|effect| effect.imposed(t)).or_else(|| self.1.imposed(t))
     }
 
@@ -204,6 +207,28 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         }
     }
 
+    fn change_input(&mut self, place: Place, order: u32, t: f64, change: impl FnOnce(&mut Signal)) -> Option<bool> {
+        let Some(row) = row::<H>(place) else { return self.1.change_input(place, order, t, change) };
+        let Access::Input { get, get_mut } = row?.access else { return None };
+        let effect = self.0.effect_mut();
+        let before = effect.clone();
+        change(get_mut(effect));
+        let was = *get(&before);
+        let goes_on = get(effect).goes_on_like(&was);
+        let changes = effect.input_set(&before, InputSet { row: place.row, order, t, goes_on });
+        if !changes {
+            *get_mut(effect) = get(effect).going_on(was);
+        }
+        Some(changes)
+    }
+
+    fn step_to(&mut self, end: &Kinematics<f64>) {
+        if self.0.active().is_some() {
+            self.0.effect_mut().step_to(end);
+        }
+        self.1.step_to(end);
+    }
+
     fn foretells(&self) -> bool {
         (H::Effect::FORETELLS && self.0.active().is_some()) || self.1.foretells()
     }
@@ -240,6 +265,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
                 *get_mut(self.0.effect_mut()) = *get(other.0.effect());
             }
         }
+        self.0.effect_mut().take_over(other.0.effect());
         self.1.hear(&other.1);
     }
 
@@ -249,6 +275,16 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         }
         self.1.switch_on(block);
     }
+}
+
+/// How many inputs of an effect may be foretold.
+const fn inputs_foretold<E: Effect>() -> usize {
+    let (mut row, mut inputs) = (0, 0);
+    while row < E::ROWS.len() && !E::TELLS_RATES {
+        inputs += matches!(E::ROWS[row].access, Access::Input { .. }) as usize;
+        row += 1;
+    }
+    inputs
 }
 
 fn each_signal<E: Effect>(effect: &mut E, act: &mut impl FnMut(&mut Signal)) {

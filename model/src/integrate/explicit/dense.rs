@@ -62,7 +62,7 @@ impl<const N: usize> Explicit<N> {
     fn roughness(&self, system: &impl System<N>) -> f64 {
         let Segment { h, y, r, .. } = &self.segment;
         let terms = self.terms();
-        let weights = self.sizes.weights(&self.tolerance, system, y, *h, &[0.0; GROUPS]);
+        let weights = self.sizes.weights(&self.tolerance, &system.roundings(y, *h), &[0.0; GROUPS]);
         // eq. 24: σ and 1 − σ are 1/2 in each of its factors
         largest_square(&system.parts(y, &r[terms - 1]), &weights).sqrt() / f64::from(1_u32 << terms)
     }

@@ -9,6 +9,7 @@ pub static DOPRI5: Tableau = Tableau {
     last: STAGES.len(),
     error: ErrorRule::Single(ERROR),
     calibration: 1.0,
+    swings: 0.997,
     error_order: 5.0,
     dense_stages: &[],
     dense: DENSE,

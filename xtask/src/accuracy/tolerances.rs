@@ -1,0 +1,188 @@
+//! `accuracy --tolerances`: the error over the tolerance of all scenes, as docs/accuracy/tolerances.csv and as a table in
+//! docs/accuracy.md.
+
+use super::motion::Relative;
+use super::reference::Reference;
+use super::run::Subject;
+use super::table::{power, short};
+use super::{bar, span, sweep};
+use crate::unpacked::unpack;
+use crate::{package, paths, scenes, sheets};
+use anyhow::{Context, Result};
+use model::scene::Scene;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::fs;
+
+/// The methods that have a tolerance.
+const METHODS: [&str; 4] = [sweep::DOPRI5, "dop853", "stiff", sweep::AUTO];
+
+/// The tolerances at which they run.
+const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
+
+/// A run that takes longer is left out [s of CPU time].
+const PATIENCE: f64 = 5.0;
+
+/// Where the table stands in docs/accuracy.md.
+const MARK: &str = "tolerances";
+
+/// What a method at a tolerance came to.
+struct Found {
+    method: &'static str,
+    tolerance: f64,
+    /// Errors and evaluations, or why there are none.
+    outcome: Result<(Relative, f64), String>,
+}
+
+/// What was measured of a scene.
+struct Measured {
+    scene: String,
+    /// Simulated time, and that of the whole scene [s].
+    spans: [f64; 2],
+    /// What cannot be told.
+    floor: Relative,
+    found: Vec<Found>,
+}
+
+/// Measures all scenes, packaged anew or as they were last.
+pub fn tolerances(packaged: bool) -> Result<()> {
+    let names = Scene::names(&paths::scenes());
+    if !packaged {
+        package::package(&names, None)?;
+    }
+    let progress = bar(names.len());
+    let mut all = Vec::new();
+    for name in &names {
+        progress.set_message(name.clone());
+        all.push(measure(name).with_context(|| name.clone())?);
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    let rows: Vec<_> = all.iter().flat_map(Measured::rows).collect();
+    let table = table(&all);
+    let folder = paths::root().join("docs/accuracy");
+    fs::create_dir_all(&folder)?;
+    fs::write(folder.join("tolerances.csv"), sheets::csv(&rows))?;
+    let page = paths::root().join("docs/accuracy.md");
+    fs::write(&page, put(&fs::read_to_string(&page)?, MARK, &table)?)?;
+    println!("{table}");
+    Ok(())
+}
+
+fn measure(name: &str) -> Result<Measured> {
+    let scene = scenes::find(name)?;
+    let unpacked = unpack(&paths::target().join("fmu").join(format!("{name}.fmu")))?;
+    let mut subject = Subject::load(&scene, &unpacked.library)?;
+    span::shorten(&mut subject);
+    let reference = Reference::of(&subject)?;
+    let run = |method, tolerance| {
+        let run = subject.run(&sweep::with_tolerance(method, tolerance), 1, PATIENCE);
+        let relative = run.map(|run| (reference.relative(&run.points), run.costs[2]));
+        Found { method, tolerance, outcome: relative.map_err(|error| format!("{error:#}")) }
+    };
+    let found = METHODS.iter().flat_map(|method| TOLERANCES.map(|tolerance| run(*method, tolerance))).collect();
+    let spans = [subject.experiment, scene.experiment].map(|experiment| experiment.stop - experiment.start);
+    Ok(Measured { scene: name.into(), spans, floor: reference.floor, found })
+}
+
+impl Measured {
+    fn rows(&self) -> impl Iterator<Item = Vec<(&'static str, Value)>> + '_ {
+        self.found.iter().map(|Found { method, tolerance, outcome }| {
+            let over =
+                |of: fn(&Relative) -> f64| json!(outcome.as_ref().ok().map(|(errors, _)| of(errors) / tolerance));
+            vec![
+                ("scene", json!(self.scene)),
+                ("simulated_s", json!(self.spans[0])),
+                ("scene_s", json!(self.spans[1])),
+                ("method", json!(method)),
+                ("tolerance", json!(tolerance)),
+                ("error_over_tolerance", over(Relative::worst)),
+                ("place_error_over_tolerance", over(|errors| errors.place)),
+                ("axis_error_over_tolerance", over(|errors| errors.axis)),
+                ("phi_error_over_tolerance", over(|errors| errors.phi)),
+                ("error_told", json!(outcome.as_ref().ok().map(|(errors, _)| errors.worst() > self.floor.worst()))),
+                ("evaluations", json!(outcome.as_ref().ok().map(|(_, evaluations)| evaluations))),
+                ("failure", json!(outcome.as_ref().err())),
+            ]
+        })
+    }
+
+    /// The error over the tolerance, `<` where it cannot be told.
+    fn cell(&self, found: &Found) -> String {
+        let Ok((errors, _)) = &found.outcome else { return "refused".into() };
+        let floor = self.floor.worst();
+        let sign = if errors.worst() <= floor && floor > 0.0 { "< " } else { "" };
+        sign.to_owned() + &short(errors.worst().max(floor) / found.tolerance)
+    }
+}
+
+/// A row a scene, a column a method; a cell has the errors from the loosest to the tightest tolerance.
+fn table(all: &[Measured]) -> String {
+    let tolerances = TOLERANCES.map(power).join(", ");
+    let mut text = format!("The error over the tolerance, at {tolerances}:\n\n| scene | s run | of s |");
+    text += &METHODS.map(|method| format!(" {method} |")).concat();
+    text += "\n|---|--:|--:|";
+    text += &"---|".repeat(METHODS.len());
+    for measured in all {
+        let [some, all] = measured.spans;
+        write!(text, "\n| `{}` | {some} | {all} |", measured.scene).expect("a String can be written to");
+        for of_method in measured.found.chunks(TOLERANCES.len()) {
+            let cells: Vec<_> = of_method.iter().map(|found| measured.cell(found)).collect();
+            write!(text, " {} |", cells.join(", ")).expect("a String can be written to");
+        }
+    }
+    text + "\n"
+}
+
+/// The page with `made` between `<!-- mark -->` and the next `<!-- end -->`.
+fn put(page: &str, mark: &str, made: &str) -> Result<String> {
+    let parts = page.split_once(&format!("<!-- {mark} -->\n"));
+    let parts = parts.and_then(|(before, after)| Some((before, after.split_once("<!-- end -->")?.1)));
+    let (before, after) = parts.with_context(|| format!("the page has no place for {mark}"))?;
+    Ok(format!("{before}<!-- {mark} -->\n\n{}\n\n<!-- end -->{after}", made.trim()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured() -> Measured {
+        let errors = |place: f64| Relative { place, axis: 1e-9, phi: 0.0 };
+        let found = METHODS.iter().flat_map(|method| {
+            TOLERANCES.map(|tolerance| {
+                let refused = *method == "stiff" && tolerance == 1e-4;
+                let outcome = if refused { Err("no".into()) } else { Ok((errors(3.0 * tolerance), 7.0)) };
+                Found { method, tolerance, outcome }
+            })
+        });
+        let found = found.collect();
+        Measured { scene: "some".into(), spans: [2.0, 6.0], floor: errors(1e-9), found }
+    }
+
+    #[test]
+    fn exact_a_row_has_the_worst_error_over_each_tolerance() {
+        let rows: Vec<_> = measured().rows().collect();
+        assert_eq!(rows.len(), 16);
+        let csv = sheets::csv(&rows);
+        let line = |n: usize| csv.lines().nth(n).unwrap();
+        assert!(line(0).starts_with("scene,simulated_s,scene_s,method,tolerance,error_over_tolerance,"), "{csv}");
+        assert!(line(9).ends_with(",no"), "{csv}");
+        let number = |n: usize, name| rows[n].iter().find(|column| column.0 == name).unwrap().1.as_f64();
+        // At 1e-8 the place is the worst, at 1e-10 the axis.
+        assert!((number(2, "error_over_tolerance").unwrap() - 3.0).abs() < 1e-12);
+        assert!((number(3, "error_over_tolerance").unwrap() - 10.0).abs() < 1e-12);
+        assert_eq!(number(8, "error_over_tolerance"), None);
+        let table = table(&[measured()]);
+        let cells = "| `some` | 2 | 6 | 3.0, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 | refused, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 |";
+        assert_eq!(table.lines().last(), Some(cells));
+    }
+
+    #[test]
+    fn exact_a_table_is_put_between_its_marks() {
+        let page = "a\n<!-- other -->\nb\n<!-- end -->\n<!-- tolerances -->\nold\n<!-- end -->\nc\n";
+        let made = put(page, MARK, "new\n").unwrap();
+        assert_eq!(made, page.replace("old\n", "\nnew\n\n"));
+        assert_eq!(put(&made, MARK, "new\n").unwrap(), made);
+        assert!(put("no marks", MARK, "new").is_err());
+    }
+}
