@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 type Pairs = BTreeSet<(String, String)>;
 
 /// So many motions in each chart.
-const SAMPLES: u32 = 12;
+const SAMPLES: u32 = 24;
 
 /// A derivative below the first, relative to the largest of the variable and 1, is none, and one above the second is one.
 /// Measured 4.2e-12 and less for those that are none, 6.7e-6 and more for the others.
