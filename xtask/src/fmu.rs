@@ -55,6 +55,7 @@ pub struct Fmu {
     exit_initialization: unsafe extern "C" fn(Component) -> Status,
     set_real: unsafe extern "C" fn(Component, *const Reference, usize, *const c_double) -> Status,
     set_integer: unsafe extern "C" fn(Component, *const Reference, usize, *const c_int) -> Status,
+    set_boolean: unsafe extern "C" fn(Component, *const Reference, usize, *const c_int) -> Status,
     get_real: unsafe extern "C" fn(Component, *const Reference, usize, *mut c_double) -> Status,
     do_step: unsafe extern "C" fn(Component, c_double, c_double, c_int) -> Status,
     get_real_status: unsafe extern "C" fn(Component, c_int, *mut c_double) -> Status,
@@ -81,6 +82,7 @@ impl Fmu {
             exit_initialization: function!("fmi2ExitInitializationMode"),
             set_real: function!("fmi2SetReal"),
             set_integer: function!("fmi2SetInteger"),
+            set_boolean: function!("fmi2SetBoolean"),
             get_real: function!("fmi2GetReal"),
             do_step: function!("fmi2DoStep"),
             get_real_status: function!("fmi2GetRealStatus"),
@@ -188,6 +190,15 @@ impl Instance<'_> {
         })
     }
 
+    /// Sets a Boolean.
+    pub fn set_boolean(&mut self, reference: Reference, value: bool) -> Result<()> {
+        let value = c_int::from(value);
+        // SAFETY: a live instance; one reference and one value.
+        self.done("fmi2SetBoolean", |component| unsafe {
+            (self.fmu.set_boolean)(component, &raw const reference, 1, &raw const value)
+        })
+    }
+
     /// Leads it through initialization, for a run between these times [s].
     pub fn initialize(&mut self, start: f64, stop: f64) -> Result<()> {
         // SAFETY: a live instance, here and below.
@@ -214,6 +225,11 @@ impl Instance<'_> {
             (self.fmu.get_real)(component, references.as_ptr(), N, values.as_mut_ptr())
         })?;
         Ok(values)
+    }
+
+    /// What went wrong, or may, and was not told yet.
+    pub fn journal(&self) -> String {
+        self.journal.take()
     }
 
     /// What it said as fmi2OK.

@@ -8,9 +8,12 @@ mod case;
 mod files;
 mod free;
 mod inputs;
+mod machine;
 mod method;
 mod refusals;
+mod rotors;
 mod row;
+mod runaways;
 mod spin;
 mod stiffness;
 mod table;
@@ -45,9 +48,9 @@ pub fn hard_cases(extent: &Extent) -> Result<()> {
 }
 
 /// The scenes whose FMUs the cases run in: no effects, gravity and support, those with a shaft, asymmetry, unbalance at an
-/// imposed speed, bearings with rotating damping.
-fn scenes() -> [&'static str; 6] {
-    ["free_top", "paper", "driven", "dzhanibekov", "jeffcott", "unstable_whirl"]
+/// imposed speed, bearings with rotating damping, all.
+fn scenes() -> [&'static str; 7] {
+    ["free_top", "paper", "driven", "dzhanibekov", "jeffcott", "unstable_whirl", "rotor"]
 }
 
 /// Runs the gallery with the FMUs that were packaged last; an error where a bound is broken.
@@ -78,6 +81,8 @@ fn gallery(whole: bool) -> Vec<Case> {
         stiffness::cases(),
         top::cases(),
         inputs::cases(),
+        rotors::cases(),
+        runaways::cases(),
         refusals::cases(),
     ];
     families.into_iter().flatten().collect()

@@ -29,8 +29,8 @@ const SHOWN: [&str; 10] = [
 /// The loaded FMU of a scene.
 pub struct Stage {
     fmu: Fmu,
-    /// Value reference of each variable, and whether it is an Integer.
-    variables: BTreeMap<String, (Reference, bool)>,
+    /// Value reference and type of each variable.
+    variables: BTreeMap<String, (Reference, Kind)>,
     shown: [Reference; SHOWN.len()],
 }
 
@@ -56,12 +56,8 @@ impl Stage {
         let fmu = paths::target().join("fmu").join(format!("{name}.fmu"));
         let unpacked = unpack(&fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
         let fmu = Fmu::load(&unpacked.library, &xml::guid(&scene))?;
-        let is_integer = |kind: &Kind| !matches!(kind, Kind::Real);
-        let variables: BTreeMap<_, _> = scene
-            .variables
-            .iter()
-            .map(|v| (v.name.clone(), (v.place.value_reference(), is_integer(&v.meta.kind))))
-            .collect();
+        let variables: BTreeMap<_, _> =
+            (scene.variables.iter()).map(|v| (v.name.clone(), (v.place.value_reference(), v.meta.kind))).collect();
         let shown = SHOWN.map(|name| variables[name].0);
         Ok(Self { fmu, variables, shown })
     }
@@ -143,14 +139,14 @@ impl Rotor<'_> {
     /// Sets a parameter or an input.
     pub fn set(&mut self, name: &str, value: f64) -> Result<()> {
         let value = self.bench.number(name, value);
-        let Some((reference, is_integer)) = self.bench.stage.variables.get(name) else {
+        let Some((reference, kind)) = self.bench.stage.variables.get(name) else {
             ensure!(value == 0.0, "the scene has no variable {name}");
             return Ok(());
         };
-        if *is_integer {
-            self.instance.set_integer(*reference, value as i32)
-        } else {
-            self.instance.set_real(*reference, value)
+        match kind {
+            Kind::Real => self.instance.set_real(*reference, value),
+            Kind::Boolean => self.instance.set_boolean(*reference, value != 0.0),
+            _ => self.instance.set_integer(*reference, value as i32),
         }
     }
 
@@ -181,6 +177,25 @@ impl Rotor<'_> {
         self.bench.evaluations.set(self.bench.evaluations.get() + evaluations - self.spent.replace(evaluations));
         let (r_c, axis) = (Vector3::new(x, y, z), Vector3::new(t_x, t_y, t_z));
         Ok(Shown { r_c, axis, turns, angle, residual })
+    }
+
+    /// Reads variables by name.
+    pub fn read<const N: usize>(&self, names: &[String; N]) -> Result<[f64; N]> {
+        let mut references = [0; N];
+        for (reference, name) in references.iter_mut().zip(names) {
+            *reference = self.bench.reference(name)?;
+        }
+        self.instance.get_real(&references)
+    }
+
+    /// Evaluations of the right-hand side so far.
+    pub fn evaluations(&self) -> Result<f64> {
+        Ok(self.read(&["solver.evaluations".to_owned()])?[0])
+    }
+
+    /// What was logged and not told yet.
+    pub fn journal(&self) -> String {
+        self.instance.journal()
     }
 
     /// The communication point [s].

@@ -1,0 +1,178 @@
+//! Rotors with several effects in the general FMU, beside the oracle that knows all laws.
+
+use super::bench::{Bench, Rotor};
+use super::case::{Found, Task};
+use crate::oracles::machine::{Machine, Pace, Run, Shown};
+use anyhow::{Result, ensure};
+use nalgebra::Vector3;
+use std::cell::OnceCell;
+use std::f64::consts::TAU;
+
+/// A step of the oracle errs by so much of the motion [1].
+const STEP: f64 = 1e-13;
+
+/// A rotor, when it is looked at, and what partners do at its ports.
+pub struct Scene {
+    /// The rotor.
+    pub machine: Machine,
+    /// When it is looked at [s].
+    pub times: Vec<f64>,
+    /// Springs [N/m] and dampers [N·s/m] at the ports, f = −k r − c v across e, reckoned at each time from what the ports
+    /// show there; zero until the first.
+    pub partners: Vec<[f64; 2]>,
+}
+
+/// What a partner answers to place [m] and velocity [m/s] of its port: force along y and z [N].
+fn answer([r, v]: &[Vector3<f64>; 2], [k, c]: &[f64; 2]) -> [f64; 2] {
+    let force = -(r * *k + v * *c);
+    [force.y, force.z]
+}
+
+impl Scene {
+    /// Of a rotor without partners.
+    pub fn alone(machine: Machine, times: Vec<f64>) -> Self {
+        Self { machine, times, partners: Vec::new() }
+    }
+
+    /// What the oracle shows at the start and at all times.
+    pub fn exact(&self) -> Result<Vec<Shown>> {
+        use crate::oracles::machine::Input::Force;
+        let mut run = Run::new(&self.machine, Pace::Adaptive(STEP));
+        let mut shown = vec![run.show()];
+        for t in &self.times {
+            ensure!(run.advance(*t), "the oracle has no motion at {t} s");
+            shown.push(run.show());
+            for (n, partner) in self.partners.iter().enumerate() {
+                for (axis, force) in answer(&run.port(n), partner).into_iter().enumerate() {
+                    run.set(Force(n, axis + 1), [force, 0.0, 0.0]);
+                }
+            }
+        }
+        Ok(shown)
+    }
+
+    /// The same in the FMU, from a rotor that is set and started.
+    pub fn shown(&self, rotor: &mut Rotor) -> Result<Vec<Shown>> {
+        let mut shown = vec![shown(rotor)?];
+        for t in &self.times {
+            rotor.advance(*t)?;
+            shown.push(self::shown(rotor)?);
+            for (n, partner) in self.partners.iter().enumerate() {
+                let at = |what: &str| ["x", "y", "z"].map(|axis| format!("port[{}].{what}.{axis}", n + 1));
+                let [r, v] = [rotor.read(&at("r"))?, rotor.read(&at("v"))?].map(Vector3::from);
+                for (axis, force) in ["y", "z"].iter().zip(answer(&[r, v], partner)) {
+                    rotor.set(&format!("port[{}].f.{axis}", n + 1), force)?;
+                }
+            }
+        }
+        Ok(shown)
+    }
+
+    /// The task to run it beside the oracle, whose motion `known` must be true of.
+    pub fn task(self, known: impl Fn(&[Shown]) -> Result<()> + 'static) -> Task {
+        let exact = OnceCell::new();
+        Box::new(move |bench| {
+            let mut rotor = started(bench, &self.machine, self.times[self.times.len() - 1])?;
+            let shown = self.shown(&mut rotor)?;
+            if exact.get().is_none() {
+                let shown = self.exact()?;
+                known(&shown)?;
+                let _ = exact.set(shown);
+            }
+            Ok(error(&shown, exact.get().expect("it was set")))
+        })
+    }
+}
+
+/// A rotor with the settings of a machine, started for a run to `stop` [s].
+pub fn started<'b>(bench: &'b Bench<'b>, machine: &Machine, stop: f64) -> Result<Rotor<'b>> {
+    let mut rotor = bench.rotor(&[])?;
+    for (name, value) in settings(machine) {
+        rotor.set(&name, value)?;
+    }
+    rotor.start(0.0, stop)?;
+    Ok(rotor)
+}
+
+/// What the FMU shows, as the oracle does but for the velocities.
+pub fn shown(rotor: &Rotor) -> Result<Shown> {
+    let shown = rotor.shown()?;
+    ensure!(shown.residual.is_finite(), "no number");
+    let phi = TAU * shown.turns + shown.angle;
+    Ok(Shown { r_c: shown.r_c, v_c: Vector3::zeros(), axis: shown.axis, omega: Vector3::zeros(), phi })
+}
+
+/// The largest error of place across e and of the axis over how far each goes, and of φ over how far it turns, but 1 rad at
+/// least.
+pub fn error(shown: &[Shown], exact: &[Shown]) -> Found {
+    let across = |v: Vector3<f64>| libm::hypot(v.y, v.z);
+    let most = |of: &dyn Fn(&Shown, &Shown) -> f64, pairs: &mut dyn Iterator<Item = (&Shown, &Shown)>| {
+        pairs.map(|(a, b)| of(a, b)).fold(0.0, |most: f64, x| if x > most || x.is_nan() { x } else { most })
+    };
+    let mut found = Found::nothing();
+    let ways: [(&str, f64, &dyn Fn(&Shown, &Shown) -> f64); 3] = [
+        ("place over its size", 0.0, &|a, b| across(a.r_c - b.r_c)),
+        ("axis over its size", 0.0, &|a, b| (a.axis - b.axis).norm()),
+        ("φ over its size", 1.0, &|a, b| (a.phi - b.phi).abs()),
+    ];
+    for (of, least, way) in ways {
+        let size = most(way, &mut exact.iter().map(|now| (now, &exact[0]))).max(least);
+        let off = most(way, &mut shown.iter().zip(exact));
+        found = found.or(if off == 0.0 { 0.0 } else { off / size }, of);
+    }
+    found
+}
+
+/// A machine's parameters and its inputs at the start.
+fn settings(machine: &Machine) -> Vec<(String, f64)> {
+    use crate::oracles::machine::Input;
+    let mut all = Vec::new();
+    let mut set = |name: &str, value: f64| all.push((name.to_owned(), value));
+    let Machine { m, Ja, Jt, l, start, .. } = machine;
+    let body = [("m", m), ("Ja", Ja), ("Jt", Jt), ("l", l)];
+    body.iter().for_each(|(name, value)| set(&format!("rotor.{name}"), **value));
+    for (name, v) in [("r_c", start.r_c), ("v_c", start.v_c), ("omega", start.omega)] {
+        ["x", "y", "z"].iter().zip(&v).for_each(|(axis, value)| set(&format!("start.{name}.{axis}"), *value));
+    }
+    set("effects.gravity", f64::from(machine.gravity.is_some()));
+    let gravity = machine.gravity.unwrap_or_default();
+    ["x", "y", "z"].iter().zip(&gravity).for_each(|(axis, value)| set(&format!("gravity.g.{axis}"), *value));
+    set("effects.support", f64::from(machine.support.is_some()));
+    set("effects.shaft", f64::from(machine.shaft));
+    if let Some(other) = machine.Jt2 {
+        set("effects.asymmetry", 1.0);
+        set("asymmetry.Jt2", other);
+    }
+    for (n, one) in (1..).zip(&machine.unbalances) {
+        set(&format!("effects.unbalance[{n}]"), 1.0);
+        let of = [("mass", one.mass), ("radius", one.radius), ("angle", one.angle), ("position", one.position)];
+        of.iter().for_each(|(name, value)| set(&format!("unbalance[{n}].{name}"), *value));
+    }
+    for (n, bearing) in (1..).zip(&machine.bearings) {
+        set(&format!("effects.bearing[{n}]"), 1.0);
+        set(&format!("bearing[{n}].position"), bearing.position);
+        for (name, [[yy, yz], [zy, zz]]) in [("k", bearing.k), ("c", bearing.c)] {
+            let of = [("yy", yy), ("yz", yz), ("zy", zy), ("zz", zz)];
+            of.iter().for_each(|(axes, value)| set(&format!("bearing[{n}].{name}{axes}"), *value));
+        }
+    }
+    if let Some([d, position]) = machine.rotating_damping {
+        set("effects.rotating_damping", 1.0);
+        set("rotating_damping.d", d);
+        set("rotating_damping.position", position);
+    }
+    if let Some([linear, quadratic]) = machine.drag {
+        set("effects.drag", 1.0);
+        set("drag.linear", linear);
+        set("drag.quadratic", quadratic);
+    }
+    for (n, position) in (1..).zip(&machine.ports) {
+        set(&format!("effects.port[{n}]"), 1.0);
+        set(&format!("port[{n}].position"), *position);
+    }
+    for (input, value) in &machine.inputs {
+        assert_eq!(*input, Input::Torque, "the only input that a case starts with");
+        set("shaft.tau", *value);
+    }
+    all
+}
