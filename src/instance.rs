@@ -11,13 +11,13 @@ pub use values::Type;
 use crate::abi::{Real, Status};
 use crate::calls::{State, kind_name};
 use crate::logger::Logger;
-use crate::scene::{STARTS, Simulation};
+use crate::scene::{Effects, STARTS, Simulation};
 use model::error::Invalid;
 use model::integrate::{Cost, Refusal};
 use model::log::{ALL, Category};
 use model::simulation::Integrator;
-use model::variable::{Kind, Place};
-use model::variables::TOLERANCES;
+use model::variable::{Kind, Place, Role};
+use model::variables::{Parameters, TOLERANCES};
 
 /// Why a call was refused, and what it returns.
 #[derive(Debug)]
@@ -75,8 +75,8 @@ pub struct Memory {
     experiment: Experiment,
     /// What the last fmi2DoStep returned.
     step_status: Status,
-    /// Whether it was said that the tilt is large, and that the motion grows.
-    warned: [bool; 2],
+    /// Whether it was said that the tilt is large, that the motion grows, and that all inputs are 0.
+    warned: [bool; 3],
 }
 
 /// What fmi2SetupExperiment said, and what the host set itself.
@@ -98,7 +98,7 @@ impl Memory {
             simulation: Simulation::with(integrator, parameters),
             experiment: Experiment::default(),
             step_status: Status::Ok,
-            warned: [false; 2],
+            warned: [false; 3],
         }
     }
 
@@ -235,7 +235,7 @@ impl Instance {
 
     /// Says once each that the tilt is large, where that matters, and that the linear motion grows.
     fn warn(&mut self) {
-        let [of_tilt, of_growth] = &mut self.memory.warned;
+        let [of_tilt, of_growth, _] = &mut self.memory.warned;
         if !*of_tilt && self.memory.simulation.has_tilted() {
             *of_tilt = true;
             let message = "the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit at pi, and \
@@ -247,6 +247,33 @@ impl Instance {
             let message = format!(
                 "the rotor is unstable: small motions about its state at t = {t:?} s grow by a factor of e every {:.3e} s",
                 1.0 / rate
+            );
+            self.logger.log(Status::Warning, Category::Warning, &message);
+        }
+    }
+
+    /// Says once, where a run begins, that all inputs are 0 though the scene begins with others: some hosts send 0 to inputs that
+    /// nobody connected.
+    fn warn_of_zeros(&mut self) {
+        let memory = &mut self.memory;
+        if memory.warned[2] || memory.simulation.time() != Some(memory.experiment.start) {
+            return;
+        }
+        let is_input = |reference| {
+            Parameters::<Effects>::meta(Place::of(reference))
+                .is_some_and(|meta| matches!(meta.role, Role::Input { .. }))
+        };
+        let mut inputs = STARTS.iter().filter(|(reference, _)| is_input(*reference));
+        let other = inputs.clone().find(|(_, start)| *start != 0.0);
+        let is_zero = |reference| memory.simulation.value(Place::of(reference)) == Some(0.0);
+        if let Some((reference, start)) = other
+            && inputs.all(|(reference, _)| is_zero(*reference))
+        {
+            memory.warned[2] = true;
+            let name = Parameters::<Effects>::name(Place::of(*reference)).unwrap_or_default();
+            let message = format!(
+                "all inputs are 0, and the scene begins with {name} = {start:?}: some hosts send 0 to inputs that nobody \
+                 connected; connect them, or set them to their start values"
             );
             self.logger.log(Status::Warning, Category::Warning, &message);
         }

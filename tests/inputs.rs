@@ -308,3 +308,38 @@ fn regress_a_refused_start_leaves_the_inputs_as_they_were() {
     assert_eq!(instance.exit_initialization(), Status::Ok);
     follows(&mut instance, 4.0, [2.0, -3.0, 5.0]);
 }
+
+/// The warnings of an instance on its inputs since it was last asked. A free rotor under a torque warns of other things too.
+fn warnings(instance: &Instance) -> Vec<String> {
+    let records = instance.journal.take().into_iter().filter(|record| record.category == "logStatusWarning");
+    records.map(|record| record.message).filter(|message| message.contains("input")).collect()
+}
+
+#[test]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+fn fmi_a_host_that_sends_zeros_where_the_scene_has_others_is_warned_once() {
+    // By nobody, by a host that connects nothing, by one that does, and by one that sends 0 later.
+    let cases: [(Option<Real>, usize); 4] = [(None, 0), (Some(0.0), 1), (Some(-0.0), 1), (Some(0.1), 0)];
+    for (first, expected) in cases {
+        for kind in [CO_SIMULATION, MODEL_EXCHANGE] {
+            let mut instance = Instance::of(kind).started(&FREE);
+            for n in 0..3 {
+                if let Some(value) = first {
+                    send(&mut instance, &[(0, if n == 0 { value } else { 0.0 })]);
+                }
+                if kind == CO_SIMULATION {
+                    assert_eq!(instance.do_step(0.1 * Real::from(n), 0.1), Status::Ok);
+                } else {
+                    instance.settled();
+                    assert_eq!(instance.set_time(0.1 * Real::from(n + 1)), Status::Ok);
+                    assert_eq!(instance.enter_event_mode(), Status::Ok);
+                }
+            }
+            let found = warnings(&instance);
+            assert_eq!(found.len(), expected, "{first:?}: {found:?}");
+            let own = scene().starts[&tau()];
+            let words = ["all inputs are 0".to_owned(), format!("{TAU} = {own:?}"), "connect".to_owned()];
+            assert!(found.iter().all(|message| words.iter().all(|word| message.contains(word))), "{found:?}");
+        }
+    }
+}

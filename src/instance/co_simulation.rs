@@ -17,6 +17,7 @@ impl Instance {
     /// fmi2DoStep
     pub fn do_step(&mut self, from: Real, step: Real) -> Reply {
         let to = self.end_of_step(from, step)?;
+        self.warn_of_zeros();
         let changes = self.memory.simulation.changes_of_method();
         let outcome = self.memory.simulation.advance(to);
         if self.memory.simulation.changes_of_method() != changes {

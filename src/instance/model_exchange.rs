@@ -42,6 +42,7 @@ impl Instance {
 
     /// fmi2EnterContinuousTimeMode
     pub fn enter_continuous_time_mode(&mut self) -> Reply {
+        self.warn_of_zeros();
         if let Some(open) = self.memory.simulation.open() {
             open.leave_event();
         }
