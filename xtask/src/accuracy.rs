@@ -96,8 +96,8 @@ fn bar(length: usize) -> ProgressBar {
 }
 
 /// Says what is measured now: on the bar, or as a line where there is none.
-fn tell(progress: &ProgressBar, what: &'static str) {
-    progress.set_message(what);
+fn tell(progress: &ProgressBar, what: &str) {
+    progress.set_message(what.to_owned());
     if progress.is_hidden() {
         println!("measuring {what}");
     }

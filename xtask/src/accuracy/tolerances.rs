@@ -5,7 +5,7 @@ use super::motion::Relative;
 use super::reference::Reference;
 use super::run::Subject;
 use super::table::{power, short};
-use super::{bar, span, sweep};
+use super::{bar, span, sweep, tell};
 use crate::unpacked::unpack;
 use crate::{package, paths, scenes, sheets};
 use anyhow::{Context, Result};
@@ -53,7 +53,7 @@ pub fn tolerances(packaged: bool) -> Result<()> {
     let progress = bar(names.len());
     let mut all = Vec::new();
     for name in &names {
-        progress.set_message(name.clone());
+        tell(&progress, name);
         all.push(measure(name).with_context(|| name.clone())?);
         progress.inc(1);
     }
