@@ -121,7 +121,7 @@ fn somewhere(scene: &Scene, random: &mut Random, possible: Possible) -> Simulati
 }
 
 /// So often a change is halved before a parameter is left as it is.
-const HALVINGS: i32 = 8;
+const HALVINGS: u32 = 8;
 
 /// Changes one variable, by less where that much is not possible; false, and all is as it was, where no change is.
 fn change(simulation: &mut Simulation<All>, variable: &Variable, random: &mut Random, possible: Possible) -> bool {
@@ -135,13 +135,14 @@ fn change(simulation: &mut Simulation<All>, variable: &Variable, random: &mut Ra
         }
         return is_possible;
     };
-    let drawn = random.within(range);
-    for halvings in 0..=HALVINGS {
+    let (drawn, mut part) = (random.within(range), 1.0);
+    for _ in 0..=HALVINGS {
         // The first time what was drawn, to the last bit.
-        set(simulation, variable, if halvings == 0 { drawn } else { old + (drawn - old) * 0.5_f64.powi(halvings) });
+        set(simulation, variable, if part == 1.0 { drawn } else { old + (drawn - old) * part });
         if possible(simulation) {
             return true;
         }
+        part *= 0.5;
     }
     set(simulation, variable, old);
     false

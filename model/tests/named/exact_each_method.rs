@@ -44,7 +44,7 @@ fn bits(named: &mut Named) -> Vec<u64> {
 
 /// A tumbling rotor at any time of 5 s: its attitude [1] and φ with all turns [rad], in the order of [`CHOICES`]: measured
 /// 1.1e-8 and 2.7e-8, 1.7e-9 and 3.8e-9, 5.0e-12 and 1.1e-11, 7.8e-13 and 1.0e-11, 1.1e-12 and 5.3e-12, 2.6e-13 and
-/// 4.3e-12, 3.6e-8 and 5.8e-8. Drifts are exact, and the quadrature that φ is measured by keeps 1e-11.
+/// 4.3e-12, 1.8e-7 and 3e-7. Drifts are exact, and the quadrature that φ is measured by keeps 1e-11.
 const TUMBLING: [[f64; 2]; 7] =
     [[4e-8, 1e-7], [6e-9, 1e-8], [2e-11, 4e-11], [3e-12, 4e-11], [4e-12, 2e-11], [1e-12, 2e-11], [5e-7, 1e-6]];
 
