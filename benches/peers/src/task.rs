@@ -4,7 +4,6 @@ use crate::equations::{Rotor, State};
 use anyhow::{Context, Result};
 use cpu_time::ThreadTime;
 use serde_json::{Value, json};
-use std::time::Instant;
 
 /// The scene, when it is looked at, and which settings are wanted.
 pub struct Task {
@@ -16,7 +15,7 @@ pub struct Task {
     repeats: Value,
     /// The solver's.
     version: &'static str,
-    /// Enough, once a method took so long [s].
+    /// Enough, once a method took so long [s of CPU time].
     budget: f64,
 }
 
@@ -79,7 +78,7 @@ impl Task {
 
     /// Runs each tolerance, from loose to tight, and prints what came of it.
     pub fn answer(&self, method: &str, run: impl Fn(f64) -> Result<Motion, String>) {
-        let began = Instant::now();
+        let began = ThreadTime::now();
         for &tolerance in &self.tolerances {
             if began.elapsed().as_secs_f64() > self.budget {
                 break;

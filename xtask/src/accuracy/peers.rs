@@ -18,8 +18,8 @@ use std::process::Command;
 /// The effects whose laws stand in the peers' equations.
 const EFFECTS: [&str; 3] = ["gravity", "support", "shaft"];
 
-/// A method of a peer begins no further setting once it took so long [s].
-const BUDGET: f64 = 5.0;
+/// A method of a peer begins no further setting once it took so long [s of CPU time].
+const BUDGET: f64 = 8.0;
 
 /// Between two points of the reference the axis may lean further than at both.
 const TILT_MARGIN: f64 = 1.2;
