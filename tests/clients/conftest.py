@@ -37,6 +37,12 @@ class Packaged:
         return float(self.description.defaultExperiment.stepSize)
 
     @property
+    def inputs(self):
+        """Pairs of name and start value, for clients that would send 0 to what nobody connects."""
+        inputs = (variable for variable in self.description.modelVariables if variable.causality == "input")
+        return tuple((variable.name, float(variable.start)) for variable in inputs)
+
+    @property
     def outputs(self):
         """fmpy's variables."""
         return [variable for variable in self.description.modelVariables if variable.causality == "output"]

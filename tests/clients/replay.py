@@ -98,6 +98,16 @@ class Replay:
         return "void" if recorded == "void" else value
 
 
+def messages(calls, library):
+    """What the instances of these calls log."""
+    said = []
+    replay = Replay(library)
+    replay.callbacks.logger = fmi2CallbackLoggerTYPE(lambda *message: said.append(message[4].decode()))
+    for recorded in calls:
+        replay.call(recorded)
+    return said
+
+
 def first_difference(calls, library):
     """The line, the recorded call and what came of it now, where the library first gives other bits; else None."""
     replay = Replay(library)

@@ -7,11 +7,12 @@ import sys
 import pytest
 import recording
 from recording import Place
-from replay import first_difference
+from replay import first_difference, messages
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="recorder.c is written for POSIX")
 
-SCENES = ["paper"]
+SCENES = ["paper", "driven", "coupled"]
+"""Two of them have inputs, which begin with other values than 0."""
 OTHERS = [pytest.param(client, marks=pytest.mark.long) for client in ("libcosimpy", "ecospy", "cofmpy")]
 
 CLOCKS = 1e-12  # [s], measured 1.8e-15 (libcosimpy) and 1.7e-13 (ecospy and cofmpy, which add up steps)
@@ -21,13 +22,13 @@ MOTIONS = 1e-9  # of the nominal, measured 1.0e-12 and 1.0e-10: support.F.z, who
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("client", ["fmpy", *OTHERS])
 def test_exact_the_same_calls_give_the_same_bits(record, packaged, client, scene):
-    assert first_difference(record(client, scene), packaged(scene).library) is None
+    assert first_difference(record(client, scene, packaged(scene).inputs), packaged(scene).library) is None
 
 
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("client", ["fmpy", *OTHERS])
 def test_fmi_the_client_reads_everything_to_the_end_and_nothing_is_refused(record, packaged, client, scene):
-    fmu, calls = packaged(scene), record(client, scene)
+    fmu, calls = packaged(scene), record(client, scene, packaged(scene).inputs)
     assert [call for call in calls if not call.accepted] == []
     points = recording.trajectory(calls)
     assert len(points) >= round(fmu.stop / fmu.step)
@@ -40,8 +41,10 @@ def test_fmi_the_client_reads_everything_to_the_end_and_nothing_is_refused(recor
 @pytest.mark.parametrize("client", OTHERS)
 def test_fmi_the_motion_is_that_of_fmpy(record, packaged, client, scene):
     """What the motion cost is left out, and so are turns and angle: together they are phi, apart they jump."""
+    inputs = packaged(scene).inputs
     compared = [v for v in packaged(scene).outputs if not v.name.startswith(("solver.", "turns", "angle"))]
-    pairs = list(zip(recording.trajectory(record("fmpy", scene)), recording.trajectory(record(client, scene))))
+    here, there = (recording.trajectory(record(one, scene, inputs)) for one in ("fmpy", client))
+    pairs = list(zip(here, there))
     assert max(abs(time - other) for (time, _), (other, _) in pairs) <= CLOCKS
     apart = {
         v.name: max(abs(here[v.valueReference] - there[v.valueReference]) for (_, here), (_, there) in pairs)
@@ -49,6 +52,22 @@ def test_fmi_the_motion_is_that_of_fmpy(record, packaged, client, scene):
         for v in compared
     }
     assert max(apart.values()) <= MOTIONS, apart
+
+
+ZEROS = "all inputs are 0, and the scene begins with shaft.tau = 0.5"
+
+
+@pytest.mark.long
+def test_fmi_zeros_that_a_client_sends_unasked_are_warned_of_once(record, packaged):
+    """CoFMPy sends 0 to an input that nobody connected, and so simulates another problem."""
+    fmu = packaged("driven")
+    (tau,) = (v.valueReference for v in fmu.description.modelVariables if v.causality == "input")
+    unasked = record("cofmpy", "driven")
+    sent = [call.arguments[1:] for call in unasked if call.function == "fmi2SetReal"]
+    assert sent and all(one == [[tau], 1, [0.0]] for one in sent)
+    assert sum(ZEROS in message for message in messages(unasked, fmu.library)) == 1
+    for asked in (record("cofmpy", "driven", fmu.inputs), record("fmpy", "driven")):
+        assert not any(ZEROS in message for message in messages(asked, fmu.library))
 
 
 @pytest.mark.long
