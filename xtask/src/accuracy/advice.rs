@@ -53,7 +53,7 @@ pub fn sentences(rows: &[Row], floor: f64, simulated: f64) -> Vec<String> {
     let sentence = |goal: f64| {
         let wanted = format!("For an error of at most {}", power(goal));
         // What is not a number is no agreement either.
-        if !(floor < goal) {
+        if floor.is_nan() || floor >= goal {
             return format!("{wanted} nothing can be said: the two references agree to {} only.", short(floor));
         }
         let name = |row: &Row| format!("{} with {}", row.method, setting(row));

@@ -51,7 +51,7 @@ pub fn shorten(subject: &mut Subject) {
         let times = std::iter::successors(Some(start), |t| {
             let next = t + step;
             step *= LONGER;
-            (*t < stop).then(|| if next < stop { next } else { stop })
+            (*t < stop).then_some(if next < stop { next } else { stop })
         });
         if let Ok(reached) = subject.reach(&setting, times.skip(1), AFFORDABLE) {
             subject.experiment.stop = cut(&subject.experiment, reached);

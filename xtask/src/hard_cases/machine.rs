@@ -102,15 +102,18 @@ pub fn shown(rotor: &Rotor) -> Result<Shown> {
     Ok(Shown { r_c: shown.r_c, v_c: Vector3::zeros(), axis: shown.axis, omega: Vector3::zeros(), phi })
 }
 
+/// How far apart two motions are.
+type Apart<'a> = &'a dyn Fn(&Shown, &Shown) -> f64;
+
 /// The largest error of place across e and of the axis over how far each goes, and of φ over how far it turns, but 1 rad at
 /// least.
 pub fn error(shown: &[Shown], exact: &[Shown]) -> Found {
     let across = |v: Vector3<f64>| libm::hypot(v.y, v.z);
-    let most = |of: &dyn Fn(&Shown, &Shown) -> f64, pairs: &mut dyn Iterator<Item = (&Shown, &Shown)>| {
+    let most = |of: Apart, pairs: &mut dyn Iterator<Item = (&Shown, &Shown)>| {
         pairs.map(|(a, b)| of(a, b)).fold(0.0, |most: f64, x| if x > most || x.is_nan() { x } else { most })
     };
     let mut found = Found::nothing();
-    let ways: [(&str, f64, &dyn Fn(&Shown, &Shown) -> f64); 3] = [
+    let ways: [(&str, f64, Apart); 3] = [
         ("place over its size", 0.0, &|a, b| across(a.r_c - b.r_c)),
         ("axis over its size", 0.0, &|a, b| (a.axis - b.axis).norm()),
         ("φ over its size", 1.0, &|a, b| (a.phi - b.phi).abs()),
