@@ -22,8 +22,6 @@ pub struct Verdict {
     pub errors: Result<Measures, String>,
     /// The worst error over what is allowed [1].
     pub worst: f64,
-    /// The reference's own error over what is allowed [1].
-    pub own: f64,
     /// Evaluations.
     pub evaluations: f64,
     /// What it took [s].
@@ -53,15 +51,7 @@ impl Verdict {
         let allowed = ALLOWED * tolerance * truth.growth.max(1.0);
         let errors = shown.map(|shown| over(truth.differences(trial, &shown), truth.sizes));
         let worst = errors.as_ref().map_or(f64::INFINITY, |errors| largest(*errors) / allowed);
-        Self {
-            tolerance,
-            method: name,
-            errors,
-            worst,
-            own: largest(truth.own_error) / allowed,
-            evaluations,
-            seconds: began.elapsed().as_secs_f64(),
-        }
+        Self { tolerance, method: name, errors, worst, evaluations, seconds: began.elapsed().as_secs_f64() }
     }
 
     /// Whether it answers as near as is allowed.

@@ -34,6 +34,8 @@ pub enum Unfit {
     Grows(f64),
     /// It turns more often than is judged.
     Spins(f64),
+    /// The reference errs by too much to judge by it, over the sizes.
+    Unsure(f64),
     /// The reference does not get on.
     Runaway,
 }
@@ -46,6 +48,9 @@ const OFF: f64 = 1e-6;
 
 /// A beyond this is not judged.
 const MOST_GROWTH: f64 = 1e4;
+
+/// The reference may err by so much of the sizes and of A [1]: a tenth of what is allowed at the smallest tolerance.
+const SURE: f64 = 3e-9;
 
 /// Revolutions beyond this are not judged.
 const MOST_TURNS: f64 = 1e4;
@@ -84,6 +89,10 @@ impl Truth {
             return Err(Unfit::Grows(growth));
         }
         let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
+        let own = largest(own_error);
+        if own.is_nan() || own > SURE * growth.max(1.0) {
+            return Err(Unfit::Unsure(own));
+        }
         Ok(Self {
             sizes,
             own_error,
