@@ -153,6 +153,7 @@ title = "An ordinary rotor, run up"
 m = 12.0
 Ja = 0.04
 Jt = 0.12
+l = 0.0
 [effects.shaft]
 tau = 24.0
 [[effects.bearing]]
