@@ -27,7 +27,7 @@ use crate::variable::Place;
 use crate::variables::{Parameters, Reading, numbers};
 use drive::Drive;
 use nominals::Nominals;
-use start::Motion;
+use start::{BESIDE, Motion};
 
 /// Who integrates a motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -355,7 +355,7 @@ impl<E: Effects> Simulation<E> {
     /// motion.
     pub fn least_sizes(&self) -> [f64; 4] {
         let nominals = self.nominals();
-        [0, 3, 6, 9].map(|n| LEAST * nominals[n])
+        [0, 3, 6, 9].map(|n| LEAST * BESIDE * nominals[n])
     }
 
     /// The energy at the start [J].

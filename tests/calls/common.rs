@@ -126,6 +126,7 @@ impl Actor {
         let told = Told { function: "fmi2Reset", may: OK };
         if self.call(&told, Instance::reset) == Status::Ok {
             self.mind.reset();
+            self.hurry();
         }
     }
 

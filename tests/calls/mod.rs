@@ -66,7 +66,9 @@ pub fn play(bytes: &[u8]) {
 
 impl Theatre {
     fn enter(&mut self, kind: Choice) {
-        self.actors.push(Actor { instance: Instance::of(kind), mind: Mind::new(kind) });
+        let mut actor = Actor { instance: Instance::of(kind), mind: Mind::new(kind) };
+        actor.hurry();
+        self.actors.push(actor);
     }
 
     fn act(&mut self, source: &mut Source) {

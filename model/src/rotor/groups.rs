@@ -5,6 +5,7 @@ use super::Rotor;
 use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::sizes::Squares;
+use crate::rotation::Tilt;
 use crate::state::{COORDINATES, Coordinates, DISSIPATED, SUPPLIED, WITH_WORK};
 use nalgebra::Vector3;
 
@@ -22,20 +23,31 @@ fn split(v: &Vector3<f64>) -> [f64; 2] {
 }
 
 impl<E: Effects> Rotor<E> {
-    /// [`System::sizes`]: how far r and γ are from where they are counted from, how fast the axis turns, 1 rad for φ, and for work
+    /// [`System::sizes`]: how far c and γ are from where they are counted from, how fast the axis turns, 1 rad for φ, and for work
     /// the kinetic energy, or up to twice as much.
     ///
-    /// What happens along e is second order in what happens across it, and counts beside that.
+    /// What happens along e is second order in what happens across it, and counts beside that. Where the mass centre is off the axis,
+    /// r and v go round with it; what c does beside that may be far less, and then φ must be known as well.
     #[inline(always)]
     pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
         let [at, rate, origin] = [y, rate, origin].map(|y| Coordinates::from_slice(y));
-        let ([x, r], [vx, v]) = (split(&(at.r - origin.r)), split(&at.v));
+        let (mut way, mut speed, mut phi) = (at.r - origin.r, at.v, 1.0);
+        let centre = self.body.uneven.map_or_else(Vector3::zeros, |uneven| uneven.centre);
+        let eccentricity = split(&centre)[1];
+        if eccentricity > 0.0 {
+            let [now, then] = [at, origin].map(|at| Tilt::new(self.chart, at.gamma).attitude(at.phi));
+            // eq. 79: r_c − r_c0 = r − r0 − (R − R0) b, v_c = v − dφ/dt t×R b
+            way -= (now - then) * centre;
+            speed -= now.column(0).cross(&(now * centre)) * rate.phi;
+            phi = (split(&way)[1] / eccentricity).min(1.0);
+        }
+        let ([x, r], [vx, v]) = (split(&way), split(&speed));
         let jt = 1.0 / self.body.per_jt;
         // eq. 84: |K| along K, Jt |dγ/dt| across it
         let across = rate.gamma.norm_squared() * (jt * jt);
         let (k, tilt) = (at.k.norm_squared(), (at.gamma - origin.gamma).norm_squared());
-        let kinetic = 0.5 * (self.body.m * (vx + v) + k * (self.body.per_jt + larger(self.body.spin, 0.0)));
-        [larger(x, r), r, larger(vx, v), v, k, across, tilt, 1.0, kinetic * kinetic]
+        let kinetic = 0.5 * (self.body.m * at.v.norm_squared() + k * (self.body.per_jt + larger(self.body.spin, 0.0)));
+        [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic]
     }
 
     /// [`System::parts`].

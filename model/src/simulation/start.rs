@@ -58,10 +58,14 @@ impl<E: Effects> Motion<E> {
     }
 }
 
+/// Errors count beside this part of the nominals [1] until a method has seen a motion that is larger: what a spring gives way to a
+/// weight may be far more than what the rotor then does.
+pub(super) const BESIDE: f64 = 1e-4;
+
 /// How small the error of a step must be (INTERFACE.md).
 pub(super) fn tolerance<E: Effects>(setup: &Setup, motion: &Motion<E>, t: f64) -> Tolerance {
     let Solver { relative_tolerance: relative, absolute_tolerance, .. } = setup.solver;
-    let nominal = Nominals::of(motion, t).squares();
-    let absolute = nominal.map(|square| absolute_tolerance * absolute_tolerance * square);
-    Tolerance { relative, absolute, nominal }
+    let squares = Nominals::of(motion, t).squares();
+    let part = |of: f64| squares.map(|square| of * of * square);
+    Tolerance { relative, absolute: part(absolute_tolerance), nominal: part(BESIDE) }
 }
