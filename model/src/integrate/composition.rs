@@ -135,8 +135,11 @@ const SHARE: f64 = 0.1;
 /// A step is chosen this much smaller than the error would allow, and grows only where it can grow by this; at most by
 /// [`MOST_GROWTH`] at once [1].
 const SAFETY: f64 = 0.8;
-const GROWTH: f64 = 1.5;
+const GROWTH: f64 = 1.25;
 const MOST_GROWTH: f64 = 6.0;
+
+/// A drift and a kick round about so many sums one after another.
+const SUMS: f64 = 4.0;
 
 /// The first step that is tried is no longer than this [s].
 const LONGEST_FIRST: f64 = 1e-2;
@@ -299,9 +302,8 @@ impl<const N: usize> Composed<N> {
         let rate = system.rates(end, y);
         self.cost.evaluations += 1.0;
         let seen = self.sizes.seen(system, y, &rate);
-        // Each part of a step rounds.
-        let parts = self.composition.parts().count() as f64;
-        let rounded = system.roundings_of_parts(&self.y, h).map(|square| square * parts * parts);
+        let sums = SUMS * self.composition.parts().count() as f64;
+        let rounded = system.roundings_of_parts(&self.y, h).map(|square| square * sums * sums);
         let weights = self.sizes.weights(&tolerance, &rounded, &seen);
         // eq. 45
         let apart = system.apart(y, &halves);

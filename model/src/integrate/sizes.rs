@@ -49,7 +49,7 @@ const ROUNDING: f64 = 3e-16;
 impl<const N: usize> Sizes<N> {
     /// Of a motion that begins at `y`, where its rate is `rate`.
     pub fn at_start(tolerance: &Tolerance, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Self {
-        let largest = each(&tolerance.nominal, &system.sizes(y, rate, y), larger);
+        let largest = larger_of(&tolerance.nominal, &system.sizes(y, rate, y));
         let recent = largest.map(|square| LEAST * LEAST * square);
         let mut sizes = Self { origin: *y, recent, largest };
         sizes.take(&system.sizes(y, rate, y), 0.0);
@@ -116,6 +116,7 @@ fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
-fn each(a: &Squares, b: &Squares, of: impl Fn(f64, f64) -> f64) -> Squares {
-    std::array::from_fn(|group| of(a[group], b[group]))
+/// The larger of two, group by group.
+pub fn larger_of(a: &Squares, b: &Squares) -> Squares {
+    std::array::from_fn(|group| larger(a[group], b[group]))
 }

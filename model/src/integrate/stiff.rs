@@ -9,7 +9,7 @@ pub mod spectrum;
 use super::answer::Answer;
 use super::control::Controller;
 use super::power::power;
-use super::sizes::{GROUPS, Sizes, Squares, largest_square};
+use super::sizes::{GROUPS, Sizes, Squares, larger_of, largest_square};
 use super::{Cost, Fault, LEAST_FIRST, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::stored;
@@ -29,8 +29,8 @@ pub struct Stiff<const N: usize> {
     /// Of the error estimate, which is of order 3.
     tolerance: Tolerance,
     sizes: Sizes<N>,
-    /// Newton's method stops at this part of it [1].
-    precision: f64,
+    /// Of what Newton's method leaves.
+    newton: Tolerance,
     controller: Controller,
     cost: Cost,
     /// The time reached [s], the state there and its rate.
@@ -46,7 +46,7 @@ pub struct Stiff<const N: usize> {
     segment: Segment<N>,
 }
 
-stored!(Stiff<const N: usize> { tolerance, sizes, precision, controller, cost, t, y, rate, h, iterations, smooth, segment });
+stored!(Stiff<const N: usize> { tolerance, sizes, newton, controller, cost, t, y, rate, h, iterations, smooth, segment });
 
 /// The last step.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +98,11 @@ impl<const N: usize> Stiff<N> {
         };
         let mut method = Self {
             tolerance: within,
-            precision: PRECISION / looser,
+            newton: Tolerance {
+                relative: PRECISION * tolerance.relative,
+                absolute: tolerance.absolute.map(|square| PRECISION * PRECISION * square),
+                ..tolerance
+            },
             t,
             y,
             segment: Segment { t, y, ..Segment::blank() },
@@ -119,7 +123,7 @@ impl<const N: usize> Stiff<N> {
         Self {
             tolerance: Tolerance::default(),
             sizes: Sizes::blank(),
-            precision: 0.0,
+            newton: Tolerance::default(),
             controller: Controller::new(4.0),
             cost: Cost::default(),
             t: 0.0,
@@ -341,7 +345,6 @@ impl<const N: usize> Stiff<N> {
         collocation: &Collocation<N>,
         guess: [[f64; N]; STAGES],
     ) -> Option<[[f64; N]; STAGES]> {
-        let weights = self.sizes.weights(&self.tolerance, &system.roundings(&y, collocation.h), &[0.0; GROUPS]);
         let (mut z, mut before) = (guess, f64::INFINITY);
         let mut w = collocation.transformed(&z);
         for iteration in 0..MOST_ITERATIONS {
@@ -352,6 +355,10 @@ impl<const N: usize> Stiff<N> {
                 let at = std::array::from_fn(|n| y[n] + z[i][n]);
                 rates[i] = self.evaluate(system, t + radau::C[i] * collocation.h, &at);
             }
+            let end = std::array::from_fn(|n| y[n] + z[STAGES - 1][n]);
+            let [from, to] = [y, end].map(|y| system.roundings(&y, collocation.h));
+            let seen = self.sizes.seen(system, &end, &rates[STAGES - 1]);
+            let weights = self.sizes.weights(&self.newton, &larger_of(&from, &to), &seen);
             let change = collocation.newton(&rates, &w);
             for i in 0..STAGES {
                 for n in 0..N {
@@ -363,7 +370,7 @@ impl<const N: usize> Stiff<N> {
             let now = (squares.iter().sum::<f64>() / STAGES as f64).sqrt();
             // What is left, by the rate at which the changes shrink.
             let rate = if iteration == 0 { 0.5 } else { now / before };
-            if now == 0.0 || (rate < 1.0 && rate / (1.0 - rate) * now <= self.precision) {
+            if now == 0.0 || (rate < 1.0 && rate / (1.0 - rate) * now <= 1.0) {
                 return Some(z);
             }
             // A stiff support takes two changes of one size, along its springs and back, before they shrink.

@@ -3,6 +3,7 @@
 use super::play::{Method, Ours, play};
 use super::trial::Trial;
 use super::truth::{Measures, Truth, largest, over};
+use std::f64::consts::TAU;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The tolerances that are tried.
@@ -10,6 +11,9 @@ pub const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 
 /// Errors may be so many tolerances of how far the motion goes.
 const ALLOWED: f64 = 300.0;
+
+/// And as much more as it nutates oftener than this.
+const NUTATIONS: f64 = 600.0;
 
 /// What became of a scene at a tolerance.
 #[derive(Clone, Debug)]
@@ -47,8 +51,9 @@ impl Verdict {
         };
         let shown = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(PANICKED.into()));
         let tolerance = tolerances[0];
-        // N of the goal, the periods, never was needed.
-        let allowed = ALLOWED * tolerance * truth.growth.max(1.0);
+        // What is dropped or wobbles nutates at Ja/Jt of its spin, and errors add up.
+        let nutations = truth.sizes[2] / TAU * trial.machine.Ja / trial.machine.Jt;
+        let allowed = ALLOWED * tolerance * truth.growth.max(1.0).max(nutations / NUTATIONS);
         let errors = shown.map(|shown| over(truth.differences(trial, &shown), truth.sizes));
         let worst = errors.as_ref().map_or(f64::INFINITY, |errors| largest(*errors) / allowed);
         Self { tolerance, method: name, errors, worst, evaluations, seconds: began.elapsed().as_secs_f64() }

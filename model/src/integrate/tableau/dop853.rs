@@ -9,7 +9,7 @@ pub static DOP853: Tableau = Tableau {
     stages: STAGES,
     last: STAGES.len(),
     error: ErrorRule::Blend { fine: ERROR_FINE, coarse: ERROR_COARSE },
-    calibration: 0.7,
+    calibration: 1.4,
     swings: 5.9,
     error_order: 8.0,
     dense_stages: DENSE_STAGES,
