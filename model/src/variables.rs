@@ -326,7 +326,7 @@ pub fn state_number(place: Place) -> Option<usize> {
 }
 
 /// So many whole turns are counted without a gap: 2⁵³ of them [rad].
-const LARGEST_PHI: f64 = TAU * (1_u64 << 53) as f64;
+pub(crate) const LARGEST_PHI: f64 = TAU * (1_u64 << 53) as f64;
 
 impl Setup {
     /// The first of its parameters whose value is not possible.

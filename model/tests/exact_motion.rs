@@ -104,7 +104,7 @@ fn whirl_errors(whirl: &Whirl, t: f64, reading: &Reading) -> [f64; 3] {
 /// what is allowed, at most 3.3e-10. At the middle tilts the error grows with the square of the time, and at 1e-12 is
 /// 3.5e-8 at worst. From 2 rad on the motion is in the chart from −e.
 const WHIRLS: [(f64, [f64; 3]); 9] = [
-    (0.1, [3e-15, 1e-13, 2e-13]),
+    (0.1, [3e-14, 1e-13, 2e-13]),
     (0.5, [1.3e-13, 4e-12, 5.5e-12]),
     (1.0, [1.7e-12, 5.5e-11, 4.5e-11]),
     (1.25, [1.1e-11, 3.5e-10, 2.6e-10]),

@@ -83,9 +83,9 @@ fn exact_answers_between_the_steps() {
 
 // ---------------------------------------------------------------------------------------------------- late times
 
-/// The motion from t = ±1e6 s against that from 0 [m, 1, rad], over 2 s: measured 1.4e-14, because a step
+/// The motion from t = ±1e6 s against that from 0 [m, 1, rad], over 2 s: measured 2.1e-13, because a step
 /// spans what the rounded times span.
-const LATE: f64 = 5e-14;
+const LATE: f64 = 6e-13;
 
 #[test]
 fn regress_late_start() {
@@ -219,12 +219,12 @@ fn regress_absurd_forces_are_faults() {
 #[test]
 fn regress_a_start_whose_energy_overflows_is_invalid() {
     let aside = Scene { r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
-    for scene in [
-        Scene { omega: Vector3::new(1e200, 1e200, 0.0), ..aside.clone() },
-        Scene { g: Vector3::new(0.0, -f64::MAX, 0.0), ..aside.clone() },
+    for (scene, name) in [
+        (Scene { omega: Vector3::new(1e200, 1e200, 0.0), ..aside.clone() }, "start.omega.x"),
+        (Scene { g: Vector3::new(0.0, -f64::MAX, 0.0), ..aside.clone() }, "gravity.g.y"),
     ] {
         let invalid = scene.simulation::<Supported>().start(0.0, None).expect_err("impossible");
-        assert_eq!(invalid.variable, "energy.total");
+        assert!(invalid.variable.starts_with(name), "{}", invalid.variable);
     }
 }
 

@@ -37,9 +37,9 @@ impl Nominals {
         // Across e, by number: the rate of v or K, and the place or tilt that a spring answers; in metres.
         let springs =
             [(4, 1, 1.0, 1.0), (5, 2, 1.0, 1.0), (7, GAMMA.start, jt, radius), (8, GAMMA.start + 1, jt, radius)];
-        let rate =
-            springs.iter().map(|&(rate, at, inertia, _)| (slopes[rate][at] / inertia).abs().sqrt()).fold(omega, larger);
-        let rate = if rate > 0.0 { rate } else { 1.0 };
+        let swings = springs.iter().map(|&(rate, at, inertia, _)| (slopes[rate][at] / inertia).abs().sqrt());
+        let rate = swings.filter(|rate| rate.is_finite()).fold(omega, larger);
+        let rate = if rate > 0.0 && rate.is_finite() { rate } else { 1.0 };
         // How far springs give way to what pushes at the start.
         let gives = springs.map(|(rate, at, _, length)| (rates[rate] / slopes[rate][at]).abs() * length);
         let eccentricity = body.uneven.map_or(0.0, |uneven| uneven.centre.yz().norm());
@@ -66,7 +66,9 @@ impl Nominals {
         let Self { place, velocity, momentum, tilt, .. } = *self;
         let mut nominals = [1.0; WITH_WORK];
         for (n, nominal) in nominals[..GAMMA.end].iter_mut().enumerate() {
-            *nominal = [place, velocity, momentum, tilt][n / 3];
+            let size = [place, velocity, momentum, tilt][n / 3];
+            // Of absurd parameters no size may come of it that a host cannot take.
+            *nominal = if size > 0.0 && size.is_finite() { size } else { 1.0 };
         }
         nominals
     }

@@ -10,7 +10,7 @@ use crate::rotation::chart::crossed_exactly;
 use crate::rotor::{LIMIT, Rotor};
 use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK, Whole};
 use crate::stored::stored;
-use crate::variables::{Parameters, Reading};
+use crate::variables::{LARGEST_PHI, Parameters, Reading};
 use nalgebra::Vector2;
 
 /// A rotor whose state a host sets.
@@ -139,6 +139,9 @@ impl<E: Effects> Open<E> {
         if !self.state.iter().all(|number| number.is_finite()) {
             return Err(Refusal("a state is infinite or not a number"));
         }
+        if self.state[PHI].abs() > LARGEST_PHI {
+            return Err(Refusal("phi of the continuous states is so large that its whole turns cannot be counted"));
+        }
         self.rotor.reaches(gamma(&self.state), LIMIT)
     }
 
@@ -217,7 +220,9 @@ impl<E: Effects> Open<E> {
     fn turns(&self) -> f64 {
         let mut last = self.completed.gamma;
         let gained = self.path().map(|gamma| self.rotor.chart.turns_gained(std::mem::replace(&mut last, gamma), gamma));
-        self.rotor.turns + gained.sum::<f64>()
+        let gained = gained.sum::<f64>();
+        // Near −e a rate may have no limit; a host's state there is refused, and counts no turn.
+        self.rotor.turns + if gained.is_finite() { gained } else { 0.0 }
     }
 
     /// The way of γ [rad] since the last completed step, in pieces.

@@ -310,3 +310,15 @@ fn regress_no_step_passes_the_limit() {
         }
     }
 }
+
+#[test]
+fn regress_a_step_that_loses_the_energy_is_taken_back_as_a_whole() {
+    let mut named = Named::new("paper", Integrator::Method);
+    [("solver.method", 4.0), ("solver.step_size", 0.2)].iter().for_each(|(name, value)| named.set(name, *value));
+    named.start();
+    let before = named.simulation.state().expect("started");
+    let fault = named.simulation.advance(0.01).expect_err("steps that are far too long");
+    assert!(fault.to_string().contains("the energy is not kept"), "{fault}");
+    assert_eq!(named.simulation.time(), Some(0.0));
+    assert_eq!(named.simulation.state().expect("started"), before);
+}
