@@ -80,6 +80,12 @@ const PRECISION: f64 = 0.1;
 /// A first step is no longer than this [s].
 const LONGEST_FIRST: f64 = 1e-2;
 
+/// Its equations round about so many sums one after another.
+const SUMS: f64 = 10.0;
+
+/// The last step foretells the next one as long as that is at most so many times longer [1].
+const FORETOLD: f64 = 10.0;
+
 /// Newton's method gives up after so many iterations.
 const MOST_ITERATIONS: u32 = 10;
 
@@ -224,7 +230,6 @@ impl<const N: usize> Stiff<N> {
             return Err(Fault::NotFinite { t: self.t });
         }
         let before = self.h;
-        let jacobian = self.differentiate(system);
         let mut obstacle = None;
         loop {
             // A step that is not a number does not advance the time either.
@@ -237,6 +242,8 @@ impl<const N: usize> Stiff<N> {
             let end = end_of_step(self.t, self.h, until);
             // The step that the rounded times really span, or 10⁷ of them would drift from the time that they claim.
             self.h = end - self.t;
+            // Anew for each try: where a step that was far too long seemed to go, it does not.
+            let jacobian = self.differentiate(system);
             let Attempt { z, error, rate, seen } = self.attempt(system, end, &jacobian);
             let y = self.ended(&z);
             let mut least_factor = REFUSED;
@@ -329,7 +336,7 @@ impl<const N: usize> Stiff<N> {
     /// What the state gains on the first part `sigma` of a step, by the polynomial of the last one.
     fn foretold_at(&self, sigma: f64) -> [f64; N] {
         let Segment { h, z, .. } = &self.segment;
-        if !self.smooth {
+        if !self.smooth || self.h > FORETOLD * h {
             return [0.0; N];
         }
         let ahead = combined(&weights(1.0 + sigma * self.h / h), z);
@@ -355,10 +362,12 @@ impl<const N: usize> Stiff<N> {
                 let at = std::array::from_fn(|n| y[n] + z[i][n]);
                 rates[i] = self.evaluate(system, t + radau::C[i] * collocation.h, &at);
             }
+            // What rounds is as large as the larger end.
             let end = std::array::from_fn(|n| y[n] + z[STAGES - 1][n]);
             let [from, to] = [y, end].map(|y| system.roundings(&y, collocation.h));
-            let seen = self.sizes.seen(system, &end, &rates[STAGES - 1]);
-            let weights = self.sizes.weights(&self.newton, &larger_of(&from, &to), &seen);
+            let rounded = larger_of(&from, &to).map(|square| square * SUMS * SUMS);
+            // As large as the motion was of late: a stage that is still wrong may be of any size.
+            let weights = self.sizes.weights(&self.newton, &rounded, &[0.0; GROUPS]);
             let change = collocation.newton(&rates, &w);
             for i in 0..STAGES {
                 for n in 0..N {
