@@ -19,10 +19,10 @@ pub fn variables_of<'s>(scene: &'s Scene, info: &Info, index: u32) -> impl Itera
     scene.variables.iter().filter(move |variable| variable.place.block == block)
 }
 
-/// Whether a scene names its method. One that leaves it to `auto` is too stiff, too fast or too long for the loops of a host in
-/// model exchange, and for differences.
+/// Whether a scene names an adaptive method. The others are too stiff, too fast or too long for the loops of a host in model exchange,
+/// and for differences.
 pub fn is_gentle(scene: &Scene) -> bool {
-    scene.parameters().setup.solver.method_in_force() != numbers::AUTO
+    ![numbers::AUTO, numbers::SYMPLECTIC].contains(&scene.parameters().setup.solver.method_in_force())
 }
 
 /// Lists the scenes and their effects.
