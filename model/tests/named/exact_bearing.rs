@@ -183,7 +183,7 @@ fn exact_drag_brakes_the_spin_and_not_the_coning() {
         [along, (k - axis * along).norm()]
     };
     let [along, across] = parts(&mut named);
-    let size = along.hypot(across);
+    let size = libm::hypot(along, across);
     for i in 1..=10 {
         let t = f64::from(i);
         named.simulation.advance(t).expect("a possible motion");

@@ -179,7 +179,7 @@ const ALONG: f64 = 4e-9;
 
 /// Follows a motion about 0.05 s and notes how far exact rates of change are from differences, for each variable.
 fn along(named: &mut Named, worst: &mut BTreeMap<String, f64>) {
-    const H: f64 = 0.004;
+    const H: f64 = 0.002;
     let wanted = calculated(named);
     let now = 0.05;
     let mut offsets: Vec<f64> =

@@ -126,7 +126,7 @@ pub fn unstable(cross: f64) -> Vec<(&'static str, f64)> {
 }
 
 /// How fast the unstable whirl grows [1/s], by the eigenvalues of the rotor at rest, which another program found.
-const GROWTH: [(f64, f64); 2] = [(1e7, 245.481_702_9), (1e8, 2705.799_231)];
+const GROWTH: [(f64, f64); 2] = [(1e7, 245.481_702_9), (1e8, 2_705.799_231)];
 
 #[test]
 fn regress_an_unstable_rotor_is_told_of_and_ends() {

@@ -273,7 +273,7 @@ fn regress_steps_that_are_not_given_keep_the_tolerance() {
             named.simulation.advance(0.1 * f64::from(i)).expect("a possible motion");
             ["r_c.x", "r_c.y", "r_c.z", "axis.x", "axis.y", "axis.z"].map(|name| named.get(name))
         };
-        (1..=20).flat_map(|i| at(i)).collect()
+        (1..=20).flat_map(at).collect()
     };
     for changes in ACTS {
         let exact = shown(changes, [3.0, 6.0, 1e-13]);
