@@ -269,7 +269,7 @@ fn regress_steps_that_are_not_given_keep_the_tolerance() {
     let shown = |changes: &[(&str, f64)], solver: [f64; 3]| -> Vec<f64> {
         let mut named = loose(changes, solver);
         named.start();
-        let mut at = |i: u32| {
+        let at = |i: u32| {
             named.simulation.advance(0.1 * f64::from(i)).expect("a possible motion");
             ["r_c.x", "r_c.y", "r_c.z", "axis.x", "axis.y", "axis.z"].map(|name| named.get(name))
         };
