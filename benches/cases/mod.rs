@@ -7,6 +7,7 @@ mod harness;
 
 use harness::Instance;
 use model::integrate::explicit::Explicit;
+use model::integrate::sizes::GROUPS;
 use model::integrate::tableau::Tableau;
 use model::integrate::{Refusal, System, Tolerance};
 use model::rotor::Rotor;
@@ -31,6 +32,9 @@ const MOVED: f64 = 0.5;
 
 /// A communication step that makes the solver work [s].
 pub const LONG: f64 = 0.1;
+
+/// What rests counts with, squared.
+const LEAST: f64 = 1e-12;
 
 /// The tolerance of the steps [1].
 const TOLERANCE: f64 = 1e-10;
@@ -57,7 +61,7 @@ pub fn rotor<const N: usize>() -> At<Rotor<Effects>, N> {
         system: Rotor::new(parameters.shape().inertia(), parameters.effects, chart, 0.0),
         t: MOVED,
         y: std::array::from_fn(|n| state[n]),
-        tolerance: Tolerance { relative: TOLERANCE, ..Tolerance::default() },
+        tolerance: Tolerance { relative: TOLERANCE, nominal: [LEAST; GROUPS], ..Tolerance::default() },
     }
 }
 

@@ -14,6 +14,10 @@ import project
 from host import Host
 
 
+def _silent(*_message):
+    """Logs nothing."""
+
+
 @dataclass(frozen=True)
 class Fmu:
     """An FMU, packed and unpacked."""
@@ -35,6 +39,8 @@ class Fmu:
 
     def simulate(self, **options):
         """fmpy's result: a structured array, a row a communication point."""
+        # A logger each time: without one fmpy logs through that of an earlier call, which is gone.
+        options.setdefault("logger", _silent)
         return simulate_fmu(str(self.directory), model_description=self.description, **options)
 
 
