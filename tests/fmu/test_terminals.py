@@ -44,7 +44,7 @@ def test_exact_a_shaft_is_a_terminal(fmu, root):
     named = {terminal.get("name"): terminal for terminal in root.findall("Terminals/Terminal")}
     ports = [name for name in named if re.fullmatch(r"port\[\d\]", name)]
     assert set(ports) == {name.partition(".")[0] for name in fmu.variables if name.startswith("port[")}
-    assert set(named) - set(ports) == {"shaft"} & {name.partition(".")[0] for name in fmu.variables}
+    assert set(named) - set(ports) == {"shaft", "imposed_speed"} & {name.partition(".")[0] for name in fmu.variables}
     terminals = [terminal for name, terminal in named.items() if name == "shaft"]
     for terminal in terminals:
         members = {m.get("memberName"): m.get("variableKind") for m in terminal.findall("TerminalMemberVariable")}
