@@ -128,7 +128,7 @@ impl<E: Effects> Simulation<E> {
         self.start_until(t, relative_tolerance, None)
     }
 
-    /// [`Simulation::start`] of a run that is known to stop at `stop` [s], which `auto` and the steps of compositions heed.
+    /// [`Simulation::start`] of a run that is known to stop at `stop` [s]: no step runs ahead of that.
     pub fn start_until(&mut self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
         let parameters = self.in_force(t, relative_tolerance);

@@ -172,11 +172,7 @@ impl<const N: usize> Composed<N> {
         t: f64,
         y: [f64; N],
     ) -> Self {
-        let tolerance = Tolerance {
-            relative: SHARE * tolerance.relative,
-            absolute: tolerance.absolute.map(|square| SHARE * SHARE * square),
-            ..tolerance
-        };
+        let tolerance = tolerance.times(SHARE);
         let rate = system.rates(t, &y);
         let sizes = Sizes::at_start(&tolerance, system, &y, &rate);
         let weights = sizes.weights(&tolerance, &system.roundings(&y, f64::INFINITY), &sizes.seen(system, &y, &rate));
@@ -240,7 +236,7 @@ impl<const N: usize> Composed<N> {
 
     /// From now on excursions of these components count from 0.
     pub fn recount(&mut self, components: Range<usize>) {
-        self.sizes.origin[components].fill(0.0);
+        self.sizes.recount(components);
     }
 
     /// What the run has cost so far. No error is estimated.

@@ -161,7 +161,7 @@ impl<const N: usize> Explicit<N> {
 
     /// From now on excursions of these components count from 0.
     pub fn recount(&mut self, components: Range<usize>) {
-        self.sizes.origin[components].fill(0.0);
+        self.sizes.recount(components);
     }
 
     /// What the run has cost so far.

@@ -4,6 +4,7 @@
 use super::System;
 use super::lanes::{both, nothing, pair, pairs, put, sum};
 use crate::stored::stored;
+use std::ops::Range;
 
 /// A state has at most so many groups, each of which is measured by one norm.
 pub const GROUPS: usize = 9;
@@ -23,6 +24,14 @@ pub struct Tolerance {
 }
 
 stored!(Tolerance { relative, absolute, nominal });
+
+impl Tolerance {
+    /// So many times as loose.
+    pub fn times(self, factor: f64) -> Self {
+        let absolute = self.absolute.map(|square| square * factor * factor);
+        Self { relative: self.relative * factor, absolute, ..self }
+    }
+}
 
 /// How large the motion was of late, and ever.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +68,11 @@ impl<const N: usize> Sizes<N> {
     /// Nothing yet: a place for what was stored.
     pub fn blank() -> Self {
         Self { origin: [0.0; N], recent: [0.0; GROUPS], largest: [0.0; GROUPS] }
+    }
+
+    /// From now on excursions of these components count from 0.
+    pub fn recount(&mut self, components: Range<usize>) {
+        self.origin[components].fill(0.0);
     }
 
     /// The sizes of the motion at `y`.

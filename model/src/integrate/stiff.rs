@@ -97,18 +97,10 @@ impl<const N: usize> Stiff<N> {
     pub fn start(tolerance: Tolerance, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
         // The estimate falls with h⁴ and the error of a run with h⁵: what the one calls c tol^(4/5) the other keeps to tol.
         let looser = LOOSER / power(tolerance.relative, 0.2);
-        let within = Tolerance {
-            relative: tolerance.relative * looser,
-            absolute: tolerance.absolute.map(|square| square * looser * looser),
-            ..tolerance
-        };
+        let within = tolerance.times(looser);
         let mut method = Self {
             tolerance: within,
-            newton: Tolerance {
-                relative: PRECISION * tolerance.relative,
-                absolute: tolerance.absolute.map(|square| PRECISION * PRECISION * square),
-                ..tolerance
-            },
+            newton: tolerance.times(PRECISION),
             t,
             y,
             segment: Segment { t, y, ..Segment::blank() },
@@ -215,7 +207,7 @@ impl<const N: usize> Stiff<N> {
 
     /// From now on excursions of these components count from 0.
     pub fn recount(&mut self, components: Range<usize>) {
-        self.sizes.origin[components].fill(0.0);
+        self.sizes.recount(components);
     }
 
     /// What the run has cost so far. A matrix of derivatives counts as one evaluation for each of its columns.

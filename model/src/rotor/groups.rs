@@ -9,10 +9,6 @@ use crate::rotation::Tilt;
 use crate::state::{COORDINATES, Coordinates, DISSIPATED, SUPPLIED, WITH_WORK};
 use nalgebra::Vector3;
 
-/// Along e and across it: of r [m] and v [m/s]. Along K and across it: of K [kg·m²/s]. Then γ [rad] and φ [rad].
-pub const NAMES: [&str; 8] =
-    ["r along e", "r across e", "v along e", "v across e", "K along K", "K across K", "gamma", "phi"];
-
 /// The number of γ among them.
 pub const GAMMA: usize = 6;
 

@@ -9,7 +9,7 @@ pub fn step<const N: usize>(f: impl Fn(f64, &[f64; N]) -> [f64; N], t: f64, y: &
     let mut table: Vec<[f64; N]> = Vec::new();
     for column in 1..=COLUMNS {
         let parts = f64::from(2 * column);
-        let mut value = change(&f, t, y, &first, h, 2 * column);
+        let mut value = midpoint(&mut |t, y| f(t, y), t, y, &first, h, 2 * column);
         for (previous, fewer) in table.iter_mut().zip((1..column).rev()) {
             let ratio = parts / f64::from(2 * fewer);
             let better = std::array::from_fn(|n| value[n] + (value[n] - previous[n]) / (ratio * ratio - 1.0));
@@ -35,8 +35,8 @@ pub fn steps<const N: usize>(
 
 /// By how much y changes, by Gragg's smoothed midpoint rule in an even number of parts: changes, because extrapolation
 /// multiplies their rounding by a hundred.
-fn change<const N: usize>(
-    f: impl Fn(f64, &[f64; N]) -> [f64; N],
+pub fn midpoint<const N: usize>(
+    f: &mut impl FnMut(f64, &[f64; N]) -> [f64; N],
     t: f64,
     y: &[f64; N],
     first: &[f64; N],
@@ -44,7 +44,7 @@ fn change<const N: usize>(
     parts: u32,
 ) -> [f64; N] {
     let part = h / f64::from(parts);
-    let rates = |i: u32, change: &[f64; N]| f(t + f64::from(i) * part, &std::array::from_fn(|n| y[n] + change[n]));
+    let mut rates = |i: u32, change: &[f64; N]| f(t + f64::from(i) * part, &std::array::from_fn(|n| y[n] + change[n]));
     let (mut before, mut now) = ([0.0; N], first.map(|rate| part * rate));
     for i in 1..parts {
         let rates = rates(i, &now);

@@ -6,6 +6,7 @@
 //! φ as a quadrature of ω·(e + t)/(1 + e·t). Vectors in O, SI units, radians. Checks: `exact_machine.rs`.
 
 mod inputs;
+pub mod known;
 mod laws;
 mod run;
 mod stepping;

@@ -1,6 +1,7 @@
 //! Scenes that are always among them: those of which it is known that they went wrong.
 
 use super::trial::{Change, Partner, Trial};
+use crate::oracles::machine::known::{drifting, ordinary};
 use crate::oracles::machine::{Bearing, Input, Machine, Start, Support, Unbalance};
 use nalgebra::Vector3;
 
@@ -10,38 +11,6 @@ fn points(end: f64, count: u32) -> Vec<f64> {
     let uneven = |k: u32| 0.618_033_988_749_894_9 * f64::from(k) % 1.0 - 0.5;
     let at = |k: u32| end * (f64::from(k) + 0.6 * uneven(k)) / f64::from(count);
     (1..count).map(at).chain([end]).collect()
-}
-
-/// The rotor that `auto` let drift: nothing holds it.
-fn drifting() -> Machine {
-    Machine {
-        m: 5.0,
-        Ja: 0.15625,
-        Jt: 0.078125,
-        l: 0.75,
-        start: Start { r_c: Vector3::x() * 0.75, omega: Vector3::new(50.0, 5.0, 0.0), ..Start::default() },
-        ..Machine::default()
-    }
-}
-
-/// Two bearings and an unbalance: what every visitor brings.
-fn ordinary() -> Machine {
-    let bearing = |position: f64| Bearing {
-        position,
-        k: [[2e7, 0.0], [0.0, 1.5e7]],
-        c: [[2000.0, 0.0], [0.0, 2000.0]],
-        ..Bearing::default()
-    };
-    Machine {
-        m: 12.0,
-        Ja: 0.04,
-        Jt: 0.12,
-        bearings: vec![bearing(-0.12), bearing(0.12)],
-        unbalances: vec![Unbalance { mass: 0.002, radius: 0.02, angle: 0.0, position: 0.0 }],
-        shaft: true,
-        inputs: vec![(Input::Torque, 24.0)],
-        ..Machine::default()
-    }
 }
 
 /// A bearing with a film of oil: stiffness [N/m] and damping [N·s/m] that differ from y to z and are coupled.

@@ -3,7 +3,8 @@
 use super::case::{Case, times};
 use super::machine::Scene;
 use super::method::{Method, at, symplectic};
-use crate::oracles::machine::{Bearing, Input, Machine, Shown, Start, Unbalance};
+use crate::oracles::machine::known::{drifting, ordinary};
+use crate::oracles::machine::{Machine, Shown, Start};
 use anyhow::{Result, ensure};
 use nalgebra::Vector3;
 
@@ -15,40 +16,32 @@ pub fn cases() -> Vec<Case> {
     vec![held_by_partners(), run_down(), run_up()]
 }
 
-/// Nothing holds it.
-fn drifting() -> Machine {
-    Machine {
-        m: 5.0,
-        Ja: 0.15625,
-        Jt: 0.078125,
-        l: 0.75,
-        start: Start { r_c: Vector3::x() * 0.75, omega: Vector3::new(50.0, 5.0, 0.0), ..Start::default() },
-        ..Machine::default()
-    }
-}
-
 fn with(methods: Vec<Method>, bounds: &[f64]) -> Vec<(Method, f64)> {
     methods.into_iter().zip(bounds.iter().copied()).collect()
+}
+
+/// Every method, that of order 8 in steps of this size [s].
+fn tried(step: f64) -> Vec<Method> {
+    vec![
+        at("dop853", 1e-8),
+        at("dopri5", 1e-8),
+        at("stiff", 1e-8),
+        symplectic(8, step),
+        at("auto", 1e-4),
+        at("auto", 1e-8),
+    ]
 }
 
 fn held_by_partners() -> Case {
     let start = Start { r_c: Vector3::new(0.0, 1e-3, -2e-3), omega: Vector3::new(50.0, 5.0, 0.0), ..Start::default() };
     let machine = Machine { ports: vec![-0.2, 0.25], start, ..drifting() };
     let partners = vec![[2e4, 100.0], [3e4, 150.0]];
-    let methods = vec![
-        at("dop853", 1e-8),
-        at("dopri5", 1e-8),
-        at("stiff", 1e-8),
-        symplectic(8, 1e-3),
-        at("auto", 1e-4),
-        at("auto", 1e-8),
-    ];
     Case {
         name: "held by two partner bearings through its ports, 500 exchanges".into(),
         hard: "at the start nothing seems to act; loads jump at each exchange",
         oracle: ORACLE,
         scene: "rotor",
-        methods: with(methods, &[8e-12, 1e-9, 8e-10, 5e-14, 5e-11, 8e-12]),
+        methods: with(tried(1e-3), &[8e-12, 1e-9, 8e-10, 5e-14, 5e-11, 8e-12]),
         mutant: ("port[1].f.y", 1.001),
         task: Scene { machine, times: times(1.0, 500), partners }.task(|_| Ok(())),
     }
@@ -56,20 +49,12 @@ fn held_by_partners() -> Case {
 
 fn run_down() -> Case {
     let machine = Machine { drag: Some([0.001, 0.0]), ..drifting() };
-    let methods = vec![
-        at("dop853", 1e-8),
-        at("dopri5", 1e-8),
-        at("stiff", 1e-8),
-        symplectic(8, 1e-2),
-        at("auto", 1e-4),
-        at("auto", 1e-8),
-    ];
     Case {
         name: "run-down by windage, 800 nutations".into(),
         hard: "nothing depends on the place, and yet something acts",
         oracle: ORACLE,
         scene: "rotor",
-        methods: with(methods, &[6e-6, 4e-5, 4e-5, 2e-11, 0.08, 6e-6]),
+        methods: with(tried(1e-2), &[6e-6, 4e-5, 4e-5, 2e-11, 0.08, 6e-6]),
         mutant: ("drag.linear", 1.01),
         task: Scene::alone(machine, times(60.0, 300)).task(|shown| {
             // Along t the windage is all that acts: ω_a = 50 exp(−0.001 t/Ja).
@@ -79,26 +64,6 @@ fn run_down() -> Case {
             ensure!(off.abs() < 1e-11 * left, "the oracle's spin is off by {off:e} rad/s");
             Ok(())
         }),
-    }
-}
-
-/// The ordinary rotor: two bearings, an unbalance, run up through its critical speeds.
-pub fn ordinary() -> Machine {
-    let bearing = |position: f64| Bearing {
-        position,
-        k: [[2e7, 0.0], [0.0, 1.5e7]],
-        c: [[2000.0, 0.0], [0.0, 2000.0]],
-        ..Bearing::default()
-    };
-    Machine {
-        m: 12.0,
-        Ja: 0.04,
-        Jt: 0.12,
-        bearings: vec![bearing(-0.12), bearing(0.12)],
-        unbalances: vec![Unbalance { mass: 0.002, radius: 0.02, angle: 0.0, position: 0.0 }],
-        shaft: true,
-        inputs: vec![(Input::Torque, 24.0)],
-        ..Machine::default()
     }
 }
 

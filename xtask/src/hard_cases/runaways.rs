@@ -3,8 +3,8 @@
 use super::case::{Case, Found, times};
 use super::machine::{Scene, error, shown, started};
 use super::method::{Method, at};
-use super::rotors::ordinary;
 use crate::fmu::{DISCARD, Refused};
+use crate::oracles::machine::known::ordinary;
 use crate::oracles::machine::{Machine, Start};
 use anyhow::{Context, Result, ensure};
 use nalgebra::Vector3;

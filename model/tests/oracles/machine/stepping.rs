@@ -2,6 +2,8 @@
 //!
 //! Source: Gragg (1965); Bulirsch and Stoer (1966); the choice of order and step after Hairer, Nørsett and Wanner, II.9.
 
+use super::super::extrapolation::midpoint;
+
 /// As many columns as there may be: order 22.
 pub const MOST: usize = 11;
 
@@ -17,7 +19,7 @@ pub fn change<const N: usize>(
 ) -> [f64; N] {
     let mut table = [[0.0; N]; MOST];
     for column in 1..=MOST {
-        let mut value = midpoint(f, t, y, first, h, 2 * column);
+        let mut value = midpoint(f, t, y, first, h, 2 * column as u32);
         let mut difference = [0.0; N];
         for fewer in (1..column).rev() {
             let ratio = column as f64 / fewer as f64;
@@ -37,26 +39,4 @@ pub fn change<const N: usize>(
 /// How many evaluations so many columns take, but for the first, which all steps from one point share.
 pub fn cost(columns: usize) -> usize {
     columns * (columns + 1)
-}
-
-/// By how much y changes, by Gragg's smoothed midpoint rule in an even number of parts: changes, because extrapolation
-/// multiplies their rounding by a hundred.
-fn midpoint<const N: usize>(
-    f: &mut impl FnMut(f64, &[f64; N]) -> [f64; N],
-    t: f64,
-    y: &[f64; N],
-    first: &[f64; N],
-    h: f64,
-    parts: usize,
-) -> [f64; N] {
-    let part = h / parts as f64;
-    let mut rates = |i: usize, change: &[f64; N]| f(t + i as f64 * part, &std::array::from_fn(|n| y[n] + change[n]));
-    let (mut before, mut now) = ([0.0; N], first.map(|rate| part * rate));
-    for i in 1..parts {
-        let rates = rates(i, &now);
-        let next = std::array::from_fn(|n| before[n] + 2.0 * part * rates[n]);
-        before = std::mem::replace(&mut now, next);
-    }
-    let rates = rates(parts, &now);
-    std::array::from_fn(|n| 0.5 * (before[n] + now[n] + part * rates[n]))
 }
