@@ -135,6 +135,10 @@ class Host:
         """All outputs."""
         return self.slave.getReal([v.valueReference for v in self.variables.values() if v.causality == "output"])
 
+    def motion(self):
+        """All outputs that are not of the solver."""
+        return self.read(*(name for name, v in self.variables.items() if v.causality == "output" and "solver" not in name))
+
     def step(self, time, size):
         """The status of fmi2DoStep."""
         return self.status("doStep", time, size)
