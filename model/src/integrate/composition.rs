@@ -1,6 +1,7 @@
 //! Compositions: a motion that is the sum of two, each of which can be followed by itself, followed in turns. No allocation.
 //!
-//! Steps are of one size, which is given, or found: from time to time a step is compared with two of half its size.
+//! Steps are of one size, which is given, or found: from time to time a step is compared with two of half its size, first each,
+//! then ever more rarely, as long as nothing changes.
 
 mod coefficients;
 
@@ -111,6 +112,8 @@ pub struct Composed<const N: usize> {
     h: f64,
     /// Steps since the last that was compared.
     unchecked: u32,
+    /// After so many the next is compared.
+    every: u32,
     cost: Cost,
     /// The time reached [s], and the state there.
     t: f64,
@@ -123,10 +126,10 @@ pub struct Composed<const N: usize> {
 }
 
 stored!(Composed<const N: usize> {
-    composition, tolerance, sizes, size, h, unchecked, cost, t, y, start, start_y, last, answer
+    composition, tolerance, sizes, size, h, unchecked, every, cost, t, y, start, start_y, last, answer
 });
 
-/// Of so many steps one is compared with two of half its size.
+/// Comparisons are no further apart than so many steps.
 const EVERY: u32 = 32;
 
 /// The error of a step may be this part of the tolerance, since errors add up [1].
@@ -153,7 +156,8 @@ impl<const N: usize> Composed<N> {
             sizes: Sizes::blank(),
             size,
             h: size,
-            unchecked: EVERY,
+            unchecked: 0,
+            every: 0,
             cost: Cost::default(),
             t,
             y,
@@ -221,7 +225,7 @@ impl<const N: usize> Composed<N> {
     pub fn go_back(&mut self, t: f64, y: [f64; N]) {
         (self.t, self.y) = (t, y);
         // What acts now may act otherwise.
-        self.unchecked = EVERY;
+        self.every = 0;
     }
 
     /// Goes on from another description `y` of the state reached.
@@ -264,7 +268,7 @@ impl<const N: usize> Composed<N> {
             fault = match followed.and_then(|y| system.admits(end, &y).map(|()| y)) {
                 Ok(y) if y.iter().all(|y| y.is_finite()) => match self.checked(system, &y, span) {
                     Some(factor) if factor < 1.0 => {
-                        smaller = factor;
+                        (smaller, self.every) = (factor, 0);
                         None
                     }
                     factor => {
@@ -287,7 +291,7 @@ impl<const N: usize> Composed<N> {
     /// otherwise. None where that is not asked now.
     fn checked(&mut self, system: &impl Splitting<N>, y: &[f64; N], h: f64) -> Option<f64> {
         let tolerance = self.tolerance?;
-        if self.unchecked < EVERY {
+        if self.unchecked < self.every {
             return None;
         }
         let from = self.y;
@@ -358,7 +362,8 @@ impl<const N: usize> Composed<N> {
     fn resize(&mut self, wish: f64, h: f64, factor: f64) {
         let (is_whole, grows) = (h >= 0.999 * wish, factor >= GROWTH);
         self.size = if is_whole && grows { factor * h } else { wish };
-        self.unchecked = if is_whole && !grows { 0 } else { EVERY };
+        self.unchecked = 0;
+        self.every = if is_whole && !grows { (2 * self.every).clamp(1, EVERY) } else { 0 };
         self.h = self.size;
     }
 }
