@@ -110,7 +110,8 @@ impl std::fmt::Display for Fault {
                 f,
                 "at t = {t:?} s this communication step has taken all the evaluations that solver.max_evaluations allows: what \
                  moves here is too fast to be followed for so long; take shorter communication steps, a looser \
-                 solver.relative_tolerance, another solver.method or more evaluations"
+                 solver.relative_tolerance, a longer solver.step_size where one is given, another solver.method or more \
+                 evaluations"
             ),
             Fault::Underflow { t } => write!(
                 f,

@@ -71,8 +71,9 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
 
     fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
         let mut squares = self.roundings(y, h);
-        // A drift turns the axis anew, and a direction is known to so many radians.
+        // A drift turns the rotor anew, and directions and angles are known to so many radians.
         squares[groups::GAMMA] = 1.0;
+        squares[groups::PHI] += 1.0;
         squares
     }
 

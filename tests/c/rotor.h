@@ -25,7 +25,10 @@ void initialize(struct rotor *rotor);
 /* A co-simulation instance after initialization. */
 struct rotor started_rotor(void);
 
-/* The time of the `i`th communication point of the default experiment [s]. */
+/* The default experiment's communication step, or a shorter one where a master would wait long for it [s]. */
+double communication_step(void);
+
+/* The time of the `i`th communication point of such steps [s]. */
 double time_at(int i);
 
 /* All variables of type Real, in the order of the sheet. */

@@ -45,7 +45,7 @@ static void check_status(struct rotor *rotor, int count)
 void whole_run(void)
 {
     double stop = number("DefaultExperiment.stopTime");
-    int whole = (int)lround((stop - time_at(0)) / number("DefaultExperiment.stepSize"));
+    int whole = (int)lround((stop - time_at(0)) / communication_step());
     int count = whole < options.steps ? whole : options.steps;
     fmi2Real *first = new_trace(count), *second = new_trace(count);
     struct rotor rotor = new_rotor(fmi2CoSimulation);

@@ -86,7 +86,8 @@ impl ImposedSpeed {
             0.0
         } else {
             let [gained, past] = [self.told(memory[at::T])[0] - memory[at::BEGAN], memory[at::T] - memory[at::T + 1]];
-            partner * gained / past + memory[at::SENT + 1]
+            // eq. 78: a master may step both at once, or one after the other.
+            partner * gained / past + (2.0 * memory[at::SENT] + memory[at::SENT + 1]) / 3.0
         };
         // eq. 78: τ = (J_r (J_p Δw/H + τ_s) + J_p τ_l)/(J_r + J_p)
         (rotor * outside + partner * load) / (rotor + partner)

@@ -9,7 +9,7 @@ pub use coefficients::{KAHAN, SOFRONIOU, STRANG, SUZUKI};
 
 use super::answer::Answer;
 use super::power::power;
-use super::sizes::{Sizes, Squares, largest_square};
+use super::sizes::{Sizes, Squares, largest_square, noise};
 use super::{Cost, Fault, LEAST_FIRST, Refusal, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::{Damaged, Stored, Walk, choice, stored};
@@ -141,7 +141,7 @@ const SAFETY: f64 = 0.8;
 const GROWTH: f64 = 1.25;
 const MOST_GROWTH: f64 = 6.0;
 
-/// A drift and a kick round about so many sums one after another.
+/// A drift and a kick round about so many sums one after another, at most.
 const SUMS: f64 = 4.0;
 
 /// The first step that is tried is no longer than this [s].
@@ -252,7 +252,7 @@ impl<const N: usize> Composed<N> {
     /// done is tried again with half its size; where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl Splitting<N>, most: f64, until: f64) -> Result<(), Fault> {
         let mut h = self.h;
-        let mut fault = None;
+        let (mut fault, mut rejected) = (None, false);
         loop {
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * h > self.t && h > SHRUNK * self.h;
@@ -274,7 +274,8 @@ impl<const N: usize> Composed<N> {
                     factor => {
                         self.accept(end, y, span);
                         if let Some(factor) = factor {
-                            self.resize(h, span, factor);
+                            // Not where a longer one was just refused.
+                            self.resize(h, span, if rejected { 1.0 } else { factor });
                         }
                         return Ok(());
                     }
@@ -283,6 +284,7 @@ impl<const N: usize> Composed<N> {
                 Err(reason) => Some(Fault::Refused { t: self.t, reason }),
             };
             self.cost.rejected += 1.0;
+            rejected = true;
             h = smaller * span;
         }
     }
@@ -302,21 +304,27 @@ impl<const N: usize> Composed<N> {
         let rate = system.rates(end, y);
         self.cost.evaluations += 1.0;
         let seen = self.sizes.seen(system, y, &rate);
-        let sums = SUMS * self.composition.parts().count() as f64;
+        let sums = self.composition.parts().count() as f64;
         let rounded = system.roundings_of_parts(&self.y, h).map(|square| square * sums * sums);
+        let noise = noise(&rounded);
+        let rounded = rounded.map(|square| square * SUMS * SUMS);
         let weights = self.sizes.weights(&tolerance, &rounded, &seen);
         // eq. 45
         let apart = system.apart(y, &halves);
-        let error = largest_square(&system.parts(&self.y, &apart), &weights).sqrt();
+        let parts = system.parts(&self.y, &apart);
+        let error = largest_square(&parts, &weights).sqrt();
         if !error.is_finite() {
             return Some(0.5);
         }
-        let factor = SAFETY * power(error, -1.0 / f64::from(self.composition.order + 1));
-        if error <= 1.0 {
-            self.sizes.take(&seen, 1.0);
-            self.cost.error_estimate += SHARE * error;
+        let factor = |error| SAFETY * power(error, -1.0 / f64::from(self.composition.order + 1));
+        if error > 1.0 {
+            return Some(factor(error).max(0.1));
         }
-        Some(if error > 1.0 { factor.max(0.1) } else { factor.clamp(1.0, MOST_GROWTH) })
+        self.sizes.take(&seen, 1.0);
+        self.cost.error_estimate += SHARE * error;
+        // What rounding alone may do says nothing of the step.
+        let told = std::array::from_fn(|group| if parts[group] > noise[group] { parts[group] } else { 0.0 });
+        Some(factor(largest_square(&told, &weights).sqrt()).clamp(1.0, MOST_GROWTH))
     }
 
     /// One step of size `h` [s], wherever it ends.

@@ -126,6 +126,11 @@ pub fn largest_square(parts: &Squares, weights: &Squares) -> f64 {
     if sum(all).is_finite() { most } else { f64::NAN }
 }
 
+/// The squares of what rounding takes from numbers whose squares are `rounded`.
+pub fn noise(rounded: &Squares) -> Squares {
+    rounded.map(|square| square * (ROUNDING * ROUNDING))
+}
+
 fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }

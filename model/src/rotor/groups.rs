@@ -11,6 +11,8 @@ use nalgebra::Vector3;
 
 /// The number of γ among them.
 pub const GAMMA: usize = 6;
+/// The number of φ.
+pub const PHI: usize = 7;
 
 /// |v|² along e and across it.
 #[inline(always)]

@@ -253,12 +253,21 @@ fn loose(changes: &[(&str, f64)], [method, order, tolerance]: [f64; 3]) -> Named
 }
 
 /// What acts though nothing depends on the place: steps of up to 1 s, of the size that the first state allowed, erred by 1e-3 to 0.3.
-const ACTS: [&[(&str, f64)]; 5] = [
+/// And a body whose moments of inertia lie askew: rounding alone was taken for the error of its drifts, and no step was short enough.
+const ACTS: [&[(&str, f64)]; 6] = [
     &[("effects.drag", 1.0), ("drag.linear", 0.01)],
     &[("effects.rotating_damping", 1.0), ("rotating_damping.d", 1.0), ("rotating_damping.position", 0.2)],
     &[("effects.support", 1.0), ("support.c1", 0.0), ("support.c2", 0.0), ("support.d2", 0.05)],
     &[("effects.port[1]", 1.0), ("port[1].m.y", 2.0)],
     &[("effects.support", 1.0), ("support.c2", 5.0), ("effects.asymmetry", 1.0), ("asymmetry.Jt2", 0.1)],
+    &[
+        ("effects.support", 1.0),
+        ("effects.unbalance[1]", 1.0),
+        ("unbalance[1].mass", 0.1),
+        ("unbalance[1].radius", 0.1),
+        ("unbalance[1].angle", 1.0),
+        ("unbalance[1].position", 0.2),
+    ],
 ];
 
 /// Error of r_c over l and of the axis over the tolerance [1].

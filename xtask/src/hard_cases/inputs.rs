@@ -69,7 +69,7 @@ fn tilted() -> Case {
         hard: "the joint passes the torque on across the tilt",
         oracle: "a rigid body by quaternions, extrapolated to order 16",
         scene: "driven",
-        methods: vec![(at("dop853", 1e-12), 1e-11), (at("dopri5", 1e-12), 2e-10), (at("stiff", 1e-10), 4e-8)],
+        methods: vec![(at("dop853", 1e-12), 9e-13), (at("dopri5", 1e-12), 6e-11), (at("stiff", 1e-10), 5e-9)],
         mutant: ("shaft.tau", 1.0 + 1e-6),
         task: Box::new(move |bench| {
             let free = RigidBody {

@@ -41,7 +41,7 @@ fn held_by_partners() -> Case {
         hard: "at the start nothing seems to act; loads jump at each exchange",
         oracle: ORACLE,
         scene: "rotor",
-        methods: with(tried(1e-3), &[8e-12, 1e-9, 8e-10, 5e-14, 5e-11, 8e-12]),
+        methods: with(tried(1e-3), &[3e-12, 1e-9, 8e-10, 5e-14, 8e-10, 3e-12]),
         mutant: ("port[1].f.y", 1.001),
         task: Scene { machine, times: times(1.0, 500), partners }.task(|_| Ok(())),
     }
@@ -94,7 +94,7 @@ fn run_up() -> Case {
         hard: "it starts at rest; its whirl is 10⁻⁵ of its size",
         oracle: ORACLE,
         scene: "rotor",
-        methods: with(methods, &[7e-4, 5e-8, 5e-4, 3e-8, 6e-4, 4e-6, 3e-5, 3e-2, 8e-4, 5e-8]),
+        methods: with(methods, &[3e-4, 2e-8, 5e-4, 3e-8, 6e-4, 4e-6, 3e-5, 3e-3, 3e-4, 2e-8]),
         mutant: ("unbalance[1].mass", 1.1),
         task: Scene::alone(ordinary(), times(3.3, 33_000)).task(whirl_is_known),
     }

@@ -13,8 +13,8 @@ use nalgebra::Vector3;
 pub fn cases() -> Vec<Case> {
     vec![
         uneven([4e-11, 2e-10, 5e-10, 4e-11, 2e-9]),
-        cross_coupled(1e7, 0.05, [2e-7, 1e-6, 1.5e-6, 2e-7, 5e-7]),
-        cross_coupled(1e8, 0.006, [6e-8, 4e-7, 8e-7, 6e-8, 3e-7]),
+        cross_coupled(1e7, 0.05, [5e-8, 1e-6, 5e-7, 5e-8, 5e-7]),
+        cross_coupled(1e8, 0.006, [2e-8, 2e-7, 2e-7, 2e-8, 7e-8]),
     ]
 }
 
@@ -89,7 +89,7 @@ fn cross_coupled(skew: f64, follow: f64, bounds: [f64; 5]) -> Case {
         hard: "it grows beyond all bounds",
         oracle: "the laws in quaternions; a warning; then an end of each call within 10⁶ evaluations",
         scene: "rotor",
-        methods: methods(1e-10, bounds),
+        methods: methods(1e-8, bounds),
         mutant: ("bearing[1].kyz", 1.001),
         task: Box::new(move |bench| {
             let mut rotor = started(bench, &machine, 3.3)?;

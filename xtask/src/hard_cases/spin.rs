@@ -9,9 +9,9 @@ use crate::oracles::numerics::root;
 /// Spin [rad/s]; bounds of dop853, stiff, symplectic and auto where the axis precesses, and of dop853 and symplectic where
 /// it nods, and there of auto.
 const SPINS: [(f64, [f64; 4], [f64; 3]); 3] = [
-    (1e4, [2e-9, 6e-12, 6e-6, 8e-12], [6e-11, 7e-4, 4e-8]),
-    (1e5, [2e-9, 5e-11, 8e-8, 3e-6], [3e-9, 3e-4, 5e-7]),
-    (1e6, [2e-9, 1e-9, 7e-10, 6e-9], [3e-7, 4e-5, 1.2e-7]),
+    (1e4, [8e-12, 6e-12, 6e-6, 8e-12], [5e-13, 7e-4, 2e-8]),
+    (1e5, [6e-11, 5e-11, 8e-8, 6e-11], [8e-12, 3e-4, 5e-7]),
+    (1e6, [2e-9, 1e-9, 7e-10, 2e-9], [5e-10, 4e-5, 1.5e-4]),
 ];
 
 /// The family.

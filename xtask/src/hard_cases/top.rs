@@ -25,7 +25,7 @@ fn steady() -> Case {
         hard: "gravity, spin and an elastic pivot balance",
         oracle: "steady whirl in closed form (ORACLES.md 4)",
         scene: "paper",
-        methods: vec![(at("dop853", 1e-12), 2e-12), (at("dopri5", 1e-12), 3e-12), (at("stiff", 1e-10), 3e-8)],
+        methods: vec![(at("dop853", 1e-12), 2e-12), (at("dopri5", 1e-12), 3e-12), (at("stiff", 1e-10), 3e-10)],
         mutant: ("gravity.g.x", 1.0 + 1e-6),
         task: follow(of_whirl(&whirl), times(2.0, 50), move |t| Exact::of_whirl(&whirl, t)),
     }
@@ -41,7 +41,7 @@ fn nearly_upright() -> Case {
         hard: "two whirl rates about to meet, tilt 10⁻⁶ rad (error in units of it)",
         oracle: "roots of the upright top's frequency equation",
         scene: "paper",
-        methods: vec![(at("dop853", 1e-13), 8e-11), (at("stiff", 1e-11), 6e-10)],
+        methods: vec![(at("dop853", 1e-13), 4e-10), (at("stiff", 1e-11), 6e-10)],
         mutant: ("gravity.g.x", 1.0 + 1e-3),
         task: small_motion(top, slowest, theta, 5.0),
     }
@@ -57,7 +57,7 @@ fn waking(part: f64) -> Case {
         hard: "growth from 10⁻⁹ rad (error in units of the tilt)",
         oracle: "roots of the upright top's frequency equation",
         scene: "paper",
-        methods: vec![(at("dop853", 1e-13), 4e-9), (at("stiff", 1e-11), 8e-9)],
+        methods: vec![(at("dop853", 1e-13), 1e-10), (at("stiff", 1e-11), 4e-10)],
         mutant: ("rotor.Ja", 1.0 - 1e-3),
         task: small_motion(top, rate, 1e-9, end),
     }

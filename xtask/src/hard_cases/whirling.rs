@@ -11,12 +11,12 @@ use nalgebra::{Complex, Normed, Vector3};
 /// The family, with the bounds of [`unbalanced`] and of [`methods`].
 pub fn cases() -> Vec<Case> {
     vec![
-        unbalanced("at its critical speed", 20.0, 0.0, [4e-10, 1e-9, 2e-7]),
-        unbalanced("through its critical speed", 10.0, 2.0, [4e-9, 1e-9, 3e-7]),
-        internal(60.0, "grows", [6e-11, 2e-10, 2e-8, 4e-9]),
-        internal(30.0, "dies out", [2e-11, 1e-10, 5e-9, 1e-9]),
-        crossed(120.0, "grows", [7e-11, 2e-10, 2e-8, 4e-9]),
-        crossed(60.0, "dies out", [5e-11, 2e-10, 1e-8, 2e-9]),
+        unbalanced("at its critical speed", 20.0, 0.0, [2e-11, 2e-10, 2e-8]),
+        unbalanced("through its critical speed", 10.0, 2.0, [8e-12, 8e-11, 7e-9]),
+        internal(60.0, "grows", [2e-11, 2e-10, 1e-8, 2e-9]),
+        internal(30.0, "dies out", [3e-12, 3e-11, 2e-9, 3e-10]),
+        crossed(120.0, "grows", [2e-11, 2e-10, 1e-8, 2e-9]),
+        crossed(60.0, "dies out", [5e-12, 5e-11, 4e-9, 5e-10]),
     ]
 }
 
