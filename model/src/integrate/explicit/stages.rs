@@ -111,14 +111,20 @@ impl<const N: usize> Explicit<N> {
     #[inline(always)]
     fn error_norm<P: Pair, F: System<N>>(&self, system: &F, seen: &Squares) -> f64 {
         let weights = self.weights(system, self.h, seen);
-        let square = |e: Combination| largest_square(&system.parts(&self.y, &self.combined(e)), &weights);
         let estimate = match const { &P::TABLEAU.error } {
-            ErrorRule::Single(e) => square(e).sqrt(),
+            ErrorRule::Single(e) => self.error_square(system, e, &weights).sqrt(),
             ErrorRule::Blend { fine, coarse } => {
-                let (fine, coarse) = (square(fine), square(coarse));
+                let fine = self.error_square(system, fine, &weights);
+                let coarse = self.error_square(system, coarse, &weights);
                 if fine == 0.0 { 0.0 } else { fine / (fine + 0.01 * coarse).sqrt() }
             }
         };
         self.h * P::TABLEAU.calibration * estimate
+    }
+
+    /// The square of the norm of Σ e_j k_j. Inlined, so that these sums are written out too.
+    #[inline(always)]
+    fn error_square<F: System<N>>(&self, system: &F, e: Combination, weights: &Squares) -> f64 {
+        largest_square(&system.parts(&self.y, &self.combined(e)), weights)
     }
 }
