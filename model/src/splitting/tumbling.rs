@@ -41,7 +41,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
 }
 
 /// A drift is cut into at most so many parts: a longer one must be made of several.
-const MOST_PARTS: u32 = 10_000;
+const MOST_PARTS: u32 = 30_000;
 
 const TOO_MANY_PARTS: Refusal =
     Refusal("the axis lingers at -e, and the turns that phi makes there cannot be counted over so long a step");

@@ -9,7 +9,7 @@ use nalgebra::{Vector2, Vector3};
 /// δ [rad], and the bounds of dop853, dopri5, stiff, symplectic and auto.
 const PASSAGES: [(f64, [f64; 5]); 5] = [
     (1.0, [2e-11, 2e-9, 2e-7, 1.5e-12, 8e-14]),
-    (1e-2, [1e-11, 1e-9, 2e-5, 2e-11, 2e-13]),
+    (1e-2, [1e-11, 1e-9, 2e-5, 2e-11, 1.5e-12]),
     (1e-4, [1e-10, 3e-9, 1.5e-4, 1e-12, 2.5e-13]),
     (1e-8, [9e-13, 6e-11, 4e-8, 2e-13, 5e-14]),
     (0.0, [4e-14, 4e-14, 4e-14, 2e-13, 4e-14]),

@@ -13,6 +13,9 @@ pub type Task = Box<dyn Fn(&Bench) -> Result<Found>>;
 /// A name of a variable and its value.
 pub type Setting = (&'static str, f64);
 
+/// For communication steps that are meant to be long.
+pub const ALL_IT_TAKES: Setting = ("solver.max_evaluations", 1e12);
+
 /// A case, for one method or several.
 pub struct Case {
     /// What happens.

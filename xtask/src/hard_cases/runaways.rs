@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 /// The family.
 pub fn cases() -> Vec<Case> {
     vec![
-        uneven([4e-11, 2e-10, 5e-10, 4e-11, 2e-9]),
+        uneven([4e-11, 2e-10, 5e-10, 4e-11, 3e-9]),
         cross_coupled(1e7, 0.05, [5e-8, 1e-6, 5e-7, 5e-8, 5e-7]),
         cross_coupled(1e8, 0.006, [2e-8, 2e-7, 2e-7, 2e-8, 7e-8]),
     ]

@@ -1,6 +1,6 @@
 //! Steady whirl of the paper's rotor on its springs, at any tilt.
 
-use super::case::{Case, Exact, follow, follow_from, of_whirl, start, support, times};
+use super::case::{ALL_IT_TAKES, Case, Exact, follow, follow_from, of_whirl, start, support, times};
 use super::method::{at, symplectic};
 use crate::oracles::motion::{Whirl, small_whirl};
 use nalgebra::{Vector2, Vector3};
@@ -143,6 +143,8 @@ fn long(whole: bool) -> Case {
         scene: "paper",
         methods,
         mutant: ("support.c2", 1.0 + 1e-3),
-        task: follow(of_whirl(&whirl), times(turns * TAU / 100.0, 97), move |t| Exact::of_whirl(&whirl, t)),
+        task: follow([of_whirl(&whirl), vec![ALL_IT_TAKES]].concat(), times(turns * TAU / 100.0, 97), move |t| {
+            Exact::of_whirl(&whirl, t)
+        }),
     }
 }
