@@ -37,6 +37,8 @@ pub struct Extent {
     pub part: Option<String>,
     /// Long cases in full.
     pub whole: bool,
+    /// Only cases that are longer in full.
+    pub longer: bool,
     /// Each row once more with its mutant, which must fail.
     pub mutants: bool,
 }
@@ -58,6 +60,10 @@ pub fn run(extent: &Extent) -> Result<()> {
     let stages = Stages::load(&scenes())?;
     let mut cases = gallery(extent.whole);
     cases.retain(|case| extent.part.as_ref().is_none_or(|part| case.name.contains(part)));
+    if extent.longer {
+        let shortened: Vec<_> = gallery(false).into_iter().map(|case| case.name).collect();
+        cases.retain(|case| !shortened.contains(&case.name));
+    }
     ensure!(!cases.is_empty(), "no case is called {:?}", extent.part);
     let rows = measure(&stages, &cases, extent.mutants)?;
     files::write(&rows, extent)?;

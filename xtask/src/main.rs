@@ -135,7 +135,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),
         Command::Accuracy { scene, peers, .. } => accuracy::accuracy(&scene, peers).map(drop),
         Command::HardCases { part, short, mutants, packaged } => {
-            let extent = Extent { part, whole: !short, mutants };
+            let extent = Extent { part, whole: !short, mutants, ..Extent::default() };
             if packaged { hard_cases::run(&extent) } else { hard_cases::hard_cases(&extent) }
         }
         Command::Bench { part, seed } => bench::bench(&part, seed),
