@@ -10,12 +10,11 @@ use model::scene::Scene;
 pub fn valgrind() -> Result<()> {
     let host = c_host::compile("host", &[])?;
     for name in Scene::names(&paths::scenes()) {
-        let fmu = paths::target().join("fmu").join(format!("{name}.fmu"));
         let mut command = c::tool("valgrind", "valgrind")?;
         command.args(["--quiet", "--error-exitcode=99", "--leak-check=full", "--trace-children=yes"]).arg(&host);
         let shorter = ["--cycles", "20", "--steps", "100", "--no-memory"];
         // A caught panic with a backtrace keeps symbols in memory, which looks like a leak.
-        run(c_host::arguments(&mut command, &unpack(&fmu)?)?.args(shorter).env("RUST_BACKTRACE", "0"))?;
+        run(c_host::arguments(&mut command, &unpack(&paths::fmu(&name))?)?.args(shorter).env("RUST_BACKTRACE", "0"))?;
     }
     Ok(())
 }

@@ -16,3 +16,8 @@ pub fn scenes() -> PathBuf {
 pub fn target() -> PathBuf {
     root().join("target")
 }
+
+/// A scene's FMU as it was packaged last.
+pub fn fmu(scene: &str) -> PathBuf {
+    target().join("fmu").join(format!("{scene}.fmu"))
+}

@@ -252,7 +252,7 @@ impl<const N: usize> Composed<N> {
     /// done is tried again with half its size; where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl Splitting<N>, most: f64, until: f64) -> Result<(), Fault> {
         let mut h = self.h;
-        let (mut fault, mut rejected) = (None, false);
+        let mut fault = None;
         loop {
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * h > self.t && h > SHRUNK * self.h;
@@ -272,10 +272,11 @@ impl<const N: usize> Composed<N> {
                         None
                     }
                     factor => {
+                        // Where a longer step was just refused, it does not grow.
+                        let is_first = h == self.h;
                         self.accept(end, y, span);
                         if let Some(factor) = factor {
-                            // Not where a longer one was just refused.
-                            self.resize(h, span, if rejected { 1.0 } else { factor });
+                            self.resize(h, span, if is_first { factor } else { 1.0 });
                         }
                         return Ok(());
                     }
@@ -284,7 +285,6 @@ impl<const N: usize> Composed<N> {
                 Err(reason) => Some(Fault::Refused { t: self.t, reason }),
             };
             self.cost.rejected += 1.0;
-            rejected = true;
             h = smaller * span;
         }
     }

@@ -53,7 +53,7 @@ impl Stages {
 impl Stage {
     fn load(name: &str) -> Result<Self> {
         let scene = scenes::find(name)?;
-        let fmu = paths::target().join("fmu").join(format!("{name}.fmu"));
+        let fmu = paths::fmu(name);
         let unpacked = unpack(&fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
         let fmu = Fmu::load(&unpacked.library, &xml::guid(&scene))?;
         let variables: BTreeMap<_, _> =
