@@ -3,9 +3,9 @@
 //! The scene is the TOML file in the environment variable `SPLIT_ROTOR_SCENE`, which `cargo xtask package` sets for its
 //! own child; without it, `scenes/paper.toml`.
 
-use model::scene::Scene;
-use model::variable::Role;
-use model::xml;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::variable::Role;
+use split_rotor_model::xml;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -30,7 +30,7 @@ fn tell_tests(scene: &Scene) {
     for (cfg, holds) in [
         ("scene_has_inputs", has_inputs),
         ("scene_has_support", has("support")),
-        ("scene_is_driven", has("shaft") && has("support") && has("gravity")),
+        ("scene_is_driven", has("drive") && has("support") && has("gravity")),
     ] {
         println!("cargo::rustc-check-cfg=cfg({cfg})");
         if holds {
@@ -43,7 +43,7 @@ fn tell_tests(scene: &Scene) {
 fn source(scene: &Scene) -> String {
     let member = if scene.general { "Switched" } else { "Called" };
     let list = scene.effects.iter().rev().fold("()".to_owned(), |rest, (info, index)| {
-        format!("(model::effects::{member}<{}, {index}>, {rest})", info.type_path)
+        format!("(split_rotor_model::effects::{member}<{}, {index}>, {rest})", info.type_path)
     });
     let mut starts = String::new();
     for (reference, value) in &scene.starts {

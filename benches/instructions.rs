@@ -9,10 +9,10 @@ mod cases;
 
 use cases::{At, Copied, Hosted, Stepping, copied, rotor};
 use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
-use model::integrate::tableau::Tableau;
-use model::rotor::Rotor;
 use split_rotor::abi::Status;
 use split_rotor::scene::Effects;
+use split_rotor_model::integrate::tableau::Tableau;
+use split_rotor_model::rotor::Rotor;
 
 /// What a bench works on outlives it: to move it and to free it is not counted.
 fn kept<T>(it: T) -> &'static mut T {

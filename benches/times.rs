@@ -5,9 +5,9 @@ mod cases;
 
 use cases::{At, Hosted, LONG, rotor};
 use criterion::{BatchSize, Criterion};
-use model::integrate::tableau::Tableau;
-use model::rotor::Rotor;
 use split_rotor::scene::Effects;
+use split_rotor_model::integrate::tableau::Tableau;
+use split_rotor_model::rotor::Rotor;
 use std::hint::black_box;
 
 macro_rules! list {

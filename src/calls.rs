@@ -2,7 +2,7 @@
 //!
 //! The table follows FMI 2.0.4, sections 3.2.3 and 4.2.4, but is lenient where real hosts need it (docs/fmi.md).
 
-use model::simulation::Integrator;
+use split_rotor_model::simulation::Integrator;
 
 /// Where an instance is in its life.
 #[repr(u8)]

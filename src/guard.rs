@@ -7,7 +7,7 @@
 use crate::abi::{Component, Size, Status, Text};
 use crate::calls::{Call, State};
 use crate::instance::{Failure, Instance};
-use model::log::Category;
+use split_rotor_model::log::Category;
 use std::any::Any;
 use std::ffi::CStr;
 use std::mem::MaybeUninit;
@@ -134,7 +134,7 @@ mod tests {
     use crate::abi::{CallbackFunctions, Environment, LoggerCallback};
     use crate::calls::call;
     use crate::logger::Logger;
-    use model::simulation::Integrator;
+    use split_rotor_model::simulation::Integrator;
     use std::ffi::CStr;
     use std::sync::Mutex;
 

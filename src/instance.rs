@@ -12,12 +12,12 @@ use crate::abi::{Real, Status};
 use crate::calls::{State, kind_name};
 use crate::logger::Logger;
 use crate::scene::{Effects, STARTS, Simulation};
-use model::error::Invalid;
-use model::integrate::{Cost, Refusal};
-use model::log::{ALL, Category};
-use model::simulation::Integrator;
-use model::variable::{Kind, Place, Role};
-use model::variables::{Parameters, TOLERANCES};
+use split_rotor_model::error::Invalid;
+use split_rotor_model::integrate::{Cost, Refusal};
+use split_rotor_model::log::{ALL, Category};
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::variable::{Kind, Place, Role};
+use split_rotor_model::variables::{Parameters, TOLERANCES};
 
 /// Why a call was refused, and what it returns.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 #![allow(unsafe_code)]
 
 use crate::abi::{CallbackFunctions, Environment, LoggerCallback, Status};
-use model::log::{ALL, Category};
+use split_rotor_model::log::{ALL, Category};
 use std::ffi::{CStr, CString};
 
 /// Where messages go, and which. The host's struct of callbacks may be gone after fmi2Instantiate: this is a copy.

@@ -3,4 +3,4 @@
 include!(concat!(env!("OUT_DIR"), "/scene.rs"));
 
 /// The simulation of this scene.
-pub type Simulation = model::simulation::Simulation<Effects>;
+pub type Simulation = split_rotor_model::simulation::Simulation<Effects>;

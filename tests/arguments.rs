@@ -5,10 +5,10 @@
 mod harness;
 
 use harness::{Instance, Life, NO_VARIABLE, RULES, Saved, Stage, has, inputs, reference, refused, scene};
-use model::variable::{Kind, Role};
 use split_rotor::abi::*;
 use split_rotor::exports;
 use split_rotor::scene::Simulation;
+use split_rotor_model::variable::{Kind, Role};
 use std::ptr::{null, null_mut};
 
 const KINDS: [Choice; 2] = [CO_SIMULATION, MODEL_EXCHANGE];

@@ -7,9 +7,9 @@
 mod harness;
 
 use harness::{Instance, reals, scene, scenes};
-use model::scene::Scene;
-use model::simulation::Simulation;
-use model::variable::Place;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::simulation::Simulation;
+use split_rotor_model::variable::Place;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,5 @@
 //! Inputs: what is held, what derivatives add, what belongs together, and what is forgotten when. They run where the scene
-//! has the input `shaft.tau`; without springs and gravity its torque τ turns the rotor about its axis e, and Ja dω/dt = τ.
+//! has the input `drive.tau`; without springs and gravity its torque τ turns the rotor about its axis e, and Ja dω/dt = τ.
 #![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
 mod harness;
@@ -8,9 +8,9 @@ use harness::{Instance, Saved, reference, refused, scene};
 use split_rotor::abi::{CO_SIMULATION, Integer, MODEL_EXCHANGE, Real, Status, ValueReference};
 use split_rotor::exports::{fmi2SetReal, fmi2SetRealInputDerivatives};
 
-const TAU: &str = "shaft.tau";
+const TAU: &str = "drive.tau";
 
-/// Nothing but the shaft acts, and nothing moves.
+/// Nothing but the drive acts, and nothing moves.
 const FREE: [(&str, Real); 8] = [
     ("gravity.g.z", 0.0),
     ("support.c1", 0.0),
@@ -29,7 +29,7 @@ fn tau() -> ValueReference {
     reference(TAU)
 }
 
-/// An instance under nothing but the shaft's torque, which is what was sent before the start.
+/// An instance under nothing but the drive's torque, which is what was sent before the start.
 fn free(sent: &Sent) -> Instance {
     let mut instance = Instance::quiet();
     send(&mut instance, sent);
@@ -76,7 +76,7 @@ fn follows(instance: &mut Instance, from: Real, polynomial: [Real; 3]) {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_a_value_is_held() {
     let mut instance = free(&[]);
     let own = scene().starts[&tau()];
@@ -86,13 +86,13 @@ fn exact_a_value_is_held() {
     send(&mut instance, &[(0, -0.75)]);
     assert_eq!(instance.get(TAU), -0.75);
     let expected = -0.75 / instance.get("rotor.Ja");
-    assert!((instance.get("shaft.a") - expected).abs() < NEARNESS * expected.abs());
+    assert!((instance.get("drive.a") - expected).abs() < NEARNESS * expected.abs());
     follows(&mut instance, 1.0, [-0.75, 0.0, 0.0]);
     follows(&mut instance, 2.0, [-0.75, 0.0, 0.0]);
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_a_value_and_its_derivatives_belong_together_in_any_order() {
     let (value, slope, curvature) = ((0, 2.0), (1, -3.0), (2, 5.0));
     let orders = [
@@ -115,7 +115,7 @@ fn exact_a_value_and_its_derivatives_belong_together_in_any_order() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_what_is_not_sent_is_zero_and_the_value_goes_on() {
     // Each alone and without the others, at a point where the polynomial of before has the value 2 − 3 + 5/2.
     let before: [(Integer, Real); 3] = [(0, 2.0), (1, -3.0), (2, 5.0)];
@@ -143,7 +143,7 @@ fn exact_what_is_not_sent_is_zero_and_the_value_goes_on() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_what_is_sent_before_the_run_counts_from_its_start() {
     for start in [4.0, -8.0] {
         let mut instance = Instance::quiet();
@@ -161,7 +161,7 @@ fn exact_what_is_sent_before_the_run_counts_from_its_start() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_a_rollback_brings_the_input_back_and_it_can_be_set_again() {
     let mut instance = free(&[(0, 2.0), (1, -3.0), (2, 5.0)]);
     follows(&mut instance, 0.0, [2.0, -3.0, 5.0]);
@@ -187,7 +187,7 @@ fn exact_a_rollback_brings_the_input_back_and_it_can_be_set_again() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_a_saved_point_remembers_what_was_already_sent_there() {
     let mut instance = free(&[]);
     follows(&mut instance, 0.0, [scene().starts[&tau()], 0.0, 0.0]);
@@ -203,7 +203,7 @@ fn exact_a_saved_point_remembers_what_was_already_sent_there() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn fmi_values_that_are_no_numbers_are_refused_and_the_old_ones_kept() {
     for kind in [CO_SIMULATION, MODEL_EXCHANGE] {
         let mut instance = Instance::of(kind);
@@ -236,7 +236,7 @@ fn fmi_values_that_are_no_numbers_are_refused_and_the_old_ones_kept() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn fmi_a_reset_forgets_what_was_sent() {
     let mut instance = free(&[(0, 2.0), (1, -3.0), (2, 5.0)]);
     follows(&mut instance, 0.0, [2.0, -3.0, 5.0]);
@@ -246,7 +246,7 @@ fn fmi_a_reset_forgets_what_was_sent() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_in_model_exchange_an_input_acts_at_once() {
     let mut instance = Instance::of(MODEL_EXCHANGE).started(&FREE);
     instance.settled();
@@ -255,7 +255,7 @@ fn exact_in_model_exchange_an_input_acts_at_once() {
         assert_eq!(instance.set_time(time), Status::Ok);
         send(&mut instance, &[(0, value)]);
         assert_eq!(instance.get_all([TAU, "der(state.K.x)"]), [value; 2]);
-        assert!((instance.get("shaft.a") * inertia - value).abs() <= NEARNESS * value.abs());
+        assert!((instance.get("drive.a") * inertia - value).abs() <= NEARNESS * value.abs());
         let rates = instance.rates().expect("they can be calculated");
         assert_eq!(rates[6], value, "the rate of K.x");
         // It is held, whatever time the host then tries.
@@ -278,7 +278,7 @@ fn second(times: impl Fn(u32) -> u32) -> [Real; 6] {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn fmi_the_motion_does_not_depend_on_how_often_the_same_value_is_set() {
     /// Of the energy ledger [J]; measured 5e-13, allow 5e-12.
     const LEDGER: Real = 5e-12;
@@ -290,7 +290,7 @@ fn fmi_the_motion_does_not_depend_on_how_often_the_same_value_is_set() {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn regress_a_refused_start_leaves_the_inputs_as_they_were() {
     let mut instance = Instance::quiet();
     assert_eq!(instance.setup(None, 4.0, None), Status::Ok);
@@ -316,7 +316,7 @@ fn warnings(instance: &Instance) -> Vec<String> {
 }
 
 #[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with shaft, support and gravity")]
+#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn fmi_a_host_that_sends_zeros_where_the_scene_has_others_is_warned_once() {
     // By nobody, by a host that connects nothing, by one that does, and by one that sends 0 later.
     let cases: [(Option<Real>, usize); 4] = [(None, 0), (Some(0.0), 1), (Some(-0.0), 1), (Some(0.1), 0)];

@@ -22,7 +22,7 @@ fn not_instantiated(request: Request) -> Record {
 #[test]
 fn fmi_instantiate_refuses_bad_arguments_and_says_why() {
     let right = Request::default;
-    let guid = model::xml::guid(scene());
+    let guid = split_rotor_model::xml::guid(scene());
     for wrong in [c"".to_owned(), c"{00000000-0000-0000-0000-000000000000}".to_owned(), {
         CString::new(guid.trim_matches(['{', '}'])).expect("a GUID holds no zero")
     }] {
@@ -46,7 +46,7 @@ fn fmi_instantiate_refuses_bad_arguments_and_says_why() {
 
 #[test]
 fn fmi_instantiate_without_callbacks_is_null() {
-    let guid = CString::new(model::xml::guid(scene())).expect("a GUID holds no zero");
+    let guid = CString::new(split_rotor_model::xml::guid(scene())).expect("a GUID holds no zero");
     let (name, place) = (c"rotor".as_ptr(), c"".as_ptr());
     // SAFETY: strings that live during the call, and null.
     let component =
@@ -175,7 +175,7 @@ fn fmi_logging_choices_survive_a_reset() {
 
 #[test]
 fn fmi_the_categories_are_those_of_the_model_description() {
-    let xml = model::xml::model_description(scene());
+    let xml = split_rotor_model::xml::model_description(scene());
     let mut instance = Instance::quiet();
     let mut count = 0;
     for part in xml.split("<Category name=\"").skip(1) {

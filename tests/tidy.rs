@@ -1,7 +1,7 @@
 //! The house rules that no compiler holds: floors, where `unsafe` may stand, equation labels, the committed XML.
 
-use model::scene::Scene;
-use model::xml;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::xml;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -6,23 +6,23 @@
 mod harness;
 
 use harness::Instance;
-use model::integrate::explicit::Explicit;
-use model::integrate::sizes::GROUPS;
-use model::integrate::tableau::Tableau;
-use model::integrate::{Refusal, System, Tolerance};
-use model::rotor::Rotor;
-use model::simulation::{Integrator, Simulation};
-use model::variable::Place;
-use model::variables::Parameters;
 use split_rotor::abi::Status;
 use split_rotor::scene::{Effects, STARTS};
+use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::integrate::sizes::GROUPS;
+use split_rotor_model::integrate::tableau::Tableau;
+use split_rotor_model::integrate::{Refusal, System, Tolerance};
+use split_rotor_model::rotor::Rotor;
+use split_rotor_model::simulation::{Integrator, Simulation};
+use split_rotor_model::variable::Place;
+use split_rotor_model::variables::Parameters;
 
 /// Hands `name tableau,` of each method to a macro: the one list of them.
 macro_rules! methods {
     ($take:ident) => {
         $take! {
-            dopri5 &model::integrate::tableau::DOPRI5,
-            dop853 &model::integrate::tableau::DOP853,
+            dopri5 &split_rotor_model::integrate::tableau::DOPRI5,
+            dop853 &split_rotor_model::integrate::tableau::DOP853,
         }
     };
 }

@@ -5,7 +5,7 @@ mod principal;
 mod shape;
 
 pub use poinsot::Poinsot;
-pub use shape::{Shape, Uneven};
+pub use shape::{Asymmetric, Shape};
 
 use crate::scalar::Scalar;
 use crate::stored::stored;
@@ -34,28 +34,28 @@ pub struct Inertia {
     pub l: f64,
     /// 1/m [1/kg].
     pub per_m: f64,
-    /// 1/Jt [1/(kg·m²)]; of an uneven body 1/J about its third principal axis.
+    /// 1/Jt [1/(kg·m²)]; of an asymmetric body 1/J about its third principal axis.
     pub per_jt: f64,
-    /// 1/Ja − 1/Jt [1/(kg·m²)]; of an uneven body 1/J about its first principal axis less that about its third.
+    /// 1/Ja − 1/Jt [1/(kg·m²)]; of an asymmetric body 1/J about its first principal axis less that about its third.
     pub spin: f64,
-    /// What is uneven of it; None of a symmetric body with its mass centre on its axis.
-    pub uneven: Option<Uneven>,
+    /// What is asymmetric of it; None of a symmetric body with its mass centre on its axis.
+    pub asymmetric: Option<Asymmetric>,
 }
 
-stored!(Inertia { m, l, per_m, per_jt, spin, uneven });
+stored!(Inertia { m, l, per_m, per_jt, spin, asymmetric });
 
 impl From<Body> for Inertia {
     #[allow(non_snake_case, reason = "the paper's symbols")]
     fn from(Body { m, Ja, Jt, l }: Body) -> Self {
-        Self { m, l, per_m: 1.0 / m, per_jt: 1.0 / Jt, spin: 1.0 / Ja - 1.0 / Jt, uneven: None }
+        Self { m, l, per_m: 1.0 / m, per_jt: 1.0 / Jt, spin: 1.0 / Ja - 1.0 / Jt, asymmetric: None }
     }
 }
 
 impl Inertia {
-    /// The same of a body of which it is known that it is not uneven.
+    /// The same of a body of which it is known that it is not asymmetric.
     #[inline(always)]
-    pub fn even(self) -> Self {
-        Self { uneven: None, ..self }
+    pub fn symmetric(self) -> Self {
+        Self { asymmetric: None, ..self }
     }
 
     /// ω [rad/s] of angular momentum K [kg·m²/s] about c, the axis being t; of a symmetric body.
@@ -68,29 +68,29 @@ impl Inertia {
         }
     }
 
-    /// How an uneven body turns that nothing acts on, K being given along its principal axes [kg·m²/s]; None where it does so
+    /// How an asymmetric body turns that nothing acts on, K being given along its principal axes [kg·m²/s]; None where it does so
     /// steadily.
-    pub fn free(&self, uneven: &Uneven, momentum: &Vector3<f64>) -> Option<Poinsot> {
-        Poinsot::new([self.spin, uneven.excess, 0.0], self.per_jt, momentum)
+    pub fn free(&self, asymmetric: &Asymmetric, momentum: &Vector3<f64>) -> Option<Poinsot> {
+        Poinsot::new([self.spin, asymmetric.excess, 0.0], self.per_jt, momentum)
     }
 
-    /// The largest 1/J of an uneven body [1/(kg·m²)]: |ω| is at most this times |K|.
-    pub fn quickest(&self, uneven: &Uneven) -> f64 {
-        [self.spin, uneven.excess, 0.0].into_iter().fold(f64::NEG_INFINITY, f64::max) + self.per_jt
+    /// The largest 1/J of an asymmetric body [1/(kg·m²)]: |ω| is at most this times |K|.
+    pub fn quickest(&self, asymmetric: &Asymmetric) -> f64 {
+        [self.spin, asymmetric.excess, 0.0].into_iter().fold(f64::NEG_INFINITY, f64::max) + self.per_jt
     }
 
-    /// ω [rad/s] of angular momentum K [kg·m²/s] about G, of an uneven body with this attitude.
+    /// ω [rad/s] of angular momentum K [kg·m²/s] about G, of an asymmetric body with this attitude.
     #[inline(always)]
-    pub fn uneven_angular_velocity<S: Scalar>(
+    pub fn asymmetric_angular_velocity<S: Scalar>(
         &self,
-        uneven: &Uneven,
+        asymmetric: &Asymmetric,
         momentum: &Vector3<S>,
         attitude: &Matrix3<S>,
     ) -> AngularVelocity<S> {
-        let [first, second] = uneven.axes.map(|axis| attitude * axis.map(S::constant));
+        let [first, second] = asymmetric.axes.map(|axis| attitude * axis.map(S::constant));
         // eq. 72: ω = K/J₃ + (1/J₁ − 1/J₃)(K·p₁) p₁ + (1/J₂ − 1/J₃)(K·p₂) p₂
         let about_first = first * (S::constant(self.spin) * momentum.dot(&first));
-        let about_second = second * (S::constant(uneven.excess) * momentum.dot(&second));
+        let about_second = second * (S::constant(asymmetric.excess) * momentum.dot(&second));
         AngularVelocity { swing: momentum * S::constant(self.per_jt) + about_first + about_second, spin: S::zero() }
     }
 }

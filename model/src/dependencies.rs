@@ -188,7 +188,7 @@ fn set<E: Effects>(simulation: &mut Simulation<E>, variable: &Variable, value: f
 
 /// Moves to a state; whether it can be calculated there.
 fn moves_to(simulation: &mut Simulation<All>, state: &Whole<f64>) -> bool {
-    simulation.open().expect("it was started for a host").set_state(state);
+    simulation.exchange().expect("it was started for a host").set_state(state);
     simulation.admits().is_ok()
 }
 

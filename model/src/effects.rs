@@ -52,10 +52,10 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// the general FMU.
     const FOLLOWS_PLACE: bool = true;
 
-    /// Whether it [foretells](Effect::foretell) inputs.
-    const FORETELLS: bool = false;
+    /// Whether it [extrapolates](Effect::extrapolate) inputs.
+    const EXTRAPOLATES: bool = false;
 
-    /// Whether its own inputs tell one another's rates, so that nobody need foretell them.
+    /// Whether its own inputs tell one another's rates, so that nobody need extrapolate them.
     const TELLS_RATES: bool = false;
 
     /// The effects after it in the catalogue that cannot act beside it.
@@ -64,8 +64,8 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Whether it can [impose](Effect::imposed) a speed.
     const IMPOSES: bool = false;
 
-    /// How many inputs it can foretell at most.
-    const MOST_FORETOLD: usize = usize::MAX;
+    /// How many inputs it can extrapolate at most.
+    const MOST_EXTRAPOLATED: usize = usize::MAX;
 
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
@@ -128,7 +128,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     fn step_from(&mut self, _t: f64) {}
 
     /// Extrapolates the input of this number over the step that begins.
-    fn foretell(&mut self, _number: usize, _signal: &mut Signal) {}
+    fn extrapolate(&mut self, _number: usize, _signal: &mut Signal) {}
 
     /// Hears that one of its inputs was set, of what it was `before`; whether that changes how anything goes on.
     fn input_set(&mut self, _before: &Self, set: InputSet) -> bool {
@@ -262,7 +262,7 @@ macro_rules! catalogue {
             number: $number,
             several: catalogue!(@several $many),
             terminal: <$module::$type as Effect>::TERMINAL,
-            type_path: concat!("model::effects::", stringify!($module), "::", stringify!($type)),
+            type_path: concat!("split_rotor_model::effects::", stringify!($module), "::", stringify!($type)),
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,
             imposes: <$module::$type as Effect>::IMPOSES,
@@ -300,7 +300,7 @@ macro_rules! catalogue {
 catalogue! {
     1 gravity Gravity one;
     2 support Support one;
-    3 shaft Shaft one;
+    3 drive Drive one;
     4 asymmetry Asymmetry one;
     5 unbalance Unbalance several;
     6 bearing Bearing several;

@@ -148,53 +148,53 @@ impl<E: Effects> Rotor<E> {
         self.known_motion::<S, false, true>(chart, t, y)
     }
 
-    /// [`Rotor::motion_in`] of a body that is known to be `EVEN`, and `FREE` of an imposed speed: the compiler leaves out
+    /// [`Rotor::motion_in`] of a body that is known to be `SYMMETRIC`, and `FREE` of an imposed speed: the compiler leaves out
     /// the rest.
     #[inline(always)]
-    fn known_motion<S: Scalar, const EVEN: bool, const FREE: bool>(
+    fn known_motion<S: Scalar, const SYMMETRIC: bool, const FREE: bool>(
         &self,
         chart: Chart,
         t: f64,
         y: &[S],
     ) -> Kinematics<S> {
-        let inertia = if EVEN { self.body.even() } else { self.inertia() };
+        let inertia = if SYMMETRIC { self.body.symmetric() } else { self.inertia() };
         let motion = Kinematics::new(inertia, chart, Coordinates::from_slice(y)).when(S::constant(t), self.turns);
         if FREE { motion } else { imposed(&self.effects, motion) }
     }
 
-    /// The body; where no effect can shape it, the compiler knows that it is even.
+    /// The body; where no effect can shape it, the compiler knows that it is symmetric.
     #[inline(always)]
     pub fn inertia(&self) -> Inertia {
-        if E::SHAPES { self.body } else { self.body.even() }
+        if E::SHAPES { self.body } else { self.body.symmetric() }
     }
 
     /// The rates of a state of N numbers; once for each chart, so that neither asks again which one it is.
     #[inline(always)]
-    fn known_rates<const N: usize, const EVEN: bool, const FREE: bool, const PLACE: bool>(
+    fn known_rates<const N: usize, const SYMMETRIC: bool, const FREE: bool, const PLACE: bool>(
         &self,
         t: f64,
         y: &[f64; N],
     ) -> [f64; N] {
         match self.chart {
-            Chart::FromE => self.rates_in::<f64, N, EVEN, FREE, PLACE>(Chart::FromE, t, y),
-            Chart::FromMinusE => self.rates_in::<f64, N, EVEN, FREE, PLACE>(Chart::FromMinusE, t, y),
+            Chart::FromE => self.rates_in::<f64, N, SYMMETRIC, FREE, PLACE>(Chart::FromE, t, y),
+            Chart::FromMinusE => self.rates_in::<f64, N, SYMMETRIC, FREE, PLACE>(Chart::FromMinusE, t, y),
         }
     }
 
     /// [`Rotor::known_rates`], called: laws of all effects are too long to stand in every stage.
     #[inline(never)]
-    fn called_rates<const N: usize, const EVEN: bool, const FREE: bool, const PLACE: bool>(
+    fn called_rates<const N: usize, const SYMMETRIC: bool, const FREE: bool, const PLACE: bool>(
         &self,
         t: f64,
         y: &[f64; N],
     ) -> [f64; N] {
-        self.known_rates::<N, EVEN, FREE, PLACE>(t, y)
+        self.known_rates::<N, SYMMETRIC, FREE, PLACE>(t, y)
     }
 
-    /// [`Rotor::called_rates`] of a body that is even. Where no effect follows the place, the compiler is told that those which
+    /// [`Rotor::called_rates`] of a body that is symmetric. Where no effect follows the place, the compiler is told that those which
     /// could are off.
     #[inline(never)]
-    fn even_rates<const N: usize, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+    fn symmetric_rates<const N: usize, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         if self.placeless {
             self.known_rates::<N, true, FREE, false>(t, y)
         } else {
@@ -204,13 +204,13 @@ impl<E: Effects> Rotor<E> {
 
     /// The rates of a state of N numbers in this chart.
     #[inline(always)]
-    fn rates_in<S: Scalar, const N: usize, const EVEN: bool, const FREE: bool, const PLACE: bool>(
+    fn rates_in<S: Scalar, const N: usize, const SYMMETRIC: bool, const FREE: bool, const PLACE: bool>(
         &self,
         chart: Chart,
         t: f64,
         y: &[S; N],
     ) -> [S; N] {
-        let motion = self.known_motion::<S, EVEN, FREE>(chart, t, y);
+        let motion = self.known_motion::<S, SYMMETRIC, FREE>(chart, t, y);
         let mut some = [S::zero(); N];
         debug_assert!(N == WITH_WORK || !self.effects.works(), "what works is solved with its work");
         if N == WITH_WORK {
@@ -261,9 +261,9 @@ impl<E: Effects, const N: usize> System<N> for Rotor<E> {
             return self.known_rates::<N, false, false, true>(t, y);
         }
         // What could be switched on, and is not, is told here instead of asked for all along the laws.
-        match (self.body.uneven.is_none(), self.effects.imposed::<f64>(t).is_none()) {
-            (true, true) => self.even_rates::<N, true>(t, y),
-            (true, false) => self.even_rates::<N, false>(t, y),
+        match (self.body.asymmetric.is_none(), self.effects.imposed::<f64>(t).is_none()) {
+            (true, true) => self.symmetric_rates::<N, true>(t, y),
+            (true, false) => self.symmetric_rates::<N, false>(t, y),
             (false, true) => self.called_rates::<N, false, true, true>(t, y),
             (false, false) => self.called_rates::<N, false, false, true>(t, y),
         }

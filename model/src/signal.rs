@@ -35,12 +35,12 @@ enum Source {
     /// Derivatives were sent.
     Derivatives,
     /// It was extrapolated.
-    Foretold,
+    Extrapolated,
 }
 
 impl Stored for Source {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        choice(self, &[Source::Value, Source::Derivatives, Source::Foretold], walk)
+        choice(self, &[Source::Value, Source::Derivatives, Source::Extrapolated], walk)
     }
 }
 
@@ -134,7 +134,7 @@ impl Signal {
 
     /// The value that was set at the communication point `t` [s], if one was.
     pub fn set_at(&self, t: f64) -> Option<f64> {
-        (self.told == t && self.source != Source::Foretold).then_some(self.value)
+        (self.told == t && self.source != Source::Extrapolated).then_some(self.value)
     }
 
     /// Whether derivatives were sent at the communication point `t` [s].
@@ -143,8 +143,8 @@ impl Signal {
     }
 
     /// Extrapolates it from the communication point `t` [s] on: value, rate and second derivative there.
-    pub fn foretell(&mut self, t: f64, [value, slope, curvature]: [f64; 3]) {
-        *self = Self { origin: t, value, slope, curvature, source: Source::Foretold, told: t, ..*self };
+    pub fn extrapolate(&mut self, t: f64, [value, slope, curvature]: [f64; 3]) {
+        *self = Self { origin: t, value, slope, curvature, source: Source::Extrapolated, told: t, ..*self };
     }
 
     /// Derivatives are asked for in a direction that has this much more of this input.
@@ -154,7 +154,7 @@ impl Signal {
 
     /// The value goes on from `t` [s]; derivatives sent elsewhere are forgotten.
     fn set_out_from(&mut self, t: f64) {
-        if self.origin != t || self.source == Source::Foretold {
+        if self.origin != t || self.source == Source::Extrapolated {
             *self = Self { origin: t, value: self.at(t), ..Self::default() };
         } else if self.told != t {
             self.source = Source::Value;

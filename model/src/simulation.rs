@@ -2,16 +2,16 @@
 //! what the communication point shows.
 
 mod auto;
-mod drive;
+mod exchange;
 mod growth;
+mod integration;
 mod method;
 mod nominals;
-mod open;
 mod plan;
 mod start;
 mod tangents;
 
-pub use open::{Open, Settled};
+pub use exchange::{Exchange, Settled};
 pub use tangents::Tangents;
 
 use crate::effects::{Effects, follows_all_inputs};
@@ -25,7 +25,7 @@ use crate::state::{COORDINATES, WITH_WORK, Whole};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
 use crate::variables::{Parameters, Reading, numbers};
-use drive::Drive;
+use integration::Integration;
 use nominals::Nominals;
 use start::{BESIDE, Motion};
 
@@ -55,9 +55,9 @@ pub struct Simulation<E> {
 #[derive(Clone)]
 #[allow(clippy::large_enum_variant, reason = "a run is kept in place, so that it needs no allocation")]
 enum Run<E> {
-    Conservative(Drive<E, COORDINATES>),
-    Working(Drive<E, WITH_WORK>),
-    Open(Open<E>),
+    Conservative(Integration<E, COORDINATES>),
+    Working(Integration<E, WITH_WORK>),
+    Exchange(Exchange<E>),
 }
 
 impl<E: Effects> From<Parameters<E>> for Simulation<E> {
@@ -112,8 +112,8 @@ impl<E: Effects> Simulation<E> {
 
     /// A host's motion hears of inputs at once, a method when it goes on. What is shown follows them at once.
     fn tell_of_inputs(&mut self) {
-        if let Some(Run::Open(open)) = &mut self.run {
-            open.hear(&self.parameters.effects);
+        if let Some(Run::Exchange(exchange)) = &mut self.run {
+            exchange.hear(&self.parameters.effects);
         } else {
             self.news = true;
         }
@@ -141,11 +141,11 @@ impl<E: Effects> Simulation<E> {
         self.reading = None;
         self.news = false;
         self.run = Some(match self.integrator {
-            Integrator::Host => Run::Open(Open::start(motion, &reading)),
+            Integrator::Host => Run::Exchange(Exchange::start(motion, &reading)),
             Integrator::Method if parameters.effects.works() => {
-                Run::Working(Drive::start(motion, &reading, &parameters.setup, t, span))
+                Run::Working(Integration::start(motion, &reading, &parameters.setup, t, span))
             }
-            Integrator::Method => Run::Conservative(Drive::start(motion, &reading, &parameters.setup, t, span)),
+            Integrator::Method => Run::Conservative(Integration::start(motion, &reading, &parameters.setup, t, span)),
         });
         Ok(())
     }
@@ -154,18 +154,18 @@ impl<E: Effects> Simulation<E> {
     pub fn auto(&self) -> Option<String> {
         let is_auto = self.parameters.setup.solver.method_in_force() == numbers::AUTO;
         match self.run.as_ref().filter(|_| is_auto)? {
-            Run::Conservative(drive) => Some(drive.auto()),
-            Run::Working(drive) => Some(drive.auto()),
-            Run::Open(_) => None,
+            Run::Conservative(integration) => Some(integration.auto()),
+            Run::Working(integration) => Some(integration.auto()),
+            Run::Exchange(_) => None,
         }
     }
 
     /// How often it has gone on with another method.
     pub fn changes_of_method(&self) -> u32 {
         match &self.run {
-            Some(Run::Conservative(drive)) => drive.changes_of_method(),
-            Some(Run::Working(drive)) => drive.changes_of_method(),
-            Some(Run::Open(_)) | None => 0,
+            Some(Run::Conservative(integration)) => integration.changes_of_method(),
+            Some(Run::Working(integration)) => integration.changes_of_method(),
+            Some(Run::Exchange(_)) | None => 0,
         }
     }
 
@@ -185,14 +185,14 @@ impl<E: Effects> Simulation<E> {
     /// a number.
     pub fn advance(&mut self, t: f64) -> Result<(), Fault> {
         self.reading = None;
-        if self.parameters.effects.foretells() {
-            self.foretell();
+        if self.parameters.effects.extrapolates() {
+            self.extrapolate();
         }
         let news = self.news.then_some(&self.parameters.effects);
         match self.run.as_mut().expect("a run was started") {
-            Run::Conservative(drive) => drive.advance(t, news)?,
-            Run::Working(drive) => drive.advance(t, news)?,
-            Run::Open(_) => panic!("the host integrates"),
+            Run::Conservative(integration) => integration.advance(t, news)?,
+            Run::Working(integration) => integration.advance(t, news)?,
+            Run::Exchange(_) => panic!("the host integrates"),
         }
         self.news = false;
         if E::IMPOSES && self.parameters.effects.imposed::<f64>(t).is_some() {
@@ -210,22 +210,22 @@ impl<E: Effects> Simulation<E> {
     }
 
     /// Extrapolates inputs over the step that begins, where an effect does so.
-    fn foretell(&mut self) {
+    fn extrapolate(&mut self) {
         const { assert!(follows_all_inputs::<E>(), "extrapolation.rs: MOST is less than this list has inputs") };
         let t = self.time().unwrap_or_default();
         let effects = &mut self.parameters.effects;
         effects.step_from(t);
-        let (mut foretold, mut number, mut changes) = (effects.clone(), 0, false);
-        foretold.for_each_foretold(&mut |signal| {
+        let (mut extrapolated, mut number, mut changes) = (effects.clone(), 0, false);
+        extrapolated.for_each_extrapolated(&mut |signal| {
             let before = *signal;
-            effects.foretell(number, signal);
+            effects.extrapolate(number, signal);
             if signal.goes_on_like(&before) {
                 *signal = before;
             }
             changes |= *signal != before;
             number += 1;
         });
-        effects.hear(&foretold);
+        effects.hear(&extrapolated);
         self.news |= changes;
     }
 
@@ -233,18 +233,18 @@ impl<E: Effects> Simulation<E> {
     #[inline(always)]
     pub fn time(&self) -> Option<f64> {
         match self.run.as_ref()? {
-            Run::Conservative(drive) => Some(drive.time()),
-            Run::Working(drive) => Some(drive.time()),
-            Run::Open(open) => Some(open.time()),
+            Run::Conservative(integration) => Some(integration.time()),
+            Run::Working(integration) => Some(integration.time()),
+            Run::Exchange(exchange) => Some(exchange.time()),
         }
     }
 
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π: a warning is due.
     pub fn has_tilted(&self) -> bool {
         match &self.run {
-            Some(Run::Conservative(drive)) => drive.has_tilted(),
-            Some(Run::Working(drive)) => drive.has_tilted(),
-            Some(Run::Open(open)) => open.has_tilted(),
+            Some(Run::Conservative(integration)) => integration.has_tilted(),
+            Some(Run::Working(integration)) => integration.has_tilted(),
+            Some(Run::Exchange(exchange)) => exchange.has_tilted(),
             None => false,
         }
     }
@@ -252,9 +252,9 @@ impl<E: Effects> Simulation<E> {
     /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was [s].
     pub fn growth(&self) -> Option<(f64, f64)> {
         match self.run.as_ref()? {
-            Run::Conservative(drive) => drive.growth(),
-            Run::Working(drive) => drive.growth(),
-            Run::Open(open) => open.growth(),
+            Run::Conservative(integration) => integration.growth(),
+            Run::Working(integration) => integration.growth(),
+            Run::Exchange(exchange) => exchange.growth(),
         }
     }
 
@@ -287,9 +287,9 @@ impl<E: Effects> Simulation<E> {
         if self.reading.is_none() {
             let news = self.news.then_some(&self.parameters.effects);
             self.reading = Some(match &mut self.run {
-                Some(Run::Conservative(drive)) => drive.read(news),
-                Some(Run::Working(drive)) => drive.read(news),
-                Some(Run::Open(open)) => open.read(),
+                Some(Run::Conservative(integration)) => integration.read(news),
+                Some(Run::Working(integration)) => integration.read(news),
+                Some(Run::Exchange(exchange)) => exchange.read(),
                 None => {
                     self.parameters.check()?;
                     let reading = self.at_start(&self.parameters, 0.0)?.1;
@@ -304,7 +304,7 @@ impl<E: Effects> Simulation<E> {
     /// The state at the communication point.
     pub fn state(&mut self) -> Result<Whole<f64>, Invalid> {
         match &self.run {
-            Some(Run::Open(open)) => Ok(open.state()),
+            Some(Run::Exchange(exchange)) => Ok(exchange.state()),
             _ => Ok(self.read()?.state()),
         }
     }
@@ -330,17 +330,17 @@ impl<E: Effects> Simulation<E> {
     }
 
     /// The motion that a host integrates, once it was started; None where a method of ours does.
-    pub fn open(&mut self) -> Option<&mut Open<E>> {
-        let Some(Run::Open(open)) = &mut self.run else { return None };
+    pub fn exchange(&mut self) -> Option<&mut Exchange<E>> {
+        let Some(Run::Exchange(exchange)) = &mut self.run else { return None };
         self.reading = None;
-        Some(open)
+        Some(exchange)
     }
 
     /// Whether anything can be calculated of the present state; always, where a method of ours reached it.
     #[inline(always)]
     pub fn admits(&self) -> Result<(), Refusal> {
         match &self.run {
-            Some(Run::Open(open)) => open.admits(),
+            Some(Run::Exchange(exchange)) => exchange.admits(),
             _ => Ok(()),
         }
     }
@@ -393,30 +393,30 @@ impl<E: Effects> Stored for Simulation<E> {
             None => 0,
             Some(Run::Conservative(_)) => 1,
             Some(Run::Working(_)) => 2,
-            Some(Run::Open(_)) => 3,
+            Some(Run::Exchange(_)) => 3,
         };
         kind.walk(walk)?;
         match (kind, &run) {
             (0, _) => *run = None,
-            (1, Some(Run::Conservative(_))) | (2, Some(Run::Working(_))) | (3, Some(Run::Open(_))) => {}
-            (1, _) => *run = Some(Run::Conservative(Drive::blank())),
-            (2, _) => *run = Some(Run::Working(Drive::blank())),
-            (3, _) => *run = Some(Run::Open(Open::blank())),
+            (1, Some(Run::Conservative(_))) | (2, Some(Run::Working(_))) | (3, Some(Run::Exchange(_))) => {}
+            (1, _) => *run = Some(Run::Conservative(Integration::blank())),
+            (2, _) => *run = Some(Run::Working(Integration::blank())),
+            (3, _) => *run = Some(Run::Exchange(Exchange::blank())),
             _ => return Err(Damaged),
         }
         let (integrates, fits) = match run {
             None => return Ok(()),
-            Some(Run::Conservative(drive)) => {
-                drive.walk(walk)?;
-                (Integrator::Method, drive.is_of(parameters))
+            Some(Run::Conservative(integration)) => {
+                integration.walk(walk)?;
+                (Integrator::Method, integration.is_of(parameters))
             }
-            Some(Run::Working(drive)) => {
-                drive.walk(walk)?;
-                (Integrator::Method, drive.is_of(parameters))
+            Some(Run::Working(integration)) => {
+                integration.walk(walk)?;
+                (Integrator::Method, integration.is_of(parameters))
             }
-            Some(Run::Open(open)) => {
-                open.walk(walk)?;
-                (Integrator::Host, open.is_of(parameters))
+            Some(Run::Exchange(exchange)) => {
+                exchange.walk(walk)?;
+                (Integrator::Host, exchange.is_of(parameters))
             }
         };
         // A run begins with parameters that were checked.

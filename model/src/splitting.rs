@@ -62,7 +62,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
             work: if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0; 2] },
             // Where no effect works, none depends on the speeds.
             inner: self.effects.works().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
-            spreads: self.inertia().uneven.is_none() && at.k.norm() * h * self.body.per_jt > RESOLVED,
+            spreads: self.inertia().asymmetric.is_none() && at.k.norm() * h * self.body.per_jt > RESOLVED,
             guarded: self.effects.needs_gamma(),
             evaluations: 0.0,
             refusal: None,
@@ -105,13 +105,13 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     fn may_pass_the_limit(&self, h: f64) -> bool {
         let (body, k, theta) = (self.rotor.inertia(), self.at.k, self.tilt.gamma_in_chart().norm());
         let to_antipode = if self.rotor.chart == Chart::FromE { PI - theta } else { theta };
-        let way = match &body.uneven {
+        let way = match &body.asymmetric {
             // About K it goes round on a cone.
             None => {
                 let (across, along) = (k.cross(&self.tilt.axis).norm(), k.dot(&self.tilt.axis).abs());
                 (across * body.per_jt * h.abs()).min(2.0 * atan2(across, along))
             }
-            Some(uneven) => k.norm() * body.quickest(uneven) * h.abs(),
+            Some(asymmetric) => k.norm() * body.quickest(asymmetric) * h.abs(),
         };
         // What overflows is told by what comes of it.
         way.is_finite() && way > to_antipode - FORBIDDEN
@@ -179,8 +179,8 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         let body = self.rotor.inertia();
         // eq. 39: r + h v; L(K h/Jt) on the left and K·t h (1/Ja − 1/Jt) about the axis
         self.at.r += self.at.v * h;
-        if let Some(uneven) = &body.uneven {
-            return self.tumble(&body, uneven, h);
+        if let Some(asymmetric) = &body.asymmetric {
+            return self.tumble(&body, asymmetric, h);
         }
         self.at.phi += self.at.k.dot(&self.tilt.axis) * (h * body.spin);
         self.turn(self.at.k * (h * body.per_jt));

@@ -100,12 +100,12 @@ impl<S: Scalar> Kinematics<S> {
     /// [`Kinematics::new`] where the tilt of γ is known.
     #[inline(always)]
     pub fn tilted(body: Inertia, tilt: Tilt<S>, at: Coordinates<S>) -> Self {
-        let (velocity, to_centre) = match &body.uneven {
+        let (velocity, to_centre) = match &body.asymmetric {
             None => (body.angular_velocity(&at.k, &tilt.axis), None),
-            Some(uneven) => {
+            Some(asymmetric) => {
                 let attitude = tilt.attitude(at.phi);
-                let to_centre = attitude * uneven.centre.map(S::constant);
-                (body.uneven_angular_velocity(uneven, &at.k, &attitude), Some(to_centre))
+                let to_centre = attitude * asymmetric.centre.map(S::constant);
+                (body.asymmetric_angular_velocity(asymmetric, &at.k, &attitude), Some(to_centre))
             }
         };
         let (omega, AngularVelocity { swing, spin }) = (velocity.omega(&tilt.axis), velocity);
@@ -132,9 +132,11 @@ impl<S: Scalar> Kinematics<S> {
     /// I⁻¹K [rad/s] of any angular momentum K [kg·m²/s] about G.
     #[inline(always)]
     fn angular_velocity(&self, momentum: &Vector3<S>) -> Vector3<S> {
-        let velocity = match &self.body.uneven {
+        let velocity = match &self.body.asymmetric {
             None => self.body.angular_velocity(momentum, self.axis()),
-            Some(uneven) => self.body.uneven_angular_velocity(uneven, momentum, &self.tilt.attitude(self.at.phi)),
+            Some(asymmetric) => {
+                self.body.asymmetric_angular_velocity(asymmetric, momentum, &self.tilt.attitude(self.at.phi))
+            }
         };
         velocity.omega(self.axis())
     }

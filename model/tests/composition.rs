@@ -5,15 +5,15 @@ mod oracles;
 
 use harness::swinging::{distance, driven, reference, swinging};
 use harness::{Scene, largest, within};
-use model::integrate::composition::{Composed, Composition, Split, Splitting};
-use model::integrate::{Fault, Refusal};
-use model::rotation::chart::crossed_exactly;
-use model::rotation::{Chart, Tilt};
-use model::state::{GAMMA, WITH_WORK};
-use model::stored::{from_bytes, to_bytes};
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::log_slope;
 use oracles::words::Series;
+use split_rotor_model::integrate::composition::{Composed, Composition, Split, Splitting};
+use split_rotor_model::integrate::{Fault, Refusal};
+use split_rotor_model::rotation::chart::crossed_exactly;
+use split_rotor_model::rotation::{Chart, Tilt};
+use split_rotor_model::state::{GAMMA, WITH_WORK};
+use split_rotor_model::stored::{from_bytes, to_bytes};
 
 fn compositions() -> impl Iterator<Item = &'static Composition> {
     [2, 4, 6, 8].map(|order| Composition::of_order(order).expect("a composition")).into_iter()

@@ -4,9 +4,9 @@ mod harness;
 mod oracles;
 
 use harness::{Random, largest, within};
-use model::rotation::arc::{Reduced, atan2};
-use model::rotation::series;
 use oracles::fixed::Fixed;
+use split_rotor_model::rotation::arc::{Reduced, atan2};
+use split_rotor_model::rotation::series;
 use std::f64::consts::PI;
 
 /// sin a and cos a of a double.

@@ -1,16 +1,16 @@
 //! The two charts against the closed form of the torque-free symmetric rotor (ORACLES.md item 2): passages of the
 //! antipode −e at distances down to 0, and φ against ∫ω_φ dt.
 
-use model::body::{Body, Inertia};
-use model::integrate::explicit::Explicit;
-use model::integrate::sizes::GROUPS;
-use model::integrate::tableau::DOP853;
-use model::integrate::{Refusal, System, Tolerance};
-use model::rotation::euler_vector::rotation;
-use model::simulation::Simulation;
-use model::variable::Place;
-use model::variables::Parameters;
 use nalgebra::{Matrix3, Vector3};
+use split_rotor_model::body::{Body, Inertia};
+use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::integrate::sizes::GROUPS;
+use split_rotor_model::integrate::tableau::DOP853;
+use split_rotor_model::integrate::{Refusal, System, Tolerance};
+use split_rotor_model::rotation::euler_vector::rotation;
+use split_rotor_model::simulation::Simulation;
+use split_rotor_model::variable::Place;
+use split_rotor_model::variables::Parameters;
 use std::f64::consts::PI;
 
 const BODY: Body = Body { m: 5.0, Ja: 0.15625, Jt: 0.078125, l: 0.75 };

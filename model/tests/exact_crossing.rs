@@ -4,18 +4,18 @@
 mod double_double;
 
 use double_double::DoubleDouble;
-use model::body::Body;
-use model::effects::support::Support;
-use model::effects::{Called, Effects};
-use model::energy;
-use model::rotation::Chart;
-use model::rotation::chart::crossed_exactly;
-use model::rotation::euler_vector::rotation;
-use model::scalar::Scalar;
-use model::state::{Coordinates, Kinematics};
-use model::variable::Place;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use proptest::prelude::*;
+use split_rotor_model::body::Body;
+use split_rotor_model::effects::support::Support;
+use split_rotor_model::effects::{Called, Effects};
+use split_rotor_model::energy;
+use split_rotor_model::rotation::Chart;
+use split_rotor_model::rotation::chart::crossed_exactly;
+use split_rotor_model::rotation::euler_vector::rotation;
+use split_rotor_model::scalar::Scalar;
+use split_rotor_model::state::{Coordinates, Kinematics};
+use split_rotor_model::variable::Place;
 use std::f64::consts::TAU;
 
 /// From the thin disk to a needle: Ja/Jt [1].
@@ -92,7 +92,7 @@ proptest! {
     fn exact_attitude_across_a_switch(gamma in tilt(), phi in 0.0..TAU) {
         // L(γ)·L(φe) = L(γ′)·Q·L(φ′e), Q = diag(−1, 1, −1)
         let other = crossed_exactly(gamma);
-        let angle = model::rotation::Angle { turns: 0.0, remainder: phi };
+        let angle = split_rotor_model::rotation::Angle { turns: 0.0, remainder: phi };
         let own = Chart::FromMinusE.own_angle(angle, other);
         let q = Matrix3::from_diagonal(&Vector3::new(-1.0, 1.0, -1.0));
         let from_e = rotation(&Vector3::new(0.0, gamma.x, gamma.y)) * about_e(phi);

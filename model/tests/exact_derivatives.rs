@@ -5,15 +5,15 @@ mod harness;
 mod oracles;
 
 use harness::{Scene, largest, properties, within};
-use model::body::Body;
-use model::dual::Dual;
-use model::effects::Effects;
-use model::integrate::System;
-use model::scalar::Scalar;
-use model::state::{COORDINATES, WITH_WORK};
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::derivative;
 use proptest::prelude::*;
+use split_rotor_model::body::Body;
+use split_rotor_model::dual::Dual;
+use split_rotor_model::effects::Effects;
+use split_rotor_model::integrate::System;
+use split_rotor_model::scalar::Scalar;
+use split_rotor_model::state::{COORDINATES, WITH_WORK};
 use std::f64::consts::TAU;
 
 /// ∂(rates)/∂(coordinates) by dual numbers; column j of row i is [i][j].

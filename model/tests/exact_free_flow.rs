@@ -4,13 +4,13 @@ mod harness;
 mod oracles;
 
 use harness::{Random, largest, within};
-use model::body::{Body, Poinsot, Shape};
-use model::rotation::elliptic::Elliptic;
-use model::rotation::{Chart, Tilt, Turn};
 use nalgebra::{Matrix3, Vector2, Vector3};
 use oracles::asymmetric::Asymmetric;
 use oracles::elliptic::{jacobi, quarter_period};
 use oracles::numerics::integral;
+use split_rotor_model::body::{Body, Poinsot, Shape};
+use split_rotor_model::rotation::elliptic::Elliptic;
+use split_rotor_model::rotation::{Chart, Tilt, Turn};
 
 /// Moduli from none to next to one, as 1 − k².
 const COMPLEMENTS: [f64; 7] = [1.0, 0.9, 0.5, 0.1, 1e-3, 1e-8, 1e-15];
@@ -53,10 +53,10 @@ fn both(j: [f64; 3], omega: Vector3<f64>) -> (Option<Poinsot>, Matrix3<f64>, Asy
     let mut shape = Shape::of(Body { m: 1.0, Ja: j[0], Jt: j[1], l: 1.0 });
     shape.Jt2 = Some(j[2]);
     let (body, start) = (shape.inertia(), Tilt::new(Chart::FromE, gamma).attitude(phi));
-    let uneven = body.uneven.unwrap();
-    let axes = start * uneven.principal();
+    let asymmetric = body.asymmetric.unwrap();
+    let axes = start * asymmetric.principal();
     let k = start * Vector3::from(j).component_mul(&start.tr_mul(&omega));
-    (body.free(&uneven, &axes.tr_mul(&k)), axes, Asymmetric::new(j, phi, &gamma, &omega))
+    (body.free(&asymmetric, &axes.tr_mul(&k)), axes, Asymmetric::new(j, phi, &gamma, &omega))
 }
 
 /// The attitude after a time `h` [s].

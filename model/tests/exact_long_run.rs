@@ -1,8 +1,8 @@
 //! φ over 10⁶ revolutions: its remainder is as good after the last as after the first, but for the integration itself.
 
-use model::simulation::Simulation;
-use model::variable::Place;
-use model::variables::Parameters;
+use split_rotor_model::simulation::Simulation;
+use split_rotor_model::variable::Place;
+use split_rotor_model::variables::Parameters;
 use std::f64::consts::TAU;
 
 /// Spin of a rotor that does nothing else, a power of two so that its turns are exact [rad/s].

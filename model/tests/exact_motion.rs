@@ -4,14 +4,14 @@ mod harness;
 mod oracles;
 
 use harness::{Method, Scene, Supported, at, largest, momentum_about_e, times, within};
-use model::body::Body;
-use model::dual::Dual;
-use model::state::COORDINATES;
-use model::variables::Reading;
 use nalgebra::{SMatrix, Vector2, Vector3};
 use oracles::motion::{FreeRotor, Oscillator, Whirl, small_whirl};
 use oracles::numerics::{log_slope, root};
 use oracles::rotation;
+use split_rotor_model::body::Body;
+use split_rotor_model::dual::Dual;
+use split_rotor_model::state::COORDINATES;
+use split_rotor_model::variables::Reading;
 use std::f64::consts::TAU;
 
 // ---------------------------------------------------------------------------------------------------- torque-free

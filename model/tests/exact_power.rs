@@ -5,13 +5,13 @@ mod harness;
 mod oracles;
 
 use harness::{Random, Scene, largest, within};
-use model::body::{Inertia, Shape};
-use model::dual::Tangent;
-use model::effects::{Action, All, CATALOGUE, Effects, Info};
-use model::rotation::Chart;
-use model::state::{Coordinates, Kinematics};
-use model::variable::{Bound, Place, Role};
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::body::{Inertia, Shape};
+use split_rotor_model::dual::Tangent;
+use split_rotor_model::effects::{Action, All, CATALOGUE, Effects, Info};
+use split_rotor_model::rotation::Chart;
+use split_rotor_model::state::{Coordinates, Kinematics};
+use split_rotor_model::variable::{Bound, Place, Role};
 
 /// So many motions in each chart.
 const SAMPLES: u32 = 400;
@@ -49,7 +49,7 @@ fn motion(chart: Chart, random: &mut Random) -> Coordinates<f64> {
 }
 
 /// The paper's rotor of another Jt2, with a mass on it.
-fn uneven() -> Inertia {
+fn asymmetric() -> Inertia {
     let mut shape = Shape::of(Scene::paper().body);
     shape.Jt2 = Some(0.1);
     shape.add(0.5, &Vector3::new(0.2, 0.1, -0.15));
@@ -81,7 +81,7 @@ fn exact_power_of_each_effect() {
         for sample in 0..2 * SAMPLES {
             let chart = if sample % 2 == 0 { Chart::FromE } else { Chart::FromMinusE };
             let effects = drawn(info, &mut random);
-            let body = if sample % 4 < 2 { Scene::paper().body.into() } else { uneven() };
+            let body = if sample % 4 < 2 { Scene::paper().body.into() } else { asymmetric() };
             let motion = Kinematics::new(body, chart, motion(chart, &mut random));
             let Action { load, damping, supply, loss } = effects.action(&motion);
             let load = load + damping;

@@ -35,7 +35,7 @@ fn exact_extrapolation_has_its_order() {
 }
 
 fn body(scene: &Scene) -> RigidBody {
-    let model::body::Body { m, Ja, Jt, l } = scene.body;
+    let split_rotor_model::body::Body { m, Ja, Jt, l } = scene.body;
     RigidBody {
         m,
         Ja,

@@ -5,13 +5,13 @@ mod harness;
 mod oracles;
 
 use harness::{largest, properties, within};
-use model::rotation::euler_vector::{inverse_rate, rate, rotation};
-use model::rotation::{Angle, Chart, Tilt};
 use nalgebra::{Matrix3, Vector2, Vector3};
 use oracles::fixed::Fixed;
 use oracles::numerics::derivative;
 use oracles::rotation as exact;
 use proptest::prelude::*;
+use split_rotor_model::rotation::euler_vector::{inverse_rate, rate, rotation};
+use split_rotor_model::rotation::{Angle, Chart, Tilt};
 use std::f64::consts::{PI, TAU};
 
 /// Cases of each property.

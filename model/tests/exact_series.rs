@@ -5,9 +5,9 @@ mod harness;
 mod oracles;
 
 use harness::{largest, within};
-use model::rotation::{Chart, Tilt, series};
 use nalgebra::{Vector2, Vector3};
 use oracles::fixed::{Fixed, decoded};
+use split_rotor_model::rotation::{Chart, Tilt, series};
 use std::f64::consts::PI;
 
 /// Where c and j are asked for: 0, numbers that vanish beside 1, and 2000 points of [0, π²/4] with both ends.

@@ -4,10 +4,10 @@ mod harness;
 mod oracles;
 
 use harness::{Driven, Method, Scene, TORQUE, at, largest, within};
-use model::signal::Signal;
-use model::simulation::Simulation;
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::log_slope;
+use split_rotor_model::signal::Signal;
+use split_rotor_model::simulation::Simulation;
 
 #[test]
 fn exact_polynomial_about_where_it_was_set() {
@@ -163,7 +163,7 @@ fn exact_inputs_are_read_as_they_are_at_the_communication_point() {
     assert_eq!(simulation.get(TORQUE), Ok(Some(torque(0.5)[0])));
     simulation.set_input(TORQUE, 7.0);
     assert_eq!(simulation.get(TORQUE), Ok(Some(7.0)));
-    assert!(!simulation.set_input(model::variables::state_place(0), 1.0), "a state is no input");
+    assert!(!simulation.set_input(split_rotor_model::variables::state_place(0), 1.0), "a state is no input");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! A rotor whose axis whirls about −e itself, as closely as one likes: φ gains two turns a whirl, and no more.
 
-use model::simulation::Simulation;
-use model::variable::Place;
-use model::variables::Parameters;
 use nalgebra::Vector3;
+use split_rotor_model::simulation::Simulation;
+use split_rotor_model::variable::Place;
+use split_rotor_model::variables::Parameters;
 use std::f64::consts::{PI, TAU};
 
 /// Whirl rate [rad/s].

@@ -5,10 +5,10 @@ mod harness;
 mod oracles;
 
 use harness::{Method, Scene, Supported, at, largest, times, within};
-use model::body::Body;
-use model::integrate::Fault;
-use model::variables::Reading;
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::body::Body;
+use split_rotor_model::integrate::Fault;
+use split_rotor_model::variables::Reading;
 
 /// Position [m], axis [1] and φ [rad] of two readings: the largest difference.
 fn distance(a: &Reading, b: &Reading) -> f64 {

@@ -5,10 +5,10 @@ mod harness;
 mod oracles;
 
 use harness::{Method, Scene, Supported, largest, momentum_about_e, properties, times, within};
-use model::body::Body;
-use model::variables::Reading;
 use nalgebra::{Rotation2, Vector2, Vector3};
 use proptest::prelude::*;
+use split_rotor_model::body::Body;
+use split_rotor_model::variables::Reading;
 use std::f64::consts::TAU;
 
 fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {

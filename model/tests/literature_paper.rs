@@ -13,7 +13,7 @@ fn errors(method: Method, tolerance: f64) -> [f64; 7] {
     let instants = paper::instants();
     let scene = Scene { method, tolerance, ..Scene::paper() };
     let readings = scene.run::<Supported>(instants.iter().map(|instant| instant.t));
-    let of = |f: &dyn Fn(&paper::Instant, &model::variables::Reading) -> f64| {
+    let of = |f: &dyn Fn(&paper::Instant, &split_rotor_model::variables::Reading) -> f64| {
         largest(instants.iter().zip(&readings).map(|(instant, reading)| f(instant, reading)))
     };
     [

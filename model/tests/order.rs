@@ -5,11 +5,11 @@ mod oracles;
 
 use harness::swinging::{distance, swinging};
 use harness::{Method, Scene, largest, tolerance, within};
-use model::integrate::explicit::Explicit;
-use model::integrate::tableau::{Combination, ErrorRule, Stage, Tableau};
-use model::integrate::{Refusal, System};
 use oracles::numerics::log_slope;
 use oracles::trees::{Tree, trees};
+use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::integrate::tableau::{Combination, ErrorRule, Stage, Tableau};
+use split_rotor_model::integrate::{Refusal, System};
 
 /// What a method claims.
 struct Claim {

@@ -6,18 +6,18 @@ mod oracles;
 
 use harness::swinging::{distance, driven, reference};
 use harness::{Method, Random, Scene, Supported, largest, tolerance, within};
-use model::integrate::explicit::Explicit;
-use model::integrate::stiff::lu::Lu;
-use model::integrate::stiff::radau::{C, ERROR, GAMMA, PAIR, T, T_INVERSE, weights};
-use model::integrate::stiff::{Differentiable, Stiff};
-use model::integrate::{Fault, System};
-use model::rotor::Rotor;
-use model::state::WITH_WORK;
-use model::stored::{from_bytes, to_bytes};
 use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
 use oracles::motion::Oscillator;
 use oracles::numerics::{derivative, log_slope};
 use oracles::trees::{Tree, trees};
+use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::integrate::stiff::lu::Lu;
+use split_rotor_model::integrate::stiff::radau::{C, ERROR, GAMMA, PAIR, T, T_INVERSE, weights};
+use split_rotor_model::integrate::stiff::{Differentiable, Stiff};
+use split_rotor_model::integrate::{Fault, System};
+use split_rotor_model::rotor::Rotor;
+use split_rotor_model::state::WITH_WORK;
+use split_rotor_model::stored::{from_bytes, to_bytes};
 
 // --------------------------------------------------------------------------------------------- order conditions
 

@@ -6,8 +6,8 @@ use crate::guard::{caught, enter, fill, room, text, values};
 use crate::instance::{Failure, Instance, Memory, Type};
 use crate::logger::Logger;
 use crate::scene::GUID;
-use model::log::Category;
-use model::simulation::Integrator;
+use split_rotor_model::log::Category;
+use split_rotor_model::simulation::Integrator;
 
 /// Platform of the C types.
 #[unsafe(no_mangle)]

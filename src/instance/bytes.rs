@@ -4,8 +4,8 @@ use super::{Experiment, Failure, Instance, Memory};
 use crate::abi::Status;
 use crate::calls::State;
 use crate::scene::GUID;
-use model::simulation::Integrator;
-use model::stored::{self, Damaged, Stored, Walk, choice};
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::stored::{self, Damaged, Stored, Walk, choice};
 
 /// What the bytes begin with.
 const MAGIC: &[u8; 8] = b"rotorFMU";

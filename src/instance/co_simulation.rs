@@ -5,9 +5,9 @@ use super::{Failure, Instance, Reply};
 use crate::abi::{Boolean, Choice, Integer, Real, Status, status_kind};
 use crate::calls::State;
 use crate::guard::Room;
-use model::scalar::ulp;
-use model::signal::HIGHEST_DERIVATIVE;
-use model::variable::{Place, Role};
+use split_rotor_model::scalar::ulp;
+use split_rotor_model::signal::HIGHEST_DERIVATIVE;
+use split_rotor_model::variable::{Place, Role};
 
 /// Two times are equal within this part of a step, and this many units in the last place.
 const TIME_TOLERANCE: f64 = 1e-9;

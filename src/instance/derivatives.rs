@@ -4,8 +4,8 @@ use super::values::{Type, finite, shown, typed};
 use super::{Failure, Instance, Reply};
 use crate::abi::{Real, Status};
 use crate::guard::Room;
-use model::variable::{Place, Role};
-use model::variables::state_number;
+use split_rotor_model::variable::{Place, Role};
+use split_rotor_model::variables::state_number;
 
 impl Instance {
     /// fmi2GetDirectionalDerivative: how the unknown variables change as the known ones change by the seeds.

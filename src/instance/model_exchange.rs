@@ -5,8 +5,8 @@ use crate::abi::{Real, Status};
 use crate::calls::State;
 use crate::guard::{Room, fill};
 use crate::scene::Simulation;
-use model::log::Category;
-use model::simulation::Open;
+use split_rotor_model::log::Category;
+use split_rotor_model::simulation::Exchange;
 
 /// What fmi2NewDiscreteStates found.
 pub struct Events {
@@ -17,8 +17,8 @@ pub struct Events {
 impl Instance {
     /// fmi2EnterEventMode
     pub fn enter_event_mode(&mut self) -> Reply {
-        if let Some(open) = self.memory.simulation.open() {
-            open.enter_event();
+        if let Some(exchange) = self.memory.simulation.exchange() {
+            exchange.enter_event();
         }
         self.memory.state = State::EventMode;
         Ok(Status::Ok)
@@ -27,7 +27,7 @@ impl Instance {
     /// fmi2NewDiscreteStates
     pub fn new_discrete_states(&mut self) -> Result<Events, Failure> {
         self.memory.simulation.admits()?;
-        let settled = self.memory.simulation.open().map(Open::settle).unwrap_or_default();
+        let settled = self.memory.simulation.exchange().map(Exchange::settle).unwrap_or_default();
         if settled.chart {
             self.tell(Category::Events, || {
                 "the axis has turned far: gamma and phi are now measured in the other chart, and the states changed"
@@ -43,8 +43,8 @@ impl Instance {
     /// fmi2EnterContinuousTimeMode
     pub fn enter_continuous_time_mode(&mut self) -> Reply {
         self.warn_of_zeros();
-        if let Some(open) = self.memory.simulation.open() {
-            open.leave_event();
+        if let Some(exchange) = self.memory.simulation.exchange() {
+            exchange.leave_event();
         }
         self.memory.state = State::ContinuousTime;
         Ok(Status::Ok)
@@ -53,7 +53,7 @@ impl Instance {
     /// fmi2CompletedIntegratorStep; whether event mode should be entered.
     pub fn completed_integrator_step(&mut self) -> Result<bool, Failure> {
         self.memory.simulation.admits()?;
-        let wants_event = self.memory.simulation.open().is_some_and(|open| open.complete_step());
+        let wants_event = self.memory.simulation.exchange().is_some_and(|exchange| exchange.complete_step());
         self.warn();
         Ok(wants_event)
     }
@@ -63,8 +63,8 @@ impl Instance {
         if !t.is_finite() {
             return Err(Failure::error(format!("time = {t:?} must be a finite number of seconds")));
         }
-        if let Some(open) = self.memory.simulation.open() {
-            open.set_time(t);
+        if let Some(exchange) = self.memory.simulation.exchange() {
+            exchange.set_time(t);
         }
         Ok(Status::Ok)
     }
@@ -76,8 +76,8 @@ impl Instance {
             let message = format!("state {} of {} = {:?} must be a finite number", n + 1, states.len(), states[n]);
             return Err(Failure::discard(message));
         }
-        if let Some(open) = self.memory.simulation.open() {
-            open.set_state(states);
+        if let Some(exchange) = self.memory.simulation.exchange() {
+            exchange.set_state(states);
         }
         Ok(Status::Ok)
     }

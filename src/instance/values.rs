@@ -5,8 +5,8 @@ use crate::abi::{Boolean, Integer, Real, Status};
 use crate::calls::State;
 use crate::guard::{Room, fill};
 use crate::scene::Effects;
-use model::variable::{Kind, Meta, Place, Role};
-use model::variables::Parameters;
+use split_rotor_model::variable::{Kind, Meta, Place, Role};
+use split_rotor_model::variables::Parameters;
 use std::mem::MaybeUninit;
 
 /// The FMI type through which a variable is asked for.

@@ -2,9 +2,9 @@
 
 use super::source::Source;
 use crate::harness::{NO_VARIABLE, scene};
-use model::variable::{Kind, Role};
-use model::variables::Variable;
 use split_rotor::abi::ValueReference;
+use split_rotor_model::variable::{Kind, Role};
+use split_rotor_model::variables::Variable;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 

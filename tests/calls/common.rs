@@ -5,9 +5,9 @@ use super::arguments::*;
 use super::check::{ANY, ERROR, OK, OK_OR_DISCARD, Told};
 use super::source::Source;
 use crate::harness::{Instance, Request, Stage, reals, scene};
-use model::variables::TOLERANCES;
 use split_rotor::abi::*;
 use split_rotor::exports::*;
+use split_rotor_model::variables::TOLERANCES;
 use std::sync::OnceLock;
 
 /// What a call may return whose arguments are right, or are not.

@@ -5,9 +5,9 @@ use super::arguments::*;
 use super::check::{ERROR, OK, OK_OR_DISCARD, Told};
 use super::source::Source;
 use crate::harness::{Instance, Stage, reference};
-use model::scalar::ulp;
 use split_rotor::abi::*;
 use split_rotor::exports::*;
+use split_rotor_model::scalar::ulp;
 
 /// What may be evaluated in a step beyond what solver.max_evaluations says: a step that was begun.
 const BEGUN: Real = 2e5;

@@ -54,7 +54,7 @@ def test_fmi_the_motion_is_that_of_fmpy(record, packaged, client, scene):
     assert max(apart.values()) <= MOTIONS, apart
 
 
-ZEROS = "all inputs are 0, and the scene begins with shaft.tau = 0.5"
+ZEROS = "all inputs are 0, and the scene begins with drive.tau = 0.5"
 
 
 @pytest.mark.long

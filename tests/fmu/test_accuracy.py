@@ -154,7 +154,7 @@ m = 12.0
 Ja = 0.04
 Jt = 0.12
 l = 0.0
-[effects.shaft]
+[effects.drive]
 tau = 24.0
 [[effects.bearing]]
 position = -0.12

@@ -155,7 +155,7 @@ def test_exact_dependencies_later(fmu, observed_later):
 def test_exact_positions_and_angles_depend_on_no_input(fmus):
     """Or a partner's solver would see an algebraic loop where there is none."""
     driven = fmus["driven"].description
-    on_input = {u.variable.name for u in driven.outputs if "shaft.tau" in [v.name for v in u.dependencies]}
-    assert on_input == {"shaft.a"}
-    on_input = {u.variable.name for u in driven.derivatives if "shaft.tau" in [v.name for v in u.dependencies]}
+    on_input = {u.variable.name for u in driven.outputs if "drive.tau" in [v.name for v in u.dependencies]}
+    assert on_input == {"drive.a"}
+    on_input = {u.variable.name for u in driven.derivatives if "drive.tau" in [v.name for v in u.dependencies]}
     assert on_input == {"der(state.K.x)", "der(state.K.y)", "der(state.K.z)", "der(state.supplied)"}

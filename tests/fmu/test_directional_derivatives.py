@@ -74,16 +74,16 @@ def test_exact_derivatives_by_an_input(fmus):
     """Everything is linear in the torque: the derivative is the difference."""
     driven = fmus["driven"]
     with driven.host(kind=MODEL_EXCHANGE) as host:
-        host.start({"start.gamma.y": 0.6, "shaft.tau": 0.0}).slave.enterContinuousTimeMode()
+        host.start({"start.gamma.y": 0.6, "drive.tau": 0.0}).slave.enterContinuousTimeMode()
         names = smooth(host.variables)
         before = np.array(host.read(*names))
-        tau = host.reference("shaft.tau")
+        tau = host.reference("drive.tau")
         sensitivity = host.slave.getDirectionalDerivative([host.reference(name) for name in names], [tau], [2.0])
-        host.set({"shaft.tau": 2.0})
+        host.set({"drive.tau": 2.0})
         np.testing.assert_allclose(sensitivity, np.array(host.read(*names)) - before, rtol=1e-9, atol=1e-9)
         moved = {name for name, value in zip(names, sensitivity) if value != 0.0}
         # n lies in the plane of e and t, that of x and z
-        assert moved == {"der(state.K.x)", "der(state.K.z)", "der(state.supplied)", "shaft.a"}
+        assert moved == {"der(state.K.x)", "der(state.K.z)", "der(state.supplied)", "drive.a"}
 
 
 def test_exact_derivatives_in_initialization_mode(fmu):
@@ -101,8 +101,8 @@ def test_exact_output_derivatives_along_the_motion(gentle):
     times = sorted({NOW + sign * TIME_STEP / 2.0**level for level in range(LEVELS) for sign in (-1, 1)} | {NOW})
     with gentle.host() as host:
         host.start(start)
-        if "shaft.tau" in gentle.variables:
-            tau = [host.reference("shaft.tau")]
+        if "drive.tau" in gentle.variables:
+            tau = [host.reference("drive.tau")]
             host.slave.setReal(tau, [1.0])
             host.slave.setRealInputDerivatives(tau * 2, [1, 2], [-3.0, 8.0])
         shown, time = {}, 0.0

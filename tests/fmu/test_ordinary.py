@@ -27,7 +27,7 @@ STIFFNESS = {"kyy": 2e7, "kzz": 1.5e7, "cyy": 2000.0, "czz": 2000.0}
 UNBALANCE = {"unbalance[1].mass": 0.002, "unbalance[1].radius": 0.02}
 RUN_UP = (
     BARE | bearing(1, -0.12, **STIFFNESS) | bearing(2, 0.12, **STIFFNESS) | UNBALANCE
-    | {"effects.shaft": True, "shaft.tau": 24.0}
+    | {"effects.drive": True, "drive.tau": 24.0}
 )
 WHIRL, ENDS = 20.492464e-6, 3.3  # [m], [s]
 

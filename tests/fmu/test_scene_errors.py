@@ -35,8 +35,12 @@ CASES = {
         ", line 20: unknown key `effects.support.F`: [effects.support] knows c1, c2, d1, d2",
     ),
     "unknown effect": (
-        "effects.gravity", "effects.gravty", ", line 15: unknown effect `gravty`: there are gravity, support, shaft, asymmetry, "
+        "effects.gravity", "effects.gravty", ", line 15: unknown effect `gravty`: there are gravity, support, drive, asymmetry, "
         "unbalance, bearing, rotating_damping, drag, probe, port, imposed_speed, extrapolation",
+    ),
+    "an effect's former name": (
+        "effects.support]", "effects.shaft]\n[effects.support]",
+        ", line 18: effect `shaft` is now called `drive`: write [effects.drive]",
     ),
     "text for a number": (
         "m = 5.0", 'm = "5 kg"', ', line 6: rotor.m = "5 kg" is not possible: it must be a number in kg',

@@ -150,12 +150,12 @@ def test_exact_bytes_of_another_scene_or_kind_are_refused(fmus):
 def test_exact_an_input_travels_with_the_state(fmus):
     """Its slope too."""
     with begin(fmus["driven"], CO_SIMULATION) as host, begin(fmus["driven"], CO_SIMULATION) as other:
-        tau = [host.reference("shaft.tau")]
+        tau = [host.reference("drive.tau")]
         host.slave.setReal(tau, [1.0])
         host.slave.setRealInputDerivatives(tau, [1], [5.0])
         go_on(host, 0, FROM)
         other.slave.setFMUState(other.slave.deserializeFMUState(serialized(host)))
-        assert other.read("shaft.tau") == host.read("shaft.tau") > 1.4
+        assert other.read("drive.tau") == host.read("drive.tau") > 1.4
         assert go_on(host, FROM, TO) == go_on(other, FROM, TO)
 
 

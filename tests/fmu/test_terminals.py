@@ -10,7 +10,7 @@ from lxml import etree
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 
 FLANGE = {"tau": "inflow", "phi": "signal", "w": "signal", "a": "signal"}
-"""The members of `shaft`, with the names of Modelica's adaptors between flanges and signals."""
+"""The members of `drive`, with the names of Modelica's adaptors between flanges and signals."""
 
 
 @pytest.fixture
@@ -44,8 +44,8 @@ def test_exact_a_shaft_is_a_terminal(fmu, root):
     named = {terminal.get("name"): terminal for terminal in root.findall("Terminals/Terminal")}
     ports = [name for name in named if re.fullmatch(r"port\[\d\]", name)]
     assert set(ports) == {name.partition(".")[0] for name in fmu.variables if name.startswith("port[")}
-    assert set(named) - set(ports) == {"shaft", "imposed_speed"} & {name.partition(".")[0] for name in fmu.variables}
-    terminals = [terminal for name, terminal in named.items() if name == "shaft"]
+    assert set(named) - set(ports) == {"drive", "imposed_speed"} & {name.partition(".")[0] for name in fmu.variables}
+    terminals = [terminal for name, terminal in named.items() if name == "drive"]
     for terminal in terminals:
         members = {m.get("memberName"): m.get("variableKind") for m in terminal.findall("TerminalMemberVariable")}
         assert members == FLANGE

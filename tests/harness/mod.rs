@@ -11,12 +11,12 @@ mod saved;
 pub use life::{FAST, Life, RULES, Rule, Stage};
 pub use saved::Saved;
 
-use model::scene::Scene;
-use model::variable::{Kind, Role};
-use model::variables::Variable;
 use split_rotor::abi::*;
 use split_rotor::exports::*;
 use split_rotor::scene::GUID;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::variable::{Kind, Role};
+use split_rotor_model::variables::Variable;
 use std::ffi::{CStr, CString};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, OnceLock};
@@ -33,7 +33,8 @@ pub fn scene() -> &'static Scene {
     SCENE.get_or_init(|| {
         let read = |name: String| Scene::find(&name, &scenes()).unwrap_or_else(|error| panic!("{error}"));
         let mut all = Scene::names(&scenes()).into_iter().map(read);
-        all.find(|scene| model::xml::guid(scene) == GUID).expect("the compiled-in scene must be one of scenes/")
+        all.find(|scene| split_rotor_model::xml::guid(scene) == GUID)
+            .expect("the compiled-in scene must be one of scenes/")
     })
 }
 
@@ -60,7 +61,7 @@ pub fn tumbling() -> Vec<(&'static str, Real)> {
         ("support.c2", 1e-300),
         ("support.d1", 0.0),
         ("support.d2", 0.0),
-        ("shaft.tau", 0.0),
+        ("drive.tau", 0.0),
         ("start.omega.x", 0.0),
         ("start.omega.y", 30.0),
     ];

@@ -19,10 +19,10 @@ use crate::unpacked::unpack;
 use crate::{package, scenes};
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
-use model::scene::{Experiment, Scene};
 use reference::Reference;
 use row::{Row, Scale};
 use run::{Setting, Subject};
+use split_rotor_model::scene::{Experiment, Scene};
 use table::short;
 pub use tolerances::tolerances;
 

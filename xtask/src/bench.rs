@@ -13,7 +13,7 @@ use crate::package::UNPACKED;
 use crate::paths;
 use crate::run::cargo;
 use anyhow::{Result, ensure};
-use model::scene::Scene;
+use split_rotor_model::scene::Scene;
 use std::process::Command;
 
 /// The scenes that are measured, as far as they are there: without inputs, and with one.

@@ -4,8 +4,8 @@
 use crate::run::{cargo, output, run};
 use crate::{c, package, paths, scenes};
 use anyhow::{Context, Result, ensure};
-use model::effects::CATALOGUE;
-use model::scene::Scene;
+use split_rotor_model::effects::CATALOGUE;
+use split_rotor_model::scene::Scene;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;

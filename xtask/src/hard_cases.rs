@@ -49,7 +49,7 @@ pub fn hard_cases(extent: &Extent) -> Result<()> {
     run(extent)
 }
 
-/// The scenes whose FMUs the cases run in: no effects, gravity and support, those with a shaft, asymmetry, unbalance at an
+/// The scenes whose FMUs the cases run in: no effects, gravity and support, those with a drive, asymmetry, unbalance at an
 /// imposed speed, bearings with rotating damping, all.
 fn scenes() -> [&'static str; 7] {
     ["free_top", "paper", "driven", "dzhanibekov", "jeffcott", "unstable_whirl", "rotor"]

@@ -4,7 +4,7 @@ use crate::run::run;
 use crate::unpacked::unpack;
 use crate::{c, c_host, paths};
 use anyhow::Result;
-use model::scene::Scene;
+use split_rotor_model::scene::Scene;
 
 /// Runs a shorter C host on every scene's FMU, as it was packaged last, under memcheck: errors and leaks fail.
 pub fn valgrind() -> Result<()> {

@@ -3,10 +3,10 @@
 use crate::{scenes, templates};
 use anyhow::Result;
 use minijinja::{Value, context};
-use model::log::Category;
-use model::scene::Scene;
-use model::variable::{Kind, Place, Role};
-use model::variables::{METHODS, Variable};
+use split_rotor_model::log::Category;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::variable::{Kind, Place, Role};
+use split_rotor_model::variables::{METHODS, Variable};
 
 /// The scene's documentation page.
 pub fn page(scene: &Scene) -> Result<String> {
@@ -64,7 +64,7 @@ fn number(value: f64) -> String {
 mod tests {
     use super::page;
     use crate::{paths, scenes};
-    use model::effects::CATALOGUE;
+    use split_rotor_model::effects::CATALOGUE;
     use std::collections::BTreeSet;
 
     #[test]
@@ -80,17 +80,17 @@ mod tests {
     #[test]
     fn exact_laws_are_those_of_the_scene() {
         let (even, of_c) = ("<i>φ</i>, on which nothing depends,", "½ <i>m</i> |<b>v</b><sub>c</sub>|²");
-        let (uneven, of_g) = ("<i>φ</i>, which the motion follows", "½ <i>M</i> |<b>v</b><sub>G</sub>|²");
+        let (asymmetric, of_g) = ("<i>φ</i>, which the motion follows", "½ <i>M</i> |<b>v</b><sub>G</sub>|²");
         let (on_c, on_g) = ("<b>g</b><sub>0</sub>·<b>r</b><sub>c</sub>", "<b>g</b><sub>0</sub>·<b>r</b><sub>G</sub>");
         let (axial, tensor) = ("1/<i>J</i><sub>a</sub>", "<b>J</b><sup>−1</sup>");
         let tensor_of_g = "<b>J</b><sub>G</sub><sup>−1</sup>";
         let switched = "while <code>asymmetry</code> or <code>unbalance</code> is on";
-        let every = [even, of_c, uneven, of_g, on_c, on_g, axial, tensor, tensor_of_g, switched];
+        let every = [even, of_c, asymmetric, of_g, on_c, on_g, axial, tensor, tensor_of_g, switched];
         for (scene, said) in [
             ("paper", vec![even, of_c, on_c, axial]),
-            ("dzhanibekov", vec![uneven, of_c, tensor]),
-            ("jeffcott", vec![uneven, of_g, tensor_of_g]),
-            ("rotor", vec![uneven, of_g, on_g, tensor_of_g, switched]),
+            ("dzhanibekov", vec![asymmetric, of_c, tensor]),
+            ("jeffcott", vec![asymmetric, of_g, tensor_of_g]),
+            ("rotor", vec![asymmetric, of_g, on_g, tensor_of_g, switched]),
         ] {
             let page = page(&scenes::find(scene).unwrap()).unwrap();
             let found: Vec<_> = every.into_iter().filter(|law| page.contains(law)).collect();

@@ -4,8 +4,8 @@
 use crate::run::{cargo, run};
 use crate::{c_host, paths, scenes, sheet, unpacked};
 use anyhow::{Context, Result, bail};
-use model::scene::Scene;
-use model::xml;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::xml;
 use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX};
 use std::path::PathBuf;
 use std::process::Command;

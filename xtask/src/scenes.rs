@@ -2,11 +2,11 @@
 
 use crate::paths;
 use anyhow::Result;
-use model::effects::Info;
-use model::scene::Scene;
-use model::variable::Place;
-use model::variables::{Variable, numbers};
-use model::xml;
+use split_rotor_model::effects::Info;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::variable::Place;
+use split_rotor_model::variables::{Variable, numbers};
+use split_rotor_model::xml;
 
 /// The scene that the user means.
 pub fn find(name_or_path: &str) -> Result<Scene> {

@@ -3,10 +3,10 @@
 use crate::{scenes, templates};
 use anyhow::Result;
 use minijinja::{Value, context};
-use model::effects::Terminal;
-use model::scene::Scene;
-use model::variable::Role;
-use model::variables::Variable;
+use split_rotor_model::effects::Terminal;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::variable::Role;
+use split_rotor_model::variables::Variable;
 
 /// The scene's terminalsAndIcons.xml.
 pub fn terminals_and_icons(scene: &Scene) -> Result<String> {
@@ -37,7 +37,7 @@ fn described(terminal: Terminal, name: &str, variables: &[&Variable]) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use model::effects::CATALOGUE;
+    use split_rotor_model::effects::CATALOGUE;
 
     #[test]
     fn exact_a_terminal_has_all_of_its_effect_but_parameters() {

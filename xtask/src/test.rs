@@ -4,7 +4,7 @@ use crate::hard_cases::{self, Extent};
 use crate::run::{cargo, run};
 use crate::{accuracy, bench, c_host, copies, fuzz, memcheck, package, paths, python, sanitize};
 use anyhow::{Result, bail, ensure};
-use model::scene::Scene;
+use split_rotor_model::scene::Scene;
 use std::time::Instant;
 
 /// What a job does, and what runs it; where it cannot, that is an error, which names what is to be installed.

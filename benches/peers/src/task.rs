@@ -57,7 +57,7 @@ impl Task {
             c2: value("support.c2"),
             d1: value("support.d1"),
             d2: value("support.d2"),
-            tau: value("shaft.tau"),
+            tau: value("drive.tau"),
         };
         let [y, z] = ["start.gamma.y", "start.gamma.z"].map(value);
         let theta = y.hypot(z);

@@ -26,8 +26,8 @@ pub struct Poinsot {
     /// Whether c is the axis whose azimuth is reckoned, and not a.
     about_c: bool,
     /// How fast the azimuth grows evenly [rad/s], and by how much of the integral besides [rad].
-    even: f64,
-    uneven: f64,
+    mean: f64,
+    rest: f64,
     /// ν of the integral.
     nu: f64,
     /// An angular velocity that is not exceeded [rad/s].
@@ -78,7 +78,7 @@ impl Poinsot {
         let about_c = near >= 0.5;
         let lowest = per_j + excess[if about_c { a } else { c }];
         // eq. 94
-        let (nu, uneven) = if about_c { (ratio, ratio) } else { (swing / spin, -swing / spin) };
+        let (nu, asymmetric) = if about_c { (ratio, ratio) } else { (swing / spin, -swing / spin) };
         Some(Self {
             places,
             start,
@@ -87,8 +87,8 @@ impl Poinsot {
             elliptic: Elliptic::new(m1),
             rate,
             about_c,
-            even: momentum * lowest,
-            uneven: uneven * momentum * whole / rate,
+            mean: momentum * lowest,
+            rest: asymmetric * momentum * whole / rate,
             nu,
             bound: momentum * (per_j + excess[least].max(excess[most])),
         })
@@ -123,7 +123,7 @@ impl Poinsot {
             third = (2.0 * quarter).copysign(sn_0 + sine) - third;
         }
         third += 2.0 * halves * quarter - self.elliptic.third(self.nu, sn_0, cn_0);
-        self.seen_from_body(self.even * h + self.uneven * third, &end)
+        self.seen_from_body(self.mean * h + self.rest * third, &end)
     }
 
     /// The turn that takes K in the body from the start to `end` and the axis by an azimuth [rad] about K.

@@ -22,9 +22,9 @@ pub struct Shape {
     inertia: Matrix3<f64>,
 }
 
-/// What is uneven of a body: its mass centre is not on its axis, or it is not symmetric about it.
+/// What is asymmetric of a body: its mass centre is not on its axis, or it is not symmetric about it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Uneven {
+pub struct Asymmetric {
     /// From c to the mass centre G of the whole, in body axes [m].
     pub centre: Vector3<f64>,
     /// Its first two principal axes, in body axes [1].
@@ -33,9 +33,9 @@ pub struct Uneven {
     pub excess: f64,
 }
 
-stored!(Uneven { centre, axes, excess });
+stored!(Asymmetric { centre, axes, excess });
 
-impl Uneven {
+impl Asymmetric {
     /// Its principal axes, as columns, the third making them right-handed [1].
     pub fn principal(&self) -> Matrix3<f64> {
         let [first, second] = self.axes;
@@ -96,16 +96,16 @@ impl Shape {
 
     /// What the motion needs of it.
     pub fn inertia(&self) -> Inertia {
-        let even = Inertia::from(self.rotor);
+        let symmetric = Inertia::from(self.rotor);
         if self.Jt2.is_none() && self.mass == 0.0 {
-            return even;
+            return symmetric;
         }
         let m = self.rotor.m + self.mass;
         let (moments, axes) = principal(self.tensor());
         let [first, second, third] = moments.map(|moment| 1.0 / moment).into();
         let axes = [axes.column(0).into_owned(), axes.column(1).into_owned()];
-        let uneven = Uneven { centre: self.centre(), axes, excess: second - third };
-        Inertia { m, per_m: 1.0 / m, per_jt: third, spin: first - third, uneven: Some(uneven), ..even }
+        let asymmetric = Asymmetric { centre: self.centre(), axes, excess: second - third };
+        Inertia { m, per_m: 1.0 / m, per_jt: third, spin: first - third, asymmetric: Some(asymmetric), ..symmetric }
     }
 }
 

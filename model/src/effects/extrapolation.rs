@@ -25,7 +25,7 @@ const LATEST: usize = 8;
 /// So many communication points are remembered.
 const POINTS: usize = LATEST + NODES;
 
-/// So many inputs are followed: those of four ports, a shaft and a motor, and some to come. A list with more does not compile.
+/// So many inputs are followed: those of four ports, a drive and a motor, and some to come. A list with more does not compile.
 const MOST: usize = 32;
 
 impl Default for Extrapolation {
@@ -95,9 +95,9 @@ impl Effect for Extrapolation {
 
     const COULD_WORK: bool = false;
 
-    const FORETELLS: bool = true;
+    const EXTRAPOLATES: bool = true;
 
-    const MOST_FORETOLD: usize = MOST;
+    const MOST_EXTRAPOLATED: usize = MOST;
 
     fn begin(&mut self, _start: &crate::state::Kinematics<f64>) {
         self.memory[0] = 0.0;
@@ -119,7 +119,7 @@ impl Effect for Extrapolation {
         self.memory[0] = (self.known() + 1).min(POINTS) as f64;
     }
 
-    fn foretell(&mut self, number: usize, signal: &mut Signal) {
+    fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
         let t = self.points()[0];
         if let Some(value) = signal.set_at(t) {
             self.values(number)[0] = value;
@@ -142,7 +142,7 @@ impl Effect for Extrapolation {
         let second = if degree > 1 { over(first - slope(1, t2, t1), t0 - t2) } else { 0.0 };
         let last_step = if degree > 1 { t0 - t1 } else { 0.0 };
         let value = values[0] + ahead * (first + second * (ahead + last_step));
-        signal.foretell(t, [value, first + second * (2.0 * ahead + last_step), 2.0 * second]);
+        signal.extrapolate(t, [value, first + second * (2.0 * ahead + last_step), 2.0 * second]);
     }
 
     fn memory(&mut self) -> &mut [f64] {
@@ -161,21 +161,21 @@ mod tests {
     use super::super::list::Called;
     use super::super::list::follows_all_inputs;
     use super::super::port::Port;
-    use super::super::shaft::Shaft;
+    use super::super::drive::Drive;
     use super::*;
     use crate::effects::Effects;
     use crate::stored::{Damaged, from_bytes, to_bytes};
 
-    type List = (Called<Shaft, 1>, (Called<Extrapolation, 1>, ()));
+    type List = (Called<Drive, 1>, (Called<Extrapolation, 1>, ()));
 
     #[test]
     fn regress_no_input_is_silently_not_followed() {
-        // A shaft has one input, a port six; nobody extrapolates what an imposed speed tells of itself.
-        assert_eq!(<List as Effects>::FORETOLD, 1);
-        assert_eq!(<crate::effects::All as Effects>::FORETOLD, 25);
+        // A drive has one input, a port six; nobody extrapolates what an imposed speed tells of itself.
+        assert_eq!(<List as Effects>::EXTRAPOLATED, 1);
+        assert_eq!(<crate::effects::All as Effects>::EXTRAPOLATED, 25);
         assert!(follows_all_inputs::<crate::effects::All>());
         type Ports = (Called<Port, 1>, (Called<Port, 2>, (Called<Port, 3>, (Called<Port, 4>, ()))));
-        type Many = (Called<Shaft, 1>, (Called<Port, 1>, (Called<Port, 2>, Ports)));
+        type Many = (Called<Drive, 1>, (Called<Port, 1>, (Called<Port, 2>, Ports)));
         assert!(follows_all_inputs::<Many>(), "37 inputs that nobody extrapolates");
         assert!(!follows_all_inputs::<(Called<Extrapolation, 1>, Many)>(), "the same, extrapolated");
     }

@@ -16,9 +16,9 @@ use crate::stored::Stored;
 use crate::variable::{Meta, Place, Readable};
 use std::ops::Add;
 
-/// Whether what foretells inputs has room for all of the list's.
+/// Whether what extrapolates inputs has room for all of the list's.
 pub const fn follows_all_inputs<E: Effects>() -> bool {
-    E::FORETOLD <= E::MOST_FORETOLD
+    E::EXTRAPOLATED <= E::MOST_EXTRAPOLATED
 }
 
 /// What effects do to a rotor.
@@ -60,10 +60,10 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     const FOLLOWS_PHI: bool;
     /// Whether any of them can impose a speed.
     const IMPOSES: bool;
-    /// How many inputs they have that may be foretold.
-    const FORETOLD: usize;
+    /// How many inputs they have that may be extrapolated.
+    const EXTRAPOLATED: usize;
     /// How many can be.
-    const MOST_FORETOLD: usize;
+    const MOST_EXTRAPOLATED: usize;
     /// The ω_φ that one of them imposes at time `t` [rad/s], and the rate of that [rad/s²].
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
     /// What they make of the body.
@@ -132,14 +132,14 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn change_input(&mut self, place: Place, order: u32, t: f64, change: impl FnOnce(&mut Signal)) -> Option<bool>;
     /// Hear where a communication step ended.
     fn step_to(&mut self, end: &Kinematics<f64>);
-    /// Whether any of them foretells inputs.
-    fn foretells(&self) -> bool;
+    /// Whether any of them extrapolates inputs.
+    fn extrapolates(&self) -> bool;
     /// Hear that a communication step begins at time `t` [s].
     fn step_from(&mut self, t: f64);
     /// Extrapolate the input of this number over the step that begins.
-    fn foretell(&mut self, number: usize, signal: &mut Signal);
-    /// Each input that may be foretold.
-    fn for_each_foretold(&mut self, act: &mut impl FnMut(&mut Signal));
+    fn extrapolate(&mut self, number: usize, signal: &mut Signal);
+    /// Each input that may be extrapolated.
+    fn for_each_extrapolated(&mut self, act: &mut impl FnMut(&mut Signal));
     /// Each input.
     fn for_each_signal(&mut self, act: &mut impl FnMut(&mut Signal));
     /// Takes the inputs of other effects of the same list.

@@ -41,7 +41,7 @@ pub struct Stiff<const N: usize> {
     h: f64,
     /// Iterations of Newton's method in the last attempt.
     iterations: u32,
-    /// Whether the last step ended where the next one begins, so that its polynomial foretells it.
+    /// Whether the last step ended where the next one begins, so that its polynomial extrapolates it.
     smooth: bool,
     segment: Segment<N>,
 }
@@ -83,8 +83,8 @@ const LONGEST_FIRST: f64 = 1e-2;
 /// Its equations round about so many sums one after another.
 const SUMS: f64 = 10.0;
 
-/// The last step foretells the next one as long as that is at most so many times longer [1].
-const FORETOLD: f64 = 10.0;
+/// The last step extrapolates the next one as long as that is at most so many times longer [1].
+const EXTRAPOLATED: f64 = 10.0;
 
 /// Newton's method gives up after so many iterations.
 const MOST_ITERATIONS: u32 = 10;
@@ -271,7 +271,7 @@ impl<const N: usize> Stiff<N> {
     }
 
     /// The state at a time `t` [s] within the last step: that of a shorter step from the same start, which the polynomial of
-    /// collocation, of order 3 only, foretells.
+    /// collocation, of order 3 only, extrapolates.
     pub fn dense(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
         let Segment { t: start, h, y, jacobian, z, answer, .. } = self.segment;
         if let Some(answer) = answer.at(t) {
@@ -297,14 +297,14 @@ impl<const N: usize> Stiff<N> {
     fn differentiate(&mut self, system: &impl Differentiable<N>) -> [[f64; N]; N] {
         self.cost.evaluations += system.depended_on() as f64;
         // In the middle of the step, where the method is going: there it serves all stages.
-        let ahead = self.foretold_at(0.5);
+        let ahead = self.extrapolated_at(0.5);
         system.jacobian(self.t + 0.5 * self.h, &std::array::from_fn(|n| self.y[n] + ahead[n]))
     }
 
     /// A step of size h from where the method stands to time `end` [s].
     fn attempt(&mut self, system: &impl System<N>, end: f64, jacobian: &[[f64; N]; N]) -> Attempt<N> {
         let collocation = Collocation::new(jacobian, self.h, system.depended_on());
-        let guess = self.foretold();
+        let guess = self.extrapolated();
         let Some(z) = self.solve(system, self.t, self.y, &collocation, guess) else {
             return Attempt { z: guess, error: f64::NAN, rate: self.rate, seen: [0.0; GROUPS] };
         };
@@ -321,14 +321,14 @@ impl<const N: usize> Stiff<N> {
     }
 
     /// The stages that the polynomial of the last step leads to.
-    fn foretold(&self) -> [[f64; N]; STAGES] {
-        radau::C.map(|c| self.foretold_at(c))
+    fn extrapolated(&self) -> [[f64; N]; STAGES] {
+        radau::C.map(|c| self.extrapolated_at(c))
     }
 
     /// What the state gains on the first part `sigma` of a step, by the polynomial of the last one.
-    fn foretold_at(&self, sigma: f64) -> [f64; N] {
+    fn extrapolated_at(&self, sigma: f64) -> [f64; N] {
         let Segment { h, z, .. } = &self.segment;
-        if !self.smooth || self.h > FORETOLD * h {
+        if !self.smooth || self.h > EXTRAPOLATED * h {
             return [0.0; N];
         }
         let ahead = combined(&weights(1.0 + sigma * self.h / h), z);

@@ -30,7 +30,7 @@ impl<E: Effects> Rotor<E> {
     pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
         let [at, rate, origin] = [y, rate, origin].map(|y| Coordinates::from_slice(y));
         let (mut way, mut speed, mut phi) = (at.r - origin.r, at.v, 1.0);
-        let centre = self.body.uneven.map_or_else(Vector3::zeros, |uneven| uneven.centre);
+        let centre = self.body.asymmetric.map_or_else(Vector3::zeros, |asymmetric| asymmetric.centre);
         let eccentricity = split(&centre)[1];
         if eccentricity > 0.0 {
             let [now, then] = [at, origin].map(|at| Tilt::new(self.chart, at.gamma).attitude(at.phi));

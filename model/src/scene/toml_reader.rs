@@ -10,6 +10,9 @@ use std::fmt::Write;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// Effects that had another name, and what they are called now: `shaft` since 0.2.0, for elastic shafts need the name.
+const RENAMED: &[(&str, &str)] = &[("shaft", "drive")];
+
 /// What a text says.
 pub(super) struct Found {
     pub title: Option<String>,
@@ -155,6 +158,9 @@ impl Reader<'_> {
             let here = |message| Err((Some(self.line(key.span().start)), message));
             let name = key.get_ref().as_ref();
             let Some(info) = effects::named(name) else {
+                if let Some((_, now)) = RENAMED.iter().find(|(once, _)| *once == name) {
+                    return here(format!("effect `{name}` is now called `{now}`: write [effects.{now}]"));
+                }
                 let known: Vec<_> = CATALOGUE.iter().map(|info| info.name).collect();
                 return here(format!("unknown effect `{name}`: there are {}", known.join(", ")));
             };

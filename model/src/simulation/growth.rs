@@ -58,9 +58,9 @@ impl Watch {
     /// The fastest rate of the linear equations [rad/s], and how fast a motion grows [1/s], if one does.
     fn growth<E: Effects, const N: usize>(rotor: &Rotor<E>, t: f64, y: &[f64; N]) -> (f64, Option<f64>) {
         const ITERATIONS: usize = 1000;
-        let excess = rotor.body.uneven.map_or(0.0, |uneven| uneven.excess.abs());
+        let excess = rotor.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
         // The balanced rotor: what an unbalance adds turns with it.
-        let balanced = Rotor::new(rotor.body.even(), rotor.effects.clone(), rotor.chart, rotor.turns);
+        let balanced = Rotor::new(rotor.body.symmetric(), rotor.effects.clone(), rotor.chart, rotor.turns);
         let jacobian = balanced.jacobian(t, y);
         let tilting = balanced.motion(t, y).gamma_rate().norm();
         let matrix = SMatrix::<f64, LINEAR, LINEAR>::from_fn(|i, j| jacobian[i][j]);

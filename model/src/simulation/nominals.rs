@@ -42,7 +42,7 @@ impl Nominals {
         let rate = if rate > 0.0 && rate.is_finite() { rate } else { 1.0 };
         // How far springs give way to what pushes at the start.
         let gives = springs.map(|(rate, at, _, length)| (rates[rate] / slopes[rate][at]).abs() * length);
-        let eccentricity = body.uneven.map_or(0.0, |uneven| uneven.centre.yz().norm());
+        let eccentricity = body.asymmetric.map_or(0.0, |asymmetric| asymmetric.centre.yz().norm());
         let at = Coordinates::from_slice(state);
         let (offset, tilt, speed) = (at.r.yz().norm(), at.gamma.norm(), at.v.yz().norm() / rate);
         let known = gives.into_iter().chain([eccentricity, offset, tilt * radius, speed]);

@@ -32,9 +32,9 @@ impl<E: Effects> Motion<E> {
             gamma,
             phi: phi.remainder,
         };
-        if let Some(uneven) = &body.uneven {
+        if let Some(asymmetric) = &body.asymmetric {
             let attitude = tilt.attitude(phi.remainder);
-            let to_centre = attitude * uneven.centre;
+            let to_centre = attitude * asymmetric.centre;
             // eq. 71: r_G = r_c + L b, v_G = v_c + ω×L b, K_G = L J_G Lᵀ ω
             coordinates.r += to_centre;
             coordinates.v += omega.cross(&to_centre);

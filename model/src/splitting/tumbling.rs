@@ -1,7 +1,7 @@
-//! The drift of an uneven body: its attitude in closed form, and how many turns φ has made on the way.
+//! The drift of an asymmetric body: its attitude in closed form, and how many turns φ has made on the way.
 
 use super::Flow;
-use crate::body::{Inertia, Poinsot, Uneven};
+use crate::body::{Asymmetric, Inertia, Poinsot};
 use crate::effects::Effects;
 use crate::integrate::Refusal;
 use crate::rotation::{Tilt, Turn};
@@ -18,13 +18,13 @@ const LEAST: f64 = 1e-12;
 const FARTHEST: f64 = 3.0;
 
 impl<E: Effects, const N: usize> Flow<'_, E, N> {
-    /// Follows an uneven body that nothing acts on for a time `h` [s].
-    pub(super) fn tumble(&mut self, body: &Inertia, uneven: &Uneven, h: f64) {
-        let axes = self.tilt.attitude(self.at.phi) * uneven.principal();
+    /// Follows an asymmetric body that nothing acts on for a time `h` [s].
+    pub(super) fn tumble(&mut self, body: &Inertia, asymmetric: &Asymmetric, h: f64) {
+        let axes = self.tilt.attitude(self.at.phi) * asymmetric.principal();
         let along = axes.tr_mul(&self.at.k);
-        let Some(tumbling) = Tumbling::new(body, uneven, axes, along) else {
+        let Some(tumbling) = Tumbling::new(body, asymmetric, axes, along) else {
             // eq. 72: ω stays
-            let about = Vector3::new(body.spin * along.x, uneven.excess * along.y, 0.0);
+            let about = Vector3::new(body.spin * along.x, asymmetric.excess * along.y, 0.0);
             return self.turn((self.at.k * body.per_jt + axes * about) * h);
         };
         let turned = self.tilt.turned(&tumbling.free.turn(h).seen_from(&axes));
@@ -69,10 +69,10 @@ pub struct Beside {
 
 impl Tumbling {
     /// With its principal axes in O [1], and K `along` them [kg·m²/s]; None where it turns steadily.
-    pub fn new(body: &Inertia, uneven: &Uneven, axes: Matrix3<f64>, along: Vector3<f64>) -> Option<Self> {
-        let slowness = Vector3::new(body.spin + body.per_jt, uneven.excess + body.per_jt, body.per_jt);
-        let free = body.free(uneven, &along)?;
-        Some(Self { free, axes, along, slowness, t: uneven.principal().row(0).transpose() })
+    pub fn new(body: &Inertia, asymmetric: &Asymmetric, axes: Matrix3<f64>, along: Vector3<f64>) -> Option<Self> {
+        let slowness = Vector3::new(body.spin + body.per_jt, asymmetric.excess + body.per_jt, body.per_jt);
+        let free = body.free(asymmetric, &along)?;
+        Some(Self { free, axes, along, slowness, t: asymmetric.principal().row(0).transpose() })
     }
 
     /// For how long the axis, `tilt` now, surely does not reach −e when K is `along` the principal axes now [s]; nearer than

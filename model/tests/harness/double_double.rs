@@ -1,9 +1,9 @@
 //! A scalar of twice the precision: the sum of two doubles, some 32 digits (Dekker 1971; Knuth). With it the model's own
 //! lines give values whose rounding is out of sight.
 
-use model::rotation::exact;
-use model::scalar::Scalar;
 use num_traits::{One, Zero};
+use split_rotor_model::rotation::exact;
+use split_rotor_model::scalar::Scalar;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// high + low.

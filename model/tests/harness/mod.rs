@@ -2,39 +2,39 @@
 
 #![allow(dead_code, reason = "each test crate uses a part")]
 
+pub mod asymmetric;
 pub mod named;
 pub mod swinging;
-pub mod uneven;
 
-use model::body::Body;
-use model::effects::gravity::Gravity;
-use model::effects::shaft::Shaft;
-use model::effects::support::Support;
-use model::effects::{Called, Effects, Entry, Info, named};
-use model::integrate::sizes::GROUPS;
-use model::integrate::tableau::{DOP853, DOPRI5, Tableau};
-use model::integrate::{Tolerance, explicit::Explicit};
-use model::rotation::Chart;
-use model::rotor::{Rotor, whole_rates};
-use model::scalar::Scalar;
-use model::simulation::Simulation;
-use model::state::{COORDINATES, Coordinates, Kinematics};
-use model::variable::{Place, Role};
-use model::variables::{Reading, of_scene};
 use nalgebra::{Vector2, Vector3};
 use proptest::test_runner::{Config as ProptestConfig, RngSeed};
+use split_rotor_model::body::Body;
+use split_rotor_model::effects::drive::Drive;
+use split_rotor_model::effects::gravity::Gravity;
+use split_rotor_model::effects::support::Support;
+use split_rotor_model::effects::{Called, Effects, Entry, Info, named};
+use split_rotor_model::integrate::sizes::GROUPS;
+use split_rotor_model::integrate::tableau::{DOP853, DOPRI5, Tableau};
+use split_rotor_model::integrate::{Tolerance, explicit::Explicit};
+use split_rotor_model::rotation::Chart;
+use split_rotor_model::rotor::{Rotor, whole_rates};
+use split_rotor_model::scalar::Scalar;
+use split_rotor_model::simulation::Simulation;
+use split_rotor_model::state::{COORDINATES, Coordinates, Kinematics};
+use split_rotor_model::variable::{Place, Role};
+use split_rotor_model::variables::{Reading, of_scene};
 
 /// Gravity and the support: the paper's effects.
 pub type Supported = (Called<Gravity, 1>, (Called<Support, 1>, ()));
 
-/// Gravity, the support and the shaft.
-pub type Driven = (Called<Gravity, 1>, (Called<Support, 1>, (Called<Shaft, 1>, ())));
+/// Gravity, the support and the drive.
+pub type Driven = (Called<Gravity, 1>, (Called<Support, 1>, (Called<Drive, 1>, ())));
 
-/// The shaft alone.
-pub type Shafted = (Called<Shaft, 1>, ());
+/// The drive alone.
+pub type DrivenFree = (Called<Drive, 1>, ());
 
-/// Where `shaft.tau` stands; `shaft.phi`, `.w` and `.a` follow.
-pub const TORQUE: Place = Place { block: Place::effect_block(Shaft::NUMBER, 1), row: 0 };
+/// Where `drive.tau` stands; `drive.phi`, `.w` and `.a` follow.
+pub const TORQUE: Place = Place { block: Place::effect_block(Drive::NUMBER, 1), row: 0 };
 
 /// A list of effects with their names.
 pub trait Listed: Effects {
@@ -51,11 +51,11 @@ impl Listed for Supported {
 }
 
 impl Listed for Driven {
-    const NAMES: &'static [&'static str] = &["gravity", "support", "shaft"];
+    const NAMES: &'static [&'static str] = &["gravity", "support", "drive"];
 }
 
-impl Listed for Shafted {
-    const NAMES: &'static [&'static str] = &["shaft"];
+impl Listed for DrivenFree {
+    const NAMES: &'static [&'static str] = &["drive"];
 }
 
 /// An explicit pair, by its number in the scene.

@@ -1,10 +1,10 @@
 //! The project's own scenes, as their files have them, over the list of all effects.
 
-use model::effects::All;
-use model::scene::Scene;
-use model::simulation::{Integrator, Simulation};
-use model::variable::Place;
-use model::variables::Variable;
+use split_rotor_model::effects::All;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::simulation::{Integrator, Simulation};
+use split_rotor_model::variable::Place;
+use split_rotor_model::variables::Variable;
 use std::path::Path;
 
 /// A scene of the folder `scenes`, and its simulation.

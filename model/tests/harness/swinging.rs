@@ -1,14 +1,14 @@
 //! What observed orders are measured on: a rotor without small angles, and one that is damped and driven besides.
 
 use super::{Driven, Method, Scene, tolerance};
-use model::effects::{Effects, named};
-use model::integrate::System;
-use model::integrate::explicit::Explicit;
-use model::rotation::Chart;
-use model::rotor::Rotor;
-use model::state::WITH_WORK;
-use model::variables::of_scene;
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::effects::{Effects, named};
+use split_rotor_model::integrate::System;
+use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::rotation::Chart;
+use split_rotor_model::rotor::Rotor;
+use split_rotor_model::state::WITH_WORK;
+use split_rotor_model::variables::of_scene;
 
 /// The paper's rotor, heavily tilted and swinging: no small angle, no steady state.
 pub fn swinging() -> Scene {

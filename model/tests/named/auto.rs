@@ -3,8 +3,8 @@
 use crate::harness::named::{Named, names};
 use crate::harness::{largest, within};
 use crate::ordinary::{self, DROPPED, ORDINARY};
-use model::effects::Effects;
-use model::simulation::Integrator;
+use split_rotor_model::effects::Effects;
+use split_rotor_model::simulation::Integrator;
 
 /// What is changed in a scene.
 type Changes<'c> = &'c [(&'c str, f64)];

@@ -1,8 +1,8 @@
-//! What a pair shows between the ends of a step that spans many nods too small to matter there.
+//! What a pair shows between the ends of a step that spans many nutations too small to matter there.
 
 use crate::harness::named::Named;
 use crate::harness::{largest, within};
-use model::simulation::Integrator;
+use split_rotor_model::simulation::Integrator;
 
 const POINTS: u32 = 80;
 

@@ -3,8 +3,8 @@
 use crate::harness::named::Named;
 use crate::harness::within;
 use crate::ordinary;
-use model::integrate::Fault;
-use model::simulation::Integrator;
+use split_rotor_model::integrate::Fault;
+use split_rotor_model::simulation::Integrator;
 
 /// The number of each method, and its order where that counts.
 const METHODS: [(f64, f64); 8] =

@@ -4,11 +4,11 @@
 use crate::harness::Random;
 use crate::harness::named::{Named, names};
 use crate::oracles::numerics::derivative;
-use model::dependencies::Dependencies;
-use model::simulation::Integrator;
-use model::state::{WITH_WORK, Whole};
-use model::variable::{Bound, Kind, Role};
-use model::variables::{Variable, state_place};
+use split_rotor_model::dependencies::Dependencies;
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::state::{WITH_WORK, Whole};
+use split_rotor_model::variable::{Bound, Kind, Role};
+use split_rotor_model::variables::{Variable, state_place};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Pairs of names: what depends, and on what.
@@ -125,7 +125,7 @@ fn exact_dependencies_later_are_those_of_dual_numbers() {
                 let mut named = somewhere(&name, chart, &mut random);
                 named.start();
                 let state: Whole<f64> = std::array::from_fn(|_| random.within(-1.5, 1.5));
-                named.simulation.open().expect("for a host").set_state(&state);
+                named.simulation.exchange().expect("for a host").set_state(&state);
                 let states = (0..WITH_WORK).map(state_place);
                 let states = states.filter_map(|place| named.scene.variables.iter().find(|v| v.place == place));
                 let knowns: Vec<Variable> = states.cloned().chain(inputs(&named)).collect();

@@ -5,8 +5,8 @@ use crate::harness::named::Named;
 use crate::harness::{Random, largest, within};
 use crate::oracles::motion::FreeRotor;
 use crate::oracles::rotation;
-use model::simulation::Integrator;
 use nalgebra::Vector2;
+use split_rotor_model::simulation::Integrator;
 
 /// Number, order where one can be chosen, and step [s] where it is fixed.
 type Choice = (f64, f64, f64);
@@ -79,7 +79,7 @@ const DRIVEN: [[f64; 2]; 7] =
 /// Sets the torque and its derivatives at some of the times.
 fn drive(named: &mut Named, times: &[f64]) -> Vec<[f64; 6]> {
     const SHOWN: [&str; 6] = ["r_c.x", "r_c.y", "r_c.z", "axis.x", "axis.y", "axis.z"];
-    let (mut random, tau) = (Random(9), named.place("shaft.tau"));
+    let (mut random, tau) = (Random(9), named.place("drive.tau"));
     let step = |(n, t): (usize, &f64)| {
         named.simulation.advance(*t).expect("a possible motion");
         if n % 3 == 0 {

@@ -7,7 +7,7 @@ use crate::harness::{largest, within};
 /// An upright rotor with a shaft, whose speed is the integral of the torque over Ja.
 fn rotor(order: u32, lag: f64) -> Named {
     let mut named = Named::written(&format!(
-        "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.shaft]\n\
+        "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.drive]\n\
          [effects.extrapolation]\norder = {order}\nlag = {lag:?}\n[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n"
     ));
     named.start();
@@ -37,7 +37,7 @@ fn exact_a_polynomial_of_its_degree_is_followed() {
     for order in 0..=2 {
         for lag in [0, 1, 2] {
             let mut named = rotor(order, f64::from(lag));
-            let tau = named.place("shaft.tau");
+            let tau = named.place("drive.tau");
             let late = |k: usize| POINTS[k.saturating_sub(lag as usize)];
             let mut worst = Vec::new();
             for k in 0..POINTS.len() - 1 {
@@ -61,7 +61,7 @@ fn exact_values_that_are_late_are_taken_ahead() {
     let h = 0.1;
     for (order, lag) in [(1, 1), (2, 1), (2, 3)] {
         let mut named = rotor(order, f64::from(lag));
-        let tau = named.place("shaft.tau");
+        let tau = named.place("drive.tau");
         let at = |k: u32| h * f64::from(k);
         for k in 0..12 {
             named.simulation.set_input(tau, torque(order, at(k) - at(lag))[0]);
@@ -83,7 +83,7 @@ const ALTERNATING: f64 = 2e-3;
 #[test]
 fn exact_late_values_belong_to_the_points_that_they_are_of() {
     let mut named = rotor(2, 1.0);
-    let tau = named.place("shaft.tau");
+    let tau = named.place("drive.tau");
     let (mut t, mut before, mut worst) = (0.0, 0.0, 0.0_f64);
     for k in 0..200 {
         named.simulation.set_input(tau, libm::sin(5.0 * before));
@@ -101,7 +101,7 @@ fn exact_lateness_is_interpolated_between_whole_steps() {
     for order in 0..=2 {
         for lag in [0.25, 1.5] {
             let mut named = rotor(order, lag);
-            let tau = named.place("shaft.tau");
+            let tau = named.place("drive.tau");
             let (whole, part) = (f64::floor(lag) as usize, f64::fract(lag));
             let late = |k: usize| {
                 let [to, from] = [whole, whole + 1].map(|n| POINTS[k.saturating_sub(n)]);
@@ -125,7 +125,7 @@ fn exact_lateness_is_interpolated_between_whole_steps() {
 #[test]
 fn exact_derivatives_that_are_sent_win() {
     let mut named = rotor(2, 0.0);
-    let tau = named.place("shaft.tau");
+    let tau = named.place("drive.tau");
     for k in 0..5 {
         named.simulation.set_input(tau, torque(2, POINTS[k])[0]);
         named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
@@ -141,7 +141,7 @@ fn exact_derivatives_that_are_sent_win() {
 #[test]
 fn exact_what_is_remembered_goes_with_the_state() {
     let steps = |named: &mut Named, from: usize| -> Vec<u64> {
-        let tau = named.place("shaft.tau");
+        let tau = named.place("drive.tau");
         let one = |k: usize| {
             named.simulation.set_input(tau, torque(2, POINTS[k])[0] + libm::sin(9.0 * POINTS[k]));
             named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
@@ -152,15 +152,15 @@ fn exact_what_is_remembered_goes_with_the_state() {
     let mut one = rotor(2, 1.0);
     let all = steps(&mut one, 0);
     let mut other = rotor(2, 1.0);
-    let tau = other.place("shaft.tau");
+    let tau = other.place("drive.tau");
     for k in 0..4 {
         other.simulation.set_input(tau, torque(2, POINTS[k])[0] + libm::sin(9.0 * POINTS[k]));
         other.simulation.advance(POINTS[k + 1]).expect("a possible motion");
     }
-    let bytes = model::stored::to_bytes(&mut other.simulation);
+    let bytes = split_rotor_model::stored::to_bytes(&mut other.simulation);
     steps(&mut other, 4);
     let mut restored = rotor(0, 0.0);
-    model::stored::from_bytes(&mut restored.simulation, &bytes).expect("whole");
+    split_rotor_model::stored::from_bytes(&mut restored.simulation, &bytes).expect("whole");
     assert_eq!(steps(&mut restored, 4), all[4..]);
     // A step that is done again is the same.
     let saved = one.simulation.clone();
@@ -175,10 +175,10 @@ fn exact_what_is_remembered_goes_with_the_state() {
 fn exact_order_zero_is_to_hold() {
     let run = |text: &str| {
         let mut named = Named::written(&format!(
-            "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.shaft]\n{text}"
+            "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.drive]\n{text}"
         ));
         named.start();
-        let tau = named.place("shaft.tau");
+        let tau = named.place("drive.tau");
         for k in 0..POINTS.len() - 1 {
             named.simulation.set_input(tau, torque(2, POINTS[k])[0]);
             named.simulation.advance(POINTS[k + 1]).expect("a possible motion");

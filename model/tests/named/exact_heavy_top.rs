@@ -6,8 +6,8 @@ use crate::oracles::heavy_top::HeavyTop;
 use crate::oracles::motion::Whirl;
 use crate::oracles::numerics::log_slope;
 use crate::oracles::rotation;
-use model::simulation::Integrator;
 use nalgebra::Vector3;
+use split_rotor_model::simulation::Integrator;
 
 const GRAVITY: f64 = 9.81;
 

@@ -11,8 +11,8 @@ use crate::harness::named::Named;
 use crate::harness::{Method, at, largest, times, within};
 use crate::oracles::rigid_body::{Moving, RigidBody};
 use crate::oracles::{paper, rotation};
-use model::simulation::Integrator;
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::simulation::Integrator;
 
 const SMOOTH: [&str; 3] = ["paper", "free_top", "driven"];
 
@@ -48,10 +48,10 @@ fn exact(name: &str) -> Vec<Moving> {
         g,
         c: [get("support.c1"), get("support.c2")],
         d: [get("support.d1"), get("support.d2")],
-        tau: if get("shaft.tau") == 0.5 { |_| 0.5 } else { |_| 0.0 },
+        tau: if get("drive.tau") == 0.5 { |_| 0.5 } else { |_| 0.0 },
         pushed: [Vector3::zeros(); 2],
     };
-    assert_eq!(get("shaft.tau"), (body.tau)(0.0));
+    assert_eq!(get("drive.tau"), (body.tau)(0.0));
     let mut moving = body.start(r_c, v_c, get("start.phi"), &gamma, &omega);
     let mut t = 0.0;
     let next = |end: f64| {

@@ -1,9 +1,9 @@
 //! A rotor whose speed is imposed, against Jeffcott's closed form and against bodies of rotor and point masses.
 
+use crate::harness::asymmetric::{Case, at};
 use crate::harness::named::Named;
-use crate::harness::uneven::{Case, at};
 use crate::harness::within;
-use crate::oracles::uneven::Moving;
+use crate::oracles::point_masses::Moving;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ const JEFFCOTT: f64 = 3e-11;
 #[test]
 fn exact_response_to_unbalance_below_at_and_above_the_critical_speed() {
     for speed in [12.0, 19.5, 20.0, 20.5, 45.0] {
-        let mut named = Named::new("jeffcott", model::simulation::Integrator::Method);
+        let mut named = Named::new("jeffcott", split_rotor_model::simulation::Integrator::Method);
         named.set("imposed_speed.w", speed);
         named.set("support.d1", 20.0);
         named.set("solver.relative_tolerance", 1e-13);
@@ -74,7 +74,7 @@ fn show(case: &Case, exact: &Moving, named: &mut Named, t: f64, bounds: &[f64; 5
 }
 
 #[test]
-fn exact_run_up_of_an_uneven_rotor_by_each_method() {
+fn exact_run_up_of_an_asymmetric_rotor_by_each_method() {
     for solver in
         [EXACTLY, "method = \"dopri5\"\nrelative_tolerance = 1e-12", "method = \"stiff\"\nrelative_tolerance = 1e-12"]
     {
@@ -179,22 +179,22 @@ fn exact_run_up_by_a_host_that_sets_both_inputs_at_every_time() {
     }
     let mut case = Case { omega: Vector3::new(3.0, 0.5, -0.4), ..Case::held() };
     let text = format!("{}[effects.imposed_speed]\nw = 30.0\na = 20.0\n", case.text(EXACTLY));
-    let mut named = Named::written_for(&text, model::simulation::Integrator::Host);
+    let mut named = Named::written_for(&text, split_rotor_model::simulation::Integrator::Host);
     named.start();
     case.body.imposed = Some(rate);
     let exact = case.body.run(0.0, &case.body.jumped(&case.start(), 30.0), 1.0, 800);
-    named.simulation.open().expect("for a host").leave_event();
+    named.simulation.exchange().expect("for a host").leave_event();
     let tell = |named: &mut Named, t: f64, state: &[f64]| {
-        let open = named.simulation.open().expect("for a host");
-        open.set_time(t);
-        open.set_state(state);
+        let exchange = named.simulation.exchange().expect("for a host");
+        exchange.set_time(t);
+        exchange.set_state(state);
         named.set("imposed_speed.w", 30.0 + t * (20.0 + t * (-15.0 + t * 40.0 / 3.0)));
         named.set("imposed_speed.a", rate(t));
     };
     let state = named.simulation.state().expect("a state");
     let end = {
         let named = std::cell::RefCell::new(&mut named);
-        let rates = |t: f64, y: &model::state::Whole<f64>| {
+        let rates = |t: f64, y: &split_rotor_model::state::Whole<f64>| {
             let named = &mut *named.borrow_mut();
             tell(named, t, y);
             named.simulation.rates().expect("possible parameters")
@@ -218,7 +218,7 @@ fn exact_what_is_read_follows_inputs_at_once() {
     ];
     for method in [3.0, 5.0] {
         let [mut curious, mut other] = [(); 2].map(|()| {
-            let mut named = Named::new("jeffcott", model::simulation::Integrator::Method);
+            let mut named = Named::new("jeffcott", split_rotor_model::simulation::Integrator::Method);
             named.set("solver.method", method);
             named.start();
             at(&mut named, 1.0);
@@ -268,10 +268,10 @@ fn exact_what_does_not_go_together_is_named() {
     let text = |effects: &str, solver: &str| format!("{}{effects}", Case::held().text(solver));
     let refusal = |effects: &str, solver: &str| {
         let path = std::path::Path::new("test.toml");
-        model::scene::Scene::parse(path, &text(effects, solver)).expect_err("not possible").to_string()
+        split_rotor_model::scene::Scene::parse(path, &text(effects, solver)).expect_err("not possible").to_string()
     };
-    let both = refusal("[effects.shaft]\n[effects.imposed_speed]\n", EXACTLY);
-    let message = ": effects.shaft and effects.imposed_speed exclude each other: only one of them can act";
+    let both = refusal("[effects.drive]\n[effects.imposed_speed]\n", EXACTLY);
+    let message = ": effects.drive and effects.imposed_speed exclude each other: only one of them can act";
     assert!(both.starts_with("test.toml, line ") && both.ends_with(message), "{both}");
     // The method by its word, as the file has it.
     let symplectic = refusal("[effects.imposed_speed]\n", "method = \"symplectic\"");
@@ -298,17 +298,17 @@ const BOOKED: f64 = 1e-13;
 
 #[test]
 fn exact_jump_at_an_event_is_supplied() {
-    let mut named = Named::new("jeffcott", model::simulation::Integrator::Host);
+    let mut named = Named::new("jeffcott", split_rotor_model::simulation::Integrator::Host);
     named.start();
     for w in [25.0, -3.0] {
         let (before, supplied) = (named.get("energy.kinetic"), named.get("energy.supplied"));
-        named.simulation.open().expect("for a host").enter_event();
+        named.simulation.exchange().expect("for a host").enter_event();
         named.set("imposed_speed.w", w);
-        let settled = named.simulation.open().expect("for a host").settle();
+        let settled = named.simulation.exchange().expect("for a host").settle();
         assert!(settled.work && !settled.chart, "{settled:?}");
-        let open = named.simulation.open().expect("for a host");
-        assert!(!open.settle().any(), "once");
-        open.leave_event();
+        let exchange = named.simulation.exchange().expect("for a host");
+        assert!(!exchange.settle().any(), "once");
+        exchange.leave_event();
         let jump = named.get("energy.kinetic") - before;
         assert!(jump.abs() > 1.0, "nothing jumped");
         within("supplied", ((named.get("energy.supplied") - supplied) / jump - 1.0).abs(), BOOKED);
@@ -432,9 +432,9 @@ fn partner(
         named.set("imposed_speed.w", w);
         if k == steps / 2 {
             // A state that is saved carries what the partner is told next.
-            let bytes = model::stored::to_bytes(&mut named.simulation);
+            let bytes = split_rotor_model::stored::to_bytes(&mut named.simulation);
             named.simulation = Default::default();
-            model::stored::from_bytes(&mut named.simulation, &bytes).expect("whole");
+            split_rotor_model::stored::from_bytes(&mut named.simulation, &bytes).expect("whole");
             assert_eq!(named.get("imposed_speed.tau_mean"), torque);
         }
         named.simulation.advance(h * f64::from(k + 1)).expect("a possible motion");

@@ -1,4 +1,4 @@
-//! Ports and probes: beside gravity, the shaft and an independent rigid body; what a probe sees.
+//! Ports and probes: beside gravity, the drive and an independent rigid body; what a probe sees.
 
 use crate::harness::named::Named;
 use crate::harness::{largest, within};

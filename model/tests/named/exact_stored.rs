@@ -1,10 +1,10 @@
 //! A run that is walked out and in goes on with the same bits: every kind of run, in both charts, at any moment.
 
 use crate::harness::named::Named;
-use model::effects::All;
-use model::simulation::{Integrator, Simulation};
-use model::stored::{Damaged, from_bytes, to_bytes};
-use model::variables::Parameters;
+use split_rotor_model::effects::All;
+use split_rotor_model::simulation::{Integrator, Simulation};
+use split_rotor_model::stored::{Damaged, from_bytes, to_bytes};
+use split_rotor_model::variables::Parameters;
 
 /// What all variables show, as bits.
 fn bits(named: &mut Named) -> Vec<u64> {
@@ -27,7 +27,7 @@ fn under_way(scene: &str, integrator: Integrator, method: f64, far: bool) -> Nam
     named.set("solver.method", method);
     named.start();
     if scene == "driven" {
-        let tau = named.place("shaft.tau");
+        let tau = named.place("drive.tau");
         named.simulation.set_input_derivative(tau, 1, -3.0);
         named.simulation.set_input_derivative(tau, 2, 4.0);
     }
@@ -47,11 +47,11 @@ fn go_on(named: &mut Named, span: f64) -> Vec<Vec<u64>> {
             let rates = named.simulation.rates().expect("possible parameters");
             let mut state = named.simulation.read().expect("possible parameters").state();
             state.iter_mut().zip(rates).for_each(|(x, rate)| *x += 1e-4 * rate);
-            let open = named.simulation.open().expect("for a host");
-            open.set_time(t);
-            open.set_state(&state);
-            if open.complete_step() {
-                open.settle();
+            let exchange = named.simulation.exchange().expect("for a host");
+            exchange.set_time(t);
+            exchange.set_state(&state);
+            if exchange.complete_step() {
+                exchange.settle();
             }
         }
         bits(named)
@@ -73,7 +73,7 @@ fn nothing(integrator: Integrator) -> Simulation<All> {
     Simulation::with(integrator, Parameters::default())
 }
 
-/// Conservative, working and open runs of every method.
+/// Conservative, working and model exchange runs of every method.
 fn runs() -> impl Iterator<Item = (&'static str, Integrator, f64)> {
     let scenes = ["paper", "free_top", "tumbling", "driven"];
     let methods = [1.0, 2.0, 3.0, 4.0, 5.0].map(|method| (Integrator::Method, method));
@@ -102,7 +102,7 @@ fn exact_a_restored_run_goes_on_with_the_same_bits() {
 fn exact_a_run_that_is_not_started_is_restored() {
     for integrator in [Integrator::Method, Integrator::Host] {
         let mut one = Named::new("driven", integrator);
-        one.set("shaft.tau", 7.0);
+        one.set("drive.tau", 7.0);
         one.set("rotor.m", 6.0);
         let started = under_way("paper", integrator, 3.0, false).simulation;
         let mut other = restored(&mut one, started);
@@ -131,10 +131,10 @@ fn exact_what_was_there_before_does_not_matter() {
 #[test]
 fn exact_an_input_that_the_method_has_not_heard_of_is_stored() {
     let mut one = under_way("driven", Integrator::Method, 3.0, false);
-    let tau = one.place("shaft.tau");
+    let tau = one.place("drive.tau");
     one.simulation.set_input(tau, 11.0);
     let mut other = restored(&mut one, nothing(Integrator::Method));
-    assert_eq!(other.get("shaft.tau"), 11.0);
+    assert_eq!(other.get("drive.tau"), 11.0);
     assert_eq!(go_on(&mut other, 0.2), go_on(&mut one, 0.2));
 }
 

@@ -1,17 +1,17 @@
 //! Derivatives of what an instant shows, against extrapolated differences: by states and inputs in both charts, and along
 //! the motion; and dual numbers over dual numbers.
 
+use crate::harness::asymmetric::Case;
 use crate::harness::named::{Named, gentle};
-use crate::harness::uneven::Case;
 use crate::harness::{Random, largest, within};
 use crate::oracles::numerics::derivative;
-use model::dual::{Dual, Tangent};
-use model::scalar::Scalar;
-use model::simulation::Integrator;
-use model::state::{WITH_WORK, Whole};
-use model::variable::{Kind, Place, Role};
-use model::variables::state_place;
 use nalgebra::Vector3;
+use split_rotor_model::dual::{Dual, Tangent};
+use split_rotor_model::scalar::Scalar;
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::state::{WITH_WORK, Whole};
+use split_rotor_model::variable::{Kind, Place, Role};
+use split_rotor_model::variables::state_place;
 use std::collections::BTreeMap;
 
 /// The Real outputs, states and rates: name and place.
@@ -52,7 +52,7 @@ fn inputs(named: &Named) -> Vec<Place> {
 }
 
 fn move_to(named: &mut Named, state: &Whole<f64>) {
-    named.simulation.open().expect("for a host").set_state(state);
+    named.simulation.exchange().expect("for a host").set_state(state);
 }
 
 /// Exact derivatives by one state or input of all that is calculated.

@@ -1,15 +1,15 @@
-//! How `symplectic` counts the turns of φ of an uneven body that stays near −e, or comes back to it: against the quaternion,
+//! How `symplectic` counts the turns of φ of an asymmetric body that stays near −e, or comes back to it: against the quaternion,
 //! integrated in small steps, and in how many parts.
 
+use crate::harness::asymmetric::{Case, at};
 use crate::harness::named::Named;
-use crate::harness::uneven::{Case, at};
 use crate::harness::within;
 use crate::oracles::extrapolation;
 use crate::oracles::rotation;
-use model::body::{Body, Shape};
-use model::rotation::{Chart, Tilt};
-use model::splitting::Tumbling;
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::body::{Body, Shape};
+use split_rotor_model::rotation::{Chart, Tilt};
+use split_rotor_model::splitting::Tumbling;
 use std::f64::consts::PI;
 
 /// A free body of these moments of inertia.
@@ -50,14 +50,14 @@ fn phi(case: &Case, h: f64) -> f64 {
 /// Parts in which a drift of `h` [s] is walked, a radian of |ω| h [1/rad]: work that can be counted, where time cannot.
 fn parts(case: &Case, h: f64) -> f64 {
     let (body, tilt) = (shape(case).inertia(), Tilt::new(Chart::FromE, case.gamma));
-    let (uneven, attitude) = (body.uneven.unwrap(), tilt.attitude(case.phi));
+    let (asymmetric, attitude) = (body.asymmetric.unwrap(), tilt.attitude(case.phi));
     let k = attitude * shape(case).tensor() * attitude.tr_mul(&case.omega);
-    let axes = attitude * uneven.principal();
-    let tumbling = Tumbling::new(&body, &uneven, axes, axes.tr_mul(&k)).unwrap();
+    let axes = attitude * asymmetric.principal();
+    let tumbling = Tumbling::new(&body, &asymmetric, axes, axes.tr_mul(&k)).unwrap();
     f64::from(tumbling.beside(tilt, h, 0.0).parts) / (case.omega.norm() * h.abs())
 }
 
-/// Spinning about −e on the least and on the largest moment, turning over, and unbalanced, with a wobble of `w` [rad/s].
+/// Spinning about −e on the least and on the largest moment, turning over, and unbalanced, with a nutation of `w` [rad/s].
 fn cases(w: f64) -> [Case; 5] {
     // Beside −e by about as much as the axis goes round.
     let (beside, back) = (Vector2::new(PI - 0.03 * w, 0.005 * w), Vector3::new(-50.0, w, 0.0));
@@ -72,7 +72,7 @@ fn cases(w: f64) -> [Case; 5] {
     ]
 }
 
-/// φ [rad] with all turns after 2 s, times the wobble w [rad/s], since an error of the axis counts by its distance to −e:
+/// φ [rad] with all turns after 2 s, times the nutation w [rad/s], since an error of the axis counts by its distance to −e:
 /// measured 2.0e-10, of the one that turns over, whose errors grow with it.
 const PHI: f64 = 6e-10;
 

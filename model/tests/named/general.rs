@@ -3,9 +3,9 @@
 
 use crate::harness::named::{Named, names};
 use crate::harness::{Random, within};
-use model::effects::CATALOGUE;
-use model::simulation::Integrator;
-use model::variable::{Kind, Place, Role};
+use split_rotor_model::effects::CATALOGUE;
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::variable::{Kind, Place, Role};
 
 fn general() -> Named {
     Named::new("rotor", Integrator::Method)
@@ -73,7 +73,7 @@ fn exact_what_is_off_shows_zeros_and_is_not_checked() {
     // A damping that would drive, at no place on the rotor.
     rotor.set("bearing[1].cyz", 5.0);
     rotor.set("bearing[1].cyy", -1.0);
-    rotor.set("shaft.tau", 100.0);
+    rotor.set("drive.tau", 100.0);
     rotor.set("unbalance[1].mass", 1.0);
     let untouched = {
         let mut rotor = general();
@@ -84,7 +84,7 @@ fn exact_what_is_off_shows_zeros_and_is_not_checked() {
     rotor.start();
     rotor.simulation.advance(0.5).expect("a possible motion");
     assert_eq!(rotor.get("axis.y").to_bits(), untouched);
-    for name in ["bearing[1].F.x", "bearing[1].F.y", "shaft.phi", "shaft.w", "shaft.a", "drag.tau", "port[2].r.x"] {
+    for name in ["bearing[1].F.x", "bearing[1].F.y", "drive.phi", "drive.w", "drive.a", "drag.tau", "port[2].r.x"] {
         assert_eq!(rotor.get(name), 0.0, "{name}");
     }
     let mut rotor = general();

@@ -3,7 +3,7 @@
 
 use crate::harness::named::{Named, names};
 use crate::harness::within;
-use model::simulation::Integrator;
+use split_rotor_model::simulation::Integrator;
 
 /// Of the largest kinetic energy and the work that went through: at a tolerance of 1e-10, and over the tolerance at others. Measured
 /// 3.2e-9 and 11 (`free_top` by stiff and by dopri5).
@@ -26,7 +26,7 @@ fn residual(name: &str, method: f64, tolerance: f64, span: f64) -> f64 {
     let (mut worst, mut kinetic, mut work) = (0.0_f64, named.get("energy.kinetic"), 0.0);
     let power = |named: &mut Named| {
         let rates = named.simulation.rates().expect("possible parameters");
-        rates[model::state::SUPPLIED].abs() + rates[model::state::DISSIPATED].abs()
+        rates[split_rotor_model::state::SUPPLIED].abs() + rates[split_rotor_model::state::DISSIPATED].abs()
     };
     let mut before = power(&mut named);
     for i in 1..=PARTS {

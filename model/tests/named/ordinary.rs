@@ -3,7 +3,7 @@
 
 use crate::harness::named::Named;
 use crate::harness::{largest, within};
-use model::simulation::Integrator;
+use split_rotor_model::simulation::Integrator;
 
 /// Names and values that are not as in the scene `rotor`, and when the run stops [s].
 pub type Machine = (&'static [(&'static str, f64)], f64);
@@ -23,8 +23,8 @@ const RUN_UP: [(&str, f64); 16] = [
     ("bearing[2].czz", 2000.0),
     ("unbalance[1].mass", 0.002),
     ("unbalance[1].radius", 0.02),
-    ("effects.shaft", 1.0),
-    ("shaft.tau", 24.0),
+    ("effects.drive", 1.0),
+    ("drive.tau", 24.0),
 ];
 
 /// From rest through its critical speeds.

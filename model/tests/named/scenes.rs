@@ -2,7 +2,7 @@
 
 use crate::harness::named::Named;
 use crate::harness::within;
-use model::scene::Scene;
+use split_rotor_model::scene::Scene;
 use std::path::Path;
 
 const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n";
@@ -127,7 +127,7 @@ const POINTS: f64 = 1e4;
 #[test]
 fn regress_no_scene_asks_a_host_for_too_many_points() {
     for name in crate::harness::named::names() {
-        let experiment = Named::new(&name, model::simulation::Integrator::Method).scene.experiment;
+        let experiment = Named::new(&name, split_rotor_model::simulation::Integrator::Method).scene.experiment;
         let points = (experiment.stop - experiment.start) / experiment.step;
         assert!(points <= POINTS, "{name} asks for {points} points");
     }
@@ -139,7 +139,7 @@ const TURNED_OVER: f64 = 1e-6;
 #[test]
 fn regress_what_turns_over_does_so_alike_by_every_method() {
     let turned = |method: f64| {
-        let mut named = Named::new("dzhanibekov", model::simulation::Integrator::Method);
+        let mut named = Named::new("dzhanibekov", split_rotor_model::simulation::Integrator::Method);
         named.set("solver.method", method);
         named.start();
         named.simulation.advance(named.scene.experiment.stop).expect("a possible motion");

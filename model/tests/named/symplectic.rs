@@ -4,15 +4,15 @@ use crate::harness::named::Named;
 use crate::harness::{Method, Random, Scene, Supported, largest, tolerance, within};
 use crate::oracles::motion::FreeRotor;
 use crate::oracles::rotation;
-use model::energy::Ledger;
-use model::integrate::composition::{Composed, Composition};
-use model::integrate::explicit::Explicit;
-use model::rotation::chart::crossed_exactly;
-use model::rotation::{Angle, Chart, Tilt};
-use model::rotor::Rotor;
-use model::simulation::Integrator;
-use model::state::{GAMMA, PHI};
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::energy::Ledger;
+use split_rotor_model::integrate::composition::{Composed, Composition};
+use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::rotation::chart::crossed_exactly;
+use split_rotor_model::rotation::{Angle, Chart, Tilt};
+use split_rotor_model::rotor::Rotor;
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::state::{GAMMA, PHI};
 use std::f64::consts::TAU;
 
 fn composition(order: u32) -> &'static Composition {

@@ -97,8 +97,8 @@ pub struct Machine {
     pub rotating_damping: Option<[f64; 2]>,
     /// Windage, linear [N·m·s/rad] and quadratic [N·m·s²/rad²].
     pub drag: Option<[f64; 2]>,
-    /// Whether there is a shaft with a torque from outside.
-    pub shaft: bool,
+    /// Whether there is a drive with a torque from outside.
+    pub drive: bool,
     /// Whether its speed is imposed.
     pub imposed_speed: bool,
     /// Where ports are [m].

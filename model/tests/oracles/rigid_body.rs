@@ -22,7 +22,7 @@ pub struct RigidBody {
     pub c: [f64; 2],
     /// The support's damping [N·s/m], [N·m·s/rad].
     pub d: [f64; 2],
-    /// The shaft's torque over time [N·m].
+    /// The drive's torque over time [N·m].
     pub tau: fn(f64) -> f64,
     /// A force at the support point, and a moment, from outside [N], [N·m].
     pub pushed: [Vector3<f64>; 2],
@@ -91,7 +91,7 @@ impl RigidBody {
         Moving::of(&extrapolation::steps(|t, y| self.rates(t, y), t, &from.numbers(), end - t, steps))
     }
 
-    /// The motion while this torque of the shaft [N·m] is held for `time` [s], in so many steps.
+    /// The motion while this torque of the drive [N·m] is held for `time` [s], in so many steps.
     pub fn held(&self, tau: f64, from: &Moving, time: f64, steps: u32) -> Moving {
         let rates = |_: f64, y: &Numbers| self.rates_under(tau, y);
         Moving::of(&extrapolation::steps(rates, 0.0, &from.numbers(), time, steps))

@@ -138,7 +138,7 @@ impl Draw {
         if self.trial.partner.is_some() && self.dice.chance(0.3) {
             // What a partner answers is not late; it may be extrapolated.
             self.trial.machine.extrapolation = Some([self.dice.below(3), 0]);
-        } else if (self.trial.machine.shaft || !self.trial.machine.ports.is_empty()) && self.dice.chance(0.2) {
+        } else if (self.trial.machine.drive || !self.trial.machine.ports.is_empty()) && self.dice.chance(0.2) {
             self.extrapolation();
         }
         if self.trial.name.is_empty() {
@@ -276,7 +276,7 @@ impl Draw {
     }
 
     fn torque(&mut self) {
-        self.trial.machine.shaft = true;
+        self.trial.machine.drive = true;
         self.gain = self.dice.decades(3.0, 1e4) * self.dice.sign();
         if self.dice.chance(0.4) {
             // A run-up from rest.

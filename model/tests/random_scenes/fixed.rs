@@ -5,11 +5,11 @@ use crate::oracles::machine::known::{drifting, ordinary};
 use crate::oracles::machine::{Bearing, Input, Machine, Start, Support, Unbalance};
 use nalgebra::Vector3;
 
-/// So many points from 0 to `end` [s], at uneven distances.
+/// So many points from 0 to `end` [s], at asymmetric distances.
 fn points(end: f64, count: u32) -> Vec<f64> {
     // The golden angle's multiples are spread evenly and never repeat.
-    let uneven = |k: u32| 0.618_033_988_749_894_9 * f64::from(k) % 1.0 - 0.5;
-    let at = |k: u32| end * (f64::from(k) + 0.6 * uneven(k)) / f64::from(count);
+    let asymmetric = |k: u32| 0.618_033_988_749_894_9 * f64::from(k) % 1.0 - 0.5;
+    let at = |k: u32| end * (f64::from(k) + 0.6 * asymmetric(k)) / f64::from(count);
     (1..count).map(at).chain([end]).collect()
 }
 
@@ -76,7 +76,7 @@ pub fn all() -> Vec<Trial> {
             machine.inputs = vec![(Input::Moment(0, 1), 2.0)];
         }),
         later(alone("force at a port, later", |machine| machine.ports = vec![0.3]), Input::Force(0, 1), 20.0),
-        later(alone("torque, later", |machine| machine.shaft = true), Input::Torque, 0.5),
+        later(alone("torque, later", |machine| machine.drive = true), Input::Torque, 0.5),
         alone("bearing with skew C alone", |machine| {
             machine.bearings = vec![Bearing { position: 0.3, c: [[0.0, 10.0], [-10.0, 0.0]], ..Bearing::default() }];
         }),

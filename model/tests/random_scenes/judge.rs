@@ -51,7 +51,7 @@ impl Verdict {
         };
         let shown = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(PANICKED.into()));
         let tolerance = tolerances[0];
-        // What is dropped or wobbles nutates at Ja/Jt of its spin, and errors add up.
+        // What is dropped or tilted nutates at Ja/Jt of its spin, and errors add up.
         let nutations = truth.sizes[2] / TAU * trial.machine.Ja / trial.machine.Jt;
         let allowed = ALLOWED * tolerance * truth.growth.max(1.0).max(nutations / NUTATIONS);
         let errors = shown.map(|shown| over(truth.differences(trial, &shown), truth.sizes));

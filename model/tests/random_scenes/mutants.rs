@@ -8,7 +8,7 @@ const OFF: f64 = 0.01;
 
 /// For each effect of a scene, its name and the scene with a number of this effect off.
 pub fn of(trial: &Trial) -> Vec<(&'static str, Trial)> {
-    let Machine { Jt, gravity, support, shaft, Jt2, unbalances, bearings, .. } = &trial.machine;
+    let Machine { Jt, gravity, support, drive, Jt2, unbalances, bearings, .. } = &trial.machine;
     let Machine { rotating_damping, drag, ports, imposed_speed, .. } = &trial.machine;
     let rotor: fn(&mut Trial) = |trial| {
         // All of them, so that the body stays a possible one.
@@ -26,7 +26,7 @@ pub fn of(trial: &Trial) -> Vec<(&'static str, Trial)> {
         let support = trial.machine.support.iter_mut();
         support.for_each(|support| (support.c, support.d) = (support.c.map(more), support.d.map(more)));
     });
-    with(*shaft, "shaft", |trial| scale(trial, |input| input == Input::Torque));
+    with(*drive, "drive", |trial| scale(trial, |input| input == Input::Torque));
     with(Jt2.is_some_and(|other| other != *Jt), "asymmetry", |trial| {
         let Machine { Jt, Jt2, .. } = &mut trial.machine;
         Jt2.iter_mut().for_each(|other| *other += OFF * (*Jt - *other));

@@ -3,9 +3,9 @@
 use super::trial::{Partner, Trial, name_of};
 use crate::harness::named::Named;
 use crate::oracles::machine::{Input, Run, Shown};
-use model::simulation::Integrator;
-use model::variable::Place;
 use nalgebra::Vector3;
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::variable::Place;
 
 /// What can be driven from one communication point to the next.
 pub trait Rig {

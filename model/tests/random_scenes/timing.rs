@@ -35,12 +35,12 @@ impl Draw {
     pub(super) fn timed(mut self) -> Trial {
         let [whirling, decay] = self.rates();
         let machine = &self.trial.machine;
-        let uneven = !machine.unbalances.is_empty() || machine.Jt2.is_some();
+        let asymmetric = !machine.unbalances.is_empty() || machine.Jt2.is_some();
         let reached = self.spin.abs().max((self.spin + self.gain).abs());
         let turning = machine.start.omega.norm().max(reached);
         let partners = if self.trial.partner.is_some() { 2.0 * self.rate } else { 0.0 };
-        let nods = machine.Ja / machine.Jt * turning;
-        let fastest = whirling.max(partners).max(nods).max(if uneven { turning } else { 0.0 }).max(0.1);
+        let nutation = machine.Ja / machine.Jt * turning;
+        let fastest = whirling.max(partners).max(nutation).max(if asymmetric { turning } else { 0.0 }).max(0.1);
         let dice = &mut self.dice;
         let mut end = TAU * dice.decades(PERIODS[0], PERIODS[1]) / fastest;
         end = end.min(TAU * REVOLUTIONS / reached.max(0.1));
@@ -68,8 +68,8 @@ impl Draw {
 
     /// What comes in from outside until the end [s].
     fn inputs(&mut self, end: f64) {
-        let Machine { m, Ja, shaft, imposed_speed, .. } = self.trial.machine;
-        if shaft {
+        let Machine { m, Ja, drive, imposed_speed, .. } = self.trial.machine;
+        if drive {
             self.load(Input::Torque, Ja * self.gain / end, end);
         }
         if imposed_speed {

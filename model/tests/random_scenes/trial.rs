@@ -118,8 +118,8 @@ impl Trial {
             let ([c1, c2], [d1, d2]) = (support.c, support.d);
             line(format!("\n[effects.support]\nc1 = {c1:?}\nc2 = {c2:?}\nd1 = {d1:?}\nd2 = {d2:?}"));
         }
-        if machine.shaft {
-            line(format!("\n[effects.{SHAFT}]\ntau = {:?}", self.at_start(Input::Torque)));
+        if machine.drive {
+            line(format!("\n[effects.{DRIVE}]\ntau = {:?}", self.at_start(Input::Torque)));
         }
         if let Some(other) = machine.Jt2 {
             line(format!("\n[effects.asymmetry]\nJt2 = {other:?}"));
@@ -184,13 +184,13 @@ impl Trial {
 }
 
 /// The effect that passes on a torque.
-const SHAFT: &str = "shaft";
+const DRIVE: &str = "drive";
 
 /// The name of an input's variable.
 pub fn name_of(input: Input) -> String {
     let axis = |n: usize| ["x", "y", "z"][n];
     match input {
-        Input::Torque => format!("{SHAFT}.tau"),
+        Input::Torque => format!("{DRIVE}.tau"),
         Input::Speed => "imposed_speed.w".into(),
         Input::Acceleration => "imposed_speed.a".into(),
         Input::Force(port, n) => format!("port[{}].f.{}", port + 1, axis(n)),

@@ -106,7 +106,7 @@ impl Truth {
 /// Whether a law acts along n or follows γ, which have no limit at −e.
 fn has_joint(machine: &Machine) -> bool {
     let springs = machine.bearings.iter().any(|bearing| bearing.tilt[0] != 0.0);
-    machine.shaft || machine.imposed_speed || springs || machine.support.is_some_and(|support| support.c[1] != 0.0)
+    machine.drive || machine.imposed_speed || springs || machine.support.is_some_and(|support| support.c[1] != 0.0)
 }
 
 impl Trial {

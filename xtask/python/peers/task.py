@@ -35,7 +35,7 @@ class Rotor:
         self.m, self.Ja, self.Jt, self.l = (values[f"rotor.{name}"] for name in ("m", "Ja", "Jt", "l"))
         self.g = vector("gravity.g")
         self.c1, self.c2, self.d1, self.d2 = (values.get(f"support.{name}", 0.0) for name in ("c1", "c2", "d1", "d2"))
-        self.tau = values.get("shaft.tau", 0.0)
+        self.tau = values.get("drive.tau", 0.0)
         self.r_c, self.v_c, self.omega = vector("start.r_c"), vector("start.v_c"), vector("start.omega")
         self.phi = values["start.phi"]
         self.gamma = [0.0, values["start.gamma.y"], values["start.gamma.z"]]

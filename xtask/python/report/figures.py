@@ -137,7 +137,7 @@ def passage(figure, result, scene):
 
 @_inline(3.7, "Phase portrait of the tilt: its rate against the tilt")
 def portrait(figure, result, scene):
-    """The tilt θ and its rate: a nodding top goes round a loop."""
+    """The tilt θ and its rate: a nutating top goes round a loop."""
     theta, rate = measure.tilt(result), measure.tilt_rate(result)
     axes = figure.add_subplot()
     axes.plot(theta, rate, color=BLUE, linewidth=0.7)

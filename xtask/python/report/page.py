@@ -38,7 +38,7 @@ def render(scene, run):
 
 
 LEANING = 0.2
-"""A top that leans by more than this [rad] shows how it nods."""
+"""A top that leans by more than this [rad] shows its nutation."""
 
 
 def _drawn(scene, run):

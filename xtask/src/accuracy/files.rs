@@ -7,8 +7,8 @@ use super::{Accuracy, machine, table};
 use crate::run::run;
 use crate::{paths, python};
 use anyhow::{Context, Result};
-use model::scene::Scene;
 use serde_json::{Map, Value, json};
+use split_rotor_model::scene::Scene;
 
 /// Writes the files, and shows the tables.
 pub fn write(scene: &Scene, result: &Accuracy) -> Result<()> {

@@ -11,12 +11,12 @@ use crate::run::{cargo, fed, run};
 use crate::{paths, python};
 use anyhow::{Context, Result};
 use indicatif::ProgressBar;
-use model::scene::{Experiment, Scene};
 use serde_json::{Map, Value, json};
+use split_rotor_model::scene::{Experiment, Scene};
 use std::process::Command;
 
 /// The effects whose laws stand in the peers' equations.
-const EFFECTS: [&str; 3] = ["gravity", "support", "shaft"];
+const EFFECTS: [&str; 3] = ["gravity", "support", "drive"];
 
 /// A method of a peer begins no further setting once it took so long [s of CPU time].
 const BUDGET: f64 = 8.0;

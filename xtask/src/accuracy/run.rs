@@ -6,9 +6,9 @@ use super::sweep::AUTO;
 use crate::fmu::{Fmu, Instance, Reference};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
-use model::scene::{Experiment, Scene};
-use model::variables::METHODS;
-use model::xml;
+use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::variables::METHODS;
+use split_rotor_model::xml;
 use std::path::Path;
 
 /// What is read at each point.

@@ -2,7 +2,7 @@
 
 use super::run::Subject;
 use super::sweep;
-use model::scene::Experiment;
+use split_rotor_model::scene::Experiment;
 
 /// The motion is read so many times; the start does not count.
 pub const POINTS: usize = 100;

@@ -9,8 +9,8 @@ use super::run::{Run, Setting, Subject};
 use super::table::power;
 use anyhow::Result;
 use cpu_time::ThreadTime;
-use model::scene::Experiment;
-use model::variables::METHODS;
+use split_rotor_model::scene::Experiment;
+use split_rotor_model::variables::METHODS;
 
 /// What chooses the accuracy of an adaptive method.
 pub const TOLERANCE: &str = "solver.relative_tolerance";

@@ -9,8 +9,8 @@ use super::{bar, span, sweep, tell};
 use crate::unpacked::unpack;
 use crate::{package, paths, scenes, sheets};
 use anyhow::{Context, Result};
-use model::scene::Scene;
 use serde_json::{Value, json};
+use split_rotor_model::scene::Scene;
 use std::fmt::Write;
 use std::fs;
 

@@ -6,9 +6,9 @@ use super::{head, target};
 use crate::unpacked::{Unpacked, unpack};
 use crate::{package, paths, scenes};
 use anyhow::{Context, Result, ensure};
-use model::effects;
-use model::scene::Scene;
-use model::variable::Place;
+use split_rotor_model::effects;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::variable::Place;
 
 /// fmi2DoStep of the general FMU over that of the scene of the same effects [1].
 const GENERAL: f64 = 1.3;

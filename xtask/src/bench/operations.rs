@@ -3,8 +3,8 @@
 use crate::c;
 use crate::run::output;
 use anyhow::{Context, Result, ensure};
-use model::integrate::tableau::{DOP853, DOPRI5};
-use model::state::COORDINATES;
+use split_rotor_model::integrate::tableau::{DOP853, DOPRI5};
+use split_rotor_model::state::COORDINATES;
 use std::collections::HashMap;
 use std::path::Path;
 

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use fastrand::Rng;
-use model::effects::{CATALOGUE, Info};
+use split_rotor_model::effects::{CATALOGUE, Info};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -23,7 +23,7 @@ pub fn drawn(seed: u64) -> impl Iterator<Item = Set> {
         let all: Set = CATALOGUE.iter().map(|info| (info, number(info))).collect();
         all.into_iter().filter(|_| random.f64() < LIKELY).collect()
     })
-    .filter(|set: &Set| !(holds(set, "shaft") && holds(set, "imposed_speed")))
+    .filter(|set: &Set| !(holds(set, "drive") && holds(set, "imposed_speed")))
 }
 
 fn holds(set: &Set, name: &str) -> bool {
@@ -61,7 +61,7 @@ fn values(effect: &str) -> &'static str {
     match effect {
         "gravity" => "g = { z = -9.81 }",
         "support" => "c1 = 2000.0\nc2 = 500.0\nd1 = 2.0",
-        "shaft" => "tau = 0.5",
+        "drive" => "tau = 0.5",
         "asymmetry" => "Jt2 = 0.09",
         "unbalance" => "mass = 0.1\nradius = 0.1\nposition = 0.1",
         "bearing" => "position = -0.3\nkyy = 2e3\nkzz = 2e3\nkxx = 1e3\ncyy = 5.0\nczz = 5.0\nkt = 50.0",

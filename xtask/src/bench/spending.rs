@@ -6,8 +6,8 @@ use super::sets::{self, Set};
 use crate::unpacked::{Unpacked, unpack};
 use crate::{c, package, paths};
 use anyhow::{Context, Result, ensure};
-use model::effects::CATALOGUE;
-use model::scene::Scene;
+use split_rotor_model::effects::CATALOGUE;
+use split_rotor_model::scene::Scene;
 use std::path::{Path, PathBuf};
 
 /// A second, in so many communication steps.

@@ -6,9 +6,9 @@ use crate::fmu::{Fmu, Instance, Reference};
 use crate::unpacked::unpack;
 use crate::{paths, scenes};
 use anyhow::{Context, Result, ensure};
-use model::variable::Kind;
-use model::xml;
 use nalgebra::Vector3;
+use split_rotor_model::variable::Kind;
+use split_rotor_model::xml;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 

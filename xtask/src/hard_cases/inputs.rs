@@ -1,4 +1,4 @@
-//! Steps and spikes of the shaft's torque.
+//! Steps and spikes of the drive's torque.
 
 use super::case::{Case, Exact, Found, Phi, Setting, start, support, times};
 use super::method::at;
@@ -45,7 +45,7 @@ fn upright(name: &'static str, hard: &'static str, torques: Vec<Held>, bounds: [
         oracle: "φ̈ = τ/Ja, torque by torque",
         scene: "driven",
         methods: methods.into_iter().zip(bounds).collect(),
-        mutant: ("shaft.tau", 1.0 + 1e-6),
+        mutant: ("drive.tau", 1.0 + 1e-6),
         task: Box::new(move |bench| {
             let (mut phi, mut rate) = (0.0, 50.0);
             driven(bench, &settings, &torques, |(tau, time)| {
@@ -70,7 +70,7 @@ fn tilted() -> Case {
         oracle: "a rigid body by quaternions, extrapolated to order 16",
         scene: "driven",
         methods: vec![(at("dop853", 1e-12), 9e-13), (at("dopri5", 1e-12), 6e-11), (at("stiff", 1e-10), 5e-9)],
-        mutant: ("shaft.tau", 1.0 + 1e-6),
+        mutant: ("drive.tau", 1.0 + 1e-6),
         task: Box::new(move |bench| {
             let free = RigidBody {
                 m: 5.0,
@@ -105,13 +105,13 @@ fn driven(
     mut exact: impl FnMut(Held) -> Exact,
 ) -> Result<Found> {
     let mut rotor = bench.rotor(settings)?;
-    for name in ["support.d1", "support.d2", "shaft.tau"] {
+    for name in ["support.d1", "support.d2", "drive.tau"] {
         rotor.set(name, 0.0)?;
     }
     rotor.start(0.0, 100.0)?;
     let (mut found, mut t) = (Found::nothing(), 0.0);
     for held in torques {
-        rotor.set("shaft.tau", held.0)?;
+        rotor.set("drive.tau", held.0)?;
         // The step that the rounded times really span.
         let end = t + held.1;
         rotor.advance(end)?;

@@ -141,7 +141,7 @@ fn settings(machine: &Machine) -> Vec<(String, f64)> {
     let gravity = machine.gravity.unwrap_or_default();
     ["x", "y", "z"].iter().zip(&gravity).for_each(|(axis, value)| set(&format!("gravity.g.{axis}"), *value));
     set("effects.support", f64::from(machine.support.is_some()));
-    set("effects.shaft", f64::from(machine.shaft));
+    set("effects.drive", f64::from(machine.drive));
     if let Some(other) = machine.Jt2 {
         set("effects.asymmetry", 1.0);
         set("asymmetry.Jt2", other);
@@ -175,7 +175,7 @@ fn settings(machine: &Machine) -> Vec<(String, f64)> {
     }
     for (input, value) in &machine.inputs {
         assert_eq!(*input, Input::Torque, "the only input that a case starts with");
-        set("shaft.tau", *value);
+        set("drive.tau", *value);
     }
     all
 }

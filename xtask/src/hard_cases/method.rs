@@ -1,7 +1,7 @@
 //! The methods that cases are run with.
 
 use anyhow::{Context, Result};
-use model::variables::METHODS;
+use split_rotor_model::variables::METHODS;
 
 /// A method and what chooses its accuracy.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 /// The family.
 pub fn cases() -> Vec<Case> {
     vec![
-        uneven([4e-11, 2e-10, 5e-10, 4e-11, 3e-9]),
+        asymmetric([4e-11, 2e-10, 5e-10, 4e-11, 3e-9]),
         cross_coupled(1e7, 0.05, [5e-8, 1e-6, 5e-7, 5e-8, 5e-7]),
         cross_coupled(1e8, 0.006, [2e-8, 2e-7, 2e-7, 2e-8, 7e-8]),
     ]
@@ -52,7 +52,7 @@ fn ended(outcome: Result<()>, before: f64, after: f64) -> Result<bool> {
     Ok(false)
 }
 
-/// An uneven body that falls, with a damper in it that drives its whirl.
+/// An asymmetric body that falls, with a damper in it that drives its whirl.
 fn falling() -> Machine {
     Machine {
         m: 5.0,
@@ -68,9 +68,9 @@ fn falling() -> Machine {
 }
 
 /// One call of 1 s.
-fn uneven(bounds: [f64; 5]) -> Case {
+fn asymmetric(bounds: [f64; 5]) -> Case {
     Case {
-        name: "an uneven body with rotating damping, one call of 1 s".into(),
+        name: "an asymmetric body with rotating damping, one call of 1 s".into(),
         hard: "it turns faster and faster",
         oracle: "the laws in quaternions, extrapolated to order 22",
         scene: "rotor",

@@ -1,4 +1,4 @@
-//! Very high spin, at which an explicit method must follow every nod of the axis.
+//! Very high spin, at which an explicit method must follow every nutation of the axis.
 
 use super::case::{Case, Exact, follow, of_whirl, times};
 use super::method::{at, symplectic};
@@ -7,7 +7,7 @@ use crate::oracles::motion::Whirl;
 use crate::oracles::numerics::root;
 
 /// Spin [rad/s]; bounds of dop853, stiff, symplectic and auto where the axis precesses, and of dop853 and symplectic where
-/// it nods, and there of auto.
+/// it nutates, and there of auto.
 const SPINS: [(f64, [f64; 4], [f64; 3]); 3] = [
     (1e4, [8e-12, 6e-12, 6e-6, 8e-12], [5e-13, 7e-4, 2e-8]),
     (1e5, [6e-11, 5e-11, 8e-8, 6e-11], [8e-12, 3e-4, 5e-7]),
@@ -16,7 +16,7 @@ const SPINS: [(f64, [f64; 4], [f64; 3]); 3] = [
 
 /// The family.
 pub fn cases() -> Vec<Case> {
-    SPINS.into_iter().flat_map(|(spin, slow, fast)| [precessing(spin, slow), nodding(spin, fast)]).collect()
+    SPINS.into_iter().flat_map(|(spin, slow, fast)| [precessing(spin, slow), nutating(spin, fast)]).collect()
 }
 
 /// The whirl between these rates [rad/s] that goes with the spin [rad/s].
@@ -41,8 +41,8 @@ fn precessing(spin: f64, bounds: [f64; 4]) -> Case {
     }
 }
 
-/// The axis nods at Ω ≈ Ja ω/Jt, a hundredth of a radian wide, and the rod swings with it; a tenth of a second.
-fn nodding(spin: f64, bounds: [f64; 3]) -> Case {
+/// The axis nutates at Ω ≈ Ja ω/Jt, a hundredth of a radian wide, and the rod swings with it; a tenth of a second.
+fn nutating(spin: f64, bounds: [f64; 3]) -> Case {
     let whirl = whirl_of(spin, 0.01, spin, 3.0 * spin);
     let methods = [at("dop853", 1e-13), symplectic(6, 1e-3), at("auto", 1e-8)];
     Case {

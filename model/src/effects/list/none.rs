@@ -22,8 +22,8 @@ impl Effects for () {
     const SHAPES: bool = false;
     const FOLLOWS_PHI: bool = false;
     const IMPOSES: bool = false;
-    const FORETOLD: usize = 0;
-    const MOST_FORETOLD: usize = usize::MAX;
+    const EXTRAPOLATED: usize = 0;
+    const MOST_EXTRAPOLATED: usize = usize::MAX;
 
     #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
@@ -122,15 +122,15 @@ impl Effects for () {
 
     fn step_to(&mut self, _end: &Kinematics<f64>) {}
 
-    fn foretells(&self) -> bool {
+    fn extrapolates(&self) -> bool {
         false
     }
 
     fn step_from(&mut self, _t: f64) {}
 
-    fn foretell(&mut self, _number: usize, _signal: &mut Signal) {}
+    fn extrapolate(&mut self, _number: usize, _signal: &mut Signal) {}
 
-    fn for_each_foretold(&mut self, _act: &mut impl FnMut(&mut Signal)) {}
+    fn for_each_extrapolated(&mut self, _act: &mut impl FnMut(&mut Signal)) {}
 
     fn for_each_signal(&mut self, _act: &mut impl FnMut(&mut Signal)) {}
 

@@ -36,9 +36,12 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     const SHAPES: bool = H::Effect::SHAPES || T::SHAPES;
     const FOLLOWS_PHI: bool = H::Effect::FOLLOWS_PHI || T::FOLLOWS_PHI;
     const IMPOSES: bool = H::Effect::IMPOSES || T::IMPOSES;
-    const FORETOLD: usize = inputs_foretold::<H::Effect>() + T::FORETOLD;
-    const MOST_FORETOLD: usize =
-        if H::Effect::MOST_FORETOLD < T::MOST_FORETOLD { H::Effect::MOST_FORETOLD } else { T::MOST_FORETOLD };
+    const EXTRAPOLATED: usize = inputs_extrapolated::<H::Effect>() + T::EXTRAPOLATED;
+    const MOST_EXTRAPOLATED: usize = if H::Effect::MOST_EXTRAPOLATED < T::MOST_EXTRAPOLATED {
+        H::Effect::MOST_EXTRAPOLATED
+    } else {
+        T::MOST_EXTRAPOLATED
+    };
 
     #[inline(always)]
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]> {
@@ -229,8 +232,8 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         self.1.step_to(end);
     }
 
-    fn foretells(&self) -> bool {
-        (H::Effect::FORETELLS && self.0.active().is_some()) || self.1.foretells()
+    fn extrapolates(&self) -> bool {
+        (H::Effect::EXTRAPOLATES && self.0.active().is_some()) || self.1.extrapolates()
     }
 
     fn step_from(&mut self, t: f64) {
@@ -240,18 +243,18 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         self.1.step_from(t);
     }
 
-    fn foretell(&mut self, number: usize, signal: &mut Signal) {
+    fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
         if self.0.active().is_some() {
-            self.0.effect_mut().foretell(number, signal);
+            self.0.effect_mut().extrapolate(number, signal);
         }
-        self.1.foretell(number, signal);
+        self.1.extrapolate(number, signal);
     }
 
-    fn for_each_foretold(&mut self, act: &mut impl FnMut(&mut Signal)) {
+    fn for_each_extrapolated(&mut self, act: &mut impl FnMut(&mut Signal)) {
         if !H::Effect::TELLS_RATES {
             each_signal(self.0.effect_mut(), act);
         }
-        self.1.for_each_foretold(act);
+        self.1.for_each_extrapolated(act);
     }
 
     fn for_each_signal(&mut self, act: &mut impl FnMut(&mut Signal)) {
@@ -277,8 +280,8 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     }
 }
 
-/// How many inputs of an effect may be foretold.
-const fn inputs_foretold<E: Effect>() -> usize {
+/// How many inputs of an effect may be extrapolated.
+const fn inputs_extrapolated<E: Effect>() -> usize {
     let (mut row, mut inputs) = (0, 0);
     while row < E::ROWS.len() && !E::TELLS_RATES {
         inputs += matches!(E::ROWS[row].access, Access::Input { .. }) as usize;

@@ -5,7 +5,7 @@ use super::Machine;
 /// An input, ports and axes counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Input {
-    /// Torque of the shaft [N·m].
+    /// Torque of the drive [N·m].
     Torque,
     /// ω_φ that is imposed [rad/s].
     Speed,
@@ -65,7 +65,7 @@ impl Imposed {
 /// How many points and values are remembered.
 const REMEMBERED: usize = 12;
 
-/// All inputs as they are in force: the shaft's torque, then force and moment of each port.
+/// All inputs as they are in force: the drive's torque, then force and moment of each port.
 #[derive(Clone, Debug)]
 pub struct Inputs {
     loads: Vec<Polynomial>,
@@ -161,7 +161,7 @@ impl Inputs {
         }
     }
 
-    /// The shaft's torque at a time [s].
+    /// The drive's torque at a time [s].
     pub fn torque(&self, t: f64) -> f64 {
         self.loads[0].at(t)
     }

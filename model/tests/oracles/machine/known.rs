@@ -29,7 +29,7 @@ pub fn ordinary() -> Machine {
         Jt: 0.12,
         bearings: vec![bearing(-0.12), bearing(0.12)],
         unbalances: vec![Unbalance { mass: 0.002, radius: 0.02, angle: 0.0, position: 0.0 }],
-        shaft: true,
+        drive: true,
         inputs: vec![(Input::Torque, 24.0)],
         ..Machine::default()
     }

@@ -41,7 +41,7 @@ pub struct Laws {
     centre: Vector3<f64>,
     inertia: Matrix3<f64>,
     inverse: Matrix3<f64>,
-    uneven: bool,
+    asymmetric: bool,
     springs: Vec<Spring>,
     /// Against tilt: stiffness [N·m/rad], damping [N·m·s/rad].
     tilt: [f64; 2],
@@ -110,7 +110,7 @@ impl Laws {
             centre,
             inertia,
             inverse: inertia.try_inverse().expect("a body with mass"),
-            uneven: !machine.unbalances.is_empty() || machine.Jt2.is_some(),
+            asymmetric: !machine.unbalances.is_empty() || machine.Jt2.is_some(),
             springs: Vec::new(),
             tilt: [0.0; 2],
             rotating_damping: machine.rotating_damping,
@@ -144,8 +144,8 @@ impl Laws {
     }
 
     /// Whether it matters how far the body has turned about its axis.
-    pub fn is_uneven(&self) -> bool {
-        self.uneven
+    pub fn is_asymmetric(&self) -> bool {
+        self.asymmetric
     }
 
     /// The state at this start; the speed is not imposed yet.
@@ -166,7 +166,7 @@ impl Laws {
     fn attitude(&self, y: &State) -> Matrix3<f64> {
         let (w, v) = (y[at::P], vector(y, at::P + 1));
         let frame = rotation::drifted((w, v));
-        if !self.uneven {
+        if !self.asymmetric {
             return frame;
         }
         let (sine, cosine) = libm::sincos(y[at::PSI]);
@@ -178,7 +178,7 @@ impl Laws {
         let attitude = self.attitude(y);
         let omega = self.turning(&attitude, &vector(y, at::K));
         let t_rate = omega.cross(&attitude.column(0));
-        let centre = if self.uneven { attitude * self.centre } else { Vector3::zeros() };
+        let centre = if self.asymmetric { attitude * self.centre } else { Vector3::zeros() };
         let (r_c, v_c) = (vector(y, at::R) - centre, vector(y, at::V) - omega.cross(&centre));
         Motion { attitude, omega, t_rate, centre, r_c, v_c }
     }

@@ -1,4 +1,4 @@
-//! `shaft`: a torque from outside, and the angle that goes with it.
+//! `drive`: a torque from outside, and the angle that goes with it.
 
 use super::{Effect, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
@@ -7,19 +7,19 @@ use crate::state::{Coordinates, Kinematics};
 use crate::variable::units::{NEWTON_METRE, RADIAN, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
 use crate::variable::{input, output};
 
-/// A constant-velocity joint between the rotor and a shaft along e.
+/// A constant-velocity joint between the rotor and a drive along e.
 #[derive(Clone, Debug, Default)]
-pub struct Shaft {
-    /// Torque τ of the shaft on the rotor [N·m].
+pub struct Drive {
+    /// Torque τ of the drive on the rotor [N·m].
     pub tau: Signal,
 }
 
-impl Effect for Shaft {
+impl Effect for Drive {
     const ROWS: &'static [Row<Self>] = &[
-        input!(tau, &NEWTON_METRE, 0.0, "torque of the shaft on the rotor, passed on by a constant-velocity joint"),
-        output!("phi", &RADIAN, "angle of the shaft, the axial angle of the rotor", |_, m| m.phi()),
-        output!("w", &RADIAN_PER_SECOND, "speed of the shaft, the rate of its angle", |_, m| m.axial_rate()),
-        output!("a", &RADIAN_PER_SECOND_SQUARED, "acceleration of the shaft", |_, m, rates| {
+        input!(tau, &NEWTON_METRE, 0.0, "torque of the drive on the rotor, passed on by a constant-velocity joint"),
+        output!("phi", &RADIAN, "angle of the drive, the axial angle of the rotor", |_, m| m.phi()),
+        output!("w", &RADIAN_PER_SECOND, "speed of the drive, the rate of its angle", |_, m| m.axial_rate()),
+        output!("a", &RADIAN_PER_SECOND_SQUARED, "acceleration of the drive", |_, m, rates| {
             m.axial_acceleration(&Coordinates::from_slice(rates))
         }),
     ];

@@ -1,4 +1,4 @@
-//! A method that drives a rotor: charts, whole turns of φ, and the answer at any time of the last step.
+//! A method at work on a rotor: charts, whole turns of φ, and the answer at any time of the last step.
 
 use super::auto::Auto;
 use super::growth::Watch;
@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 
 /// A rotor with N equations, its method, and how far its answers are wanted.
 #[derive(Clone)]
-pub(super) struct Drive<E, const N: usize> {
+pub(super) struct Integration<E, const N: usize> {
     /// The rotor, in the chart and with the whole turns of the time that the method has reached.
     rotor: Rotor<E>,
     method: Method<N>,
@@ -39,7 +39,7 @@ pub(super) struct Drive<E, const N: usize> {
     watch: Watch,
 }
 
-stored!(Drive<E: Effects, const N: usize> {
+stored!(Integration<E: Effects, const N: usize> {
     rotor, method, auto, tolerance, most, last, t, stop, total_at_start, tilted, watch
 });
 
@@ -96,8 +96,8 @@ const TOO_LONG: Refusal = Refusal(
              solver.step_size, or where it is 0, tighten solver.relative_tolerance or take another solver.method",
 );
 
-impl<E: Effects, const N: usize> Drive<E, N> {
-    /// A drive from time `t` [s] of a motion that shows `reading` at its start, for `span` [s], where that is known.
+impl<E: Effects, const N: usize> Integration<E, N> {
+    /// A integration from time `t` [s] of a motion that shows `reading` at its start, for `span` [s], where that is known.
     pub(super) fn start(start: Motion<E>, reading: &Reading, setup: &Setup, t: f64, span: Option<f64>) -> Self {
         let tolerance = tolerance(setup, &start, t);
         let Motion { rotor, state } = start;
@@ -106,7 +106,7 @@ impl<E: Effects, const N: usize> Drive<E, N> {
         let plan = Plan::new(&setup.solver, &rotor.effects);
         let method = Method::start(plan, tolerance, &rotor, t, y);
         let last = LastStep { chart: rotor.chart, turns: rotor.turns, gamma: gamma(&y), closest: None };
-        let mut drive = Self {
+        let mut integration = Self {
             rotor,
             method,
             auto: matches!(plan, Plan::Auto).then(Auto::default),
@@ -118,9 +118,9 @@ impl<E: Effects, const N: usize> Drive<E, N> {
             total_at_start: reading.ledger.total_at_start,
             ..Self::blank()
         };
-        drive.watch_tilt(last.gamma);
-        drive.watch.look(&drive.rotor, t, &y);
-        drive
+        integration.watch_tilt(last.gamma);
+        integration.watch.look(&integration.rotor, t, &y);
+        integration
     }
 
     /// Nothing yet: a place for what was stored.

@@ -4,17 +4,17 @@
 mod harness;
 mod oracles;
 
-use harness::uneven::{Case, at};
+use harness::asymmetric::{Case, at};
 use harness::{largest, properties, within};
-use model::body::{Inertia, Shape};
-use model::energy;
-use model::rotation::chart::crossed_exactly;
-use model::rotation::{Angle, Chart};
-use model::state::{Coordinates, Kinematics};
-use model::variables::Reading;
 use nalgebra::{Rotation2, Vector2, Vector3};
-use oracles::uneven::Uneven;
+use oracles::point_masses::Asymmetric;
 use proptest::prelude::*;
+use split_rotor_model::body::{Inertia, Shape};
+use split_rotor_model::energy;
+use split_rotor_model::rotation::chart::crossed_exactly;
+use split_rotor_model::rotation::{Angle, Chart};
+use split_rotor_model::state::{Coordinates, Kinematics};
+use split_rotor_model::variables::Reading;
 use std::f64::consts::TAU;
 
 fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
@@ -35,7 +35,7 @@ prop_compose! {
         let (ja, least) = (shape * jt, (shape - 1.0).abs() * jt);
         let jt2 = least + other * (ja + jt - least);
         Case {
-            body: Uneven {
+            body: Asymmetric {
                 m,
                 moments: Vector3::new(ja, jt, jt2),
                 masses: vec![(0.3, first), (0.1, second)],
@@ -150,9 +150,9 @@ proptest! {
 /// r_c, v_c, ω and the kinetic energy before and after a switch, relative to their sizes [1]: measured 3.5e-15, of ω.
 const SWITCH: f64 = 1e-14;
 
-fn inertia(body: &Uneven) -> Inertia {
+fn inertia(body: &Asymmetric) -> Inertia {
     let [ja, jt, jt2] = body.moments.into();
-    let mut shape = Shape::of(model::body::Body { m: body.m, Ja: ja, Jt: jt, l: body.l });
+    let mut shape = Shape::of(split_rotor_model::body::Body { m: body.m, Ja: ja, Jt: jt, l: body.l });
     shape.Jt2 = Some(jt2);
     body.masses.iter().for_each(|(mass, place)| shape.add(*mass, place));
     shape.inertia()

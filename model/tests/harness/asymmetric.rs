@@ -1,15 +1,15 @@
 //! Rotors that are unbalanced or not symmetric, as an oracle and as a scene.
 
 use super::named::Named;
-use crate::oracles::uneven::{Moving, Uneven};
-use model::variables::Reading;
+use crate::oracles::point_masses::{Asymmetric, Moving};
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::variables::Reading;
 
 /// A rotor, how it starts, and the same as a scene.
 #[derive(Clone, Debug)]
 #[allow(missing_docs, reason = "the names of the variables")]
 pub struct Case {
-    pub body: Uneven,
+    pub body: Asymmetric,
     pub r: Vector3<f64>,
     pub v: Vector3<f64>,
     pub phi: f64,
@@ -22,7 +22,7 @@ impl Case {
     pub fn held() -> Self {
         let masses = vec![(0.3, Vector3::new(0.1, 0.05, 0.0)), (0.2, Vector3::new(-0.2, -0.03, 0.08))];
         Self {
-            body: Uneven {
+            body: Asymmetric {
                 m: 5.0,
                 moments: Vector3::new(0.15625, 0.078125, 0.1),
                 masses,
@@ -59,7 +59,7 @@ impl Case {
         let Self { body, r, v, phi, gamma, omega } = self;
         let vector = |v: &Vector3<f64>| format!("{{ x = {:?}, y = {:?}, z = {:?} }}", v.x, v.y, v.z);
         let mut text = format!(
-            "title = \"uneven\"\n[rotor]\nm = {:?}\nJa = {:?}\nJt = {:?}\nl = {:?}\n[start]\nr_c = {}\nv_c = {}\nphi = {:?}\n\
+            "title = \"asymmetric\"\n[rotor]\nm = {:?}\nJa = {:?}\nJt = {:?}\nl = {:?}\n[start]\nr_c = {}\nv_c = {}\nphi = {:?}\n\
              gamma = {{ y = {:?}, z = {:?} }}\nomega = {}\n[effects.gravity]\ng = {}\n[effects.support]\nc1 = {:?}\nc2 = {:?}\n\
              d1 = {:?}\nd2 = {:?}\n[effects.asymmetry]\nJt2 = {:?}\n[solver]\n{solver}\n",
             body.m,

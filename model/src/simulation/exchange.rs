@@ -15,7 +15,7 @@ use nalgebra::Vector2;
 
 /// A rotor whose state a host sets.
 #[derive(Clone)]
-pub struct Open<E> {
+pub struct Exchange<E> {
     rotor: Rotor<E>,
     /// [s]
     t: f64,
@@ -32,7 +32,7 @@ pub struct Open<E> {
     watch: Watch,
 }
 
-stored!(Open<E: Effects> { rotor, t, state, completed, at_event, total_at_start, tilted, watch });
+stored!(Exchange<E: Effects> { rotor, t, state, completed, at_event, total_at_start, tilted, watch });
 
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
@@ -66,18 +66,18 @@ impl Settled {
 /// Into so many pieces the way between two completed steps is cut to count turns.
 const PIECES: u32 = 32;
 
-impl<E: Effects> Open<E> {
+impl<E: Effects> Exchange<E> {
     /// From a motion that shows `reading` at its start.
     pub(super) fn start(start: Motion<E>, reading: &Reading) -> Self {
         let Motion { rotor, state } = start;
         let total_at_start = reading.ledger.total_at_start;
         let t = reading.motion.t;
-        let mut open = Self { rotor, t, state, total_at_start, ..Self::blank() };
-        open.completed = open.here();
-        open.at_event = Some(open.kinetic());
-        open.watch_tilt();
-        open.watch.look(&open.rotor, t, &state);
-        open
+        let mut exchange = Self { rotor, t, state, total_at_start, ..Self::blank() };
+        exchange.completed = exchange.here();
+        exchange.at_event = Some(exchange.kinetic());
+        exchange.watch_tilt();
+        exchange.watch.look(&exchange.rotor, t, &state);
+        exchange
     }
 
     /// Nothing yet: a place for what was stored.

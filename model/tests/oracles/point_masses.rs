@@ -1,6 +1,6 @@
 //! A rotor with point masses on it, as Newton and Euler have them one by one: forces between rotor and masses are eliminated
 //! with the accelerations of c and of the attitude. It knows neither the mass centre of the whole nor its inertia tensor nor a
-//! chart; φ is a quadrature. Vectors in O, SI units, radians. Checks: `exact_uneven.rs`.
+//! chart; φ is a quadrature. Vectors in O, SI units, radians. Checks: `exact_asymmetric.rs`.
 
 use super::rigid_body::joint;
 use super::{extrapolation, rotation};
@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, SMatrix, SVector, Vector2, Vector3};
 
 /// The rotor, its masses, and what acts on it.
 #[derive(Clone, Debug)]
-pub struct Uneven {
+pub struct Asymmetric {
     /// Mass of the balanced rotor [kg].
     pub m: f64,
     /// Its moments of inertia about c and the body's axes [kg·m²].
@@ -69,7 +69,7 @@ impl Moving {
     }
 }
 
-impl Uneven {
+impl Asymmetric {
     /// At c in r [m] with v [m/s], φ [rad], γ [rad] and ω [rad/s].
     pub fn start(
         &self,

@@ -5,9 +5,9 @@ use crate::harness::named::Named;
 use crate::harness::{largest, within};
 use crate::oracles::extrapolation::step;
 use crate::oracles::motion::FreeRotor;
-use model::simulation::Integrator;
-use model::state::WITH_WORK;
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::state::WITH_WORK;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
@@ -36,16 +36,16 @@ struct Host {
 impl Host {
     fn start(name: &str, starts: &[(&str, f64)], inputs: &[f64]) -> Self {
         let mut named = begin(name, starts, inputs, Integrator::Host);
-        named.simulation.open().expect("for a host").settle();
+        named.simulation.exchange().expect("for a host").settle();
         Self { named: RefCell::new(named), t: 0.0, events: 0 }
     }
 
     fn advance(&mut self, h: f64) {
         let rates = |t: f64, y: &[f64; WITH_WORK]| {
             let mut named = self.named.borrow_mut();
-            let open = named.simulation.open().expect("for a host");
-            open.set_time(t);
-            open.set_state(y);
+            let exchange = named.simulation.exchange().expect("for a host");
+            exchange.set_time(t);
+            exchange.set_state(y);
             named.simulation.admits().expect("a possible state");
             named.simulation.rates().expect("possible parameters")
         };
@@ -53,17 +53,17 @@ impl Host {
         let state = step(rates, self.t, &state, h);
         self.t += h;
         let named = self.named.get_mut();
-        let open = named.simulation.open().expect("for a host");
-        open.set_time(self.t);
-        open.set_state(&state);
+        let exchange = named.simulation.exchange().expect("for a host");
+        exchange.set_time(self.t);
+        exchange.set_state(&state);
         let phi = named.get("phi");
-        let open = named.simulation.open().expect("for a host");
-        let wants_event = open.complete_step();
+        let exchange = named.simulation.exchange().expect("for a host");
+        let wants_event = exchange.complete_step();
         assert_eq!(named.get("phi"), phi, "to complete a step changes nothing that is shown");
         if wants_event {
-            let open = named.simulation.open().expect("for a host");
-            assert!(open.settle().chart, "an event that was asked for changes the chart");
-            assert!(!open.settle().any(), "once");
+            let exchange = named.simulation.exchange().expect("for a host");
+            assert!(exchange.settle().chart, "an event that was asked for changes the chart");
+            assert!(!exchange.settle().any(), "once");
             self.events += 1;
         }
     }
@@ -80,7 +80,7 @@ fn begin(name: &str, starts: &[(&str, f64)], inputs: &[f64], integrator: Integra
     }
     named.set("solver.relative_tolerance", 1e-13);
     if let Some((value, derivatives)) = inputs.split_first() {
-        let tau = named.place("shaft.tau");
+        let tau = named.place("drive.tau");
         named.simulation.set_input(tau, *value);
         for (order, derivative) in (1..).zip(derivatives) {
             named.simulation.set_input_derivative(tau, order, *derivative);

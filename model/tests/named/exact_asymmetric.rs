@@ -1,16 +1,16 @@
 //! Rotors that are unbalanced or not symmetric, against bodies put together of a rotor and point masses, which know no mass
 //! centre of the whole.
 
+use crate::harness::asymmetric::{Case, at};
 use crate::harness::named::Named;
-use crate::harness::uneven::{Case, at};
 use crate::harness::{Random, largest, within};
 use crate::oracles::asymmetric::Asymmetric;
 use crate::oracles::motion::FreeRotor;
 use crate::oracles::numerics::log_slope;
-use crate::oracles::uneven::Moving;
-use model::rotation::Tilt;
-use model::variables::Reading;
+use crate::oracles::point_masses::Moving;
 use nalgebra::{Matrix3, Vector2, Vector3};
+use split_rotor_model::rotation::Tilt;
+use split_rotor_model::variables::Reading;
 use std::f64::consts::PI;
 
 fn attitude(reading: &Reading) -> Matrix3<f64> {
@@ -216,11 +216,12 @@ fn exact_attitude_is_that_of_quaternions() {
         let phi = random.within(-30.0, 30.0);
         let exact = crate::oracles::rotation::attitude(phi, &gamma);
         let found = if case % 2 == 0 {
-            Tilt::new(model::rotation::Chart::FromE, gamma).attitude(phi)
+            Tilt::new(split_rotor_model::rotation::Chart::FromE, gamma).attitude(phi)
         } else {
-            let chart = model::rotation::Chart::FromMinusE;
-            let other = model::rotation::chart::crossed_exactly(gamma);
-            let own = chart.own_angle(model::rotation::Angle { turns: 0.0, remainder: phi }.wrapped(), other);
+            let chart = split_rotor_model::rotation::Chart::FromMinusE;
+            let other = split_rotor_model::rotation::chart::crossed_exactly(gamma);
+            let own =
+                chart.own_angle(split_rotor_model::rotation::Angle { turns: 0.0, remainder: phi }.wrapped(), other);
             Tilt::new(chart, other).attitude(own.remainder)
         };
         worst = largest([worst, (found - exact).amax()]);

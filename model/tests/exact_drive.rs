@@ -1,24 +1,24 @@
-//! The shaft: its moment and power, an upright rotor in closed form, a tilted one beside an independent rigid body, the
+//! The drive: its moment and power, an upright rotor in closed form, a tilted one beside an independent rigid body, the
 //! ledger, and where its law ends.
 
 mod harness;
 mod oracles;
 
-use harness::{Driven, Method, Scene, Shafted, TORQUE, at, largest, properties, times, within};
-use model::body::Body;
-use model::effects::shaft::Shaft;
-use model::effects::{Effect, Effects};
-use model::integrate::Fault;
-use model::rotation::Chart;
-use model::signal::Signal;
-use model::simulation::Simulation;
-use model::state::{Coordinates, Kinematics};
-use model::variable::Place;
+use harness::{Driven, DrivenFree, Method, Scene, TORQUE, at, largest, properties, times, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::derivative;
 use oracles::rigid_body::{RigidBody, joint};
 use oracles::rotation;
 use proptest::prelude::*;
+use split_rotor_model::body::Body;
+use split_rotor_model::effects::drive::Drive;
+use split_rotor_model::effects::{Effect, Effects};
+use split_rotor_model::integrate::Fault;
+use split_rotor_model::rotation::Chart;
+use split_rotor_model::signal::Signal;
+use split_rotor_model::simulation::Simulation;
+use split_rotor_model::state::{Coordinates, Kinematics};
+use split_rotor_model::variable::Place;
 use std::f64::consts::{PI, TAU};
 
 const PHI: Place = Place { row: 1, ..TORQUE };
@@ -50,14 +50,14 @@ proptest! {
         let gamma = Vector2::new(libm::cos(psi), libm::sin(psi)) * theta;
         let at = Coordinates { r: Vector3::zeros(), v: Vector3::zeros(), k: k.into(), gamma, phi: 0.3 };
         let motion = Kinematics::new(Scene::paper().body.into(), chart, at);
-        let shaft = Shaft { tau: Signal::held(tau) };
-        let load = shaft.load(&motion);
+        let drive = Drive { tau: Signal::held(tau) };
+        let load = drive.load(&motion);
         let expected = joint(&(rotation::axis(&gamma) * chart.sign())) * tau;
         within("moment", (load.moment - expected).norm() / expected.norm(), MOMENT);
         prop_assert_eq!(load.force, Vector3::zeros());
         let (power, size) = (tau * motion.axial_rate(), expected.norm() * motion.omega.norm());
         within("moment on the rotor", (load.moment.dot(&motion.omega) - power).abs() / size, POWER);
-        within("supply", (shaft.supply(&motion) - power).abs() / size, POWER);
+        within("supply", (drive.supply(&motion) - power).abs() / size, POWER);
     }
 }
 
@@ -208,7 +208,7 @@ fn exact_tilted_rotor_beside_a_rigid_body() {
     }
 }
 
-/// `shaft.a` against extrapolated differences of the rigid body's speed, relative to the largest [1]: measured 3.0e-12.
+/// `drive.a` against extrapolated differences of the rigid body's speed, relative to the largest [1]: measured 3.0e-12.
 const ACCELERATION_OF_SPEED: f64 = 1e-11;
 
 #[test]
@@ -264,7 +264,7 @@ fn exact_ledger_closes() {
 // ---------------------------------------------------------------------------------------------------------- limit
 
 /// A free rotor that turns end over end at 10 rad/s, straight through −e.
-fn end_over_end(method: Method) -> Simulation<Shafted> {
+fn end_over_end(method: Method) -> Simulation<DrivenFree> {
     Scene { method, omega: Vector3::new(0.0, 0.0, 10.0), ..Scene::free() }.started()
 }
 
@@ -275,7 +275,7 @@ const REFUSED_AT: f64 = 1e-15;
 /// The axis of the rotor that turns end over end [1]: measured 2.6e-15.
 const END_OVER_END: f64 = 1e-14;
 
-fn assert_refused(simulation: &mut Simulation<Shafted>, to: f64, expected: f64) {
+fn assert_refused(simulation: &mut Simulation<DrivenFree>, to: f64, expected: f64) {
     let fault = simulation.advance(to).expect_err("a torque acts where it has no limit");
     let Fault::Refused { t, reason } = fault else { panic!("{fault:?}") };
     assert!(reason.0.contains("3.1 rad") && reason.0.contains("tau"), "{fault}");
