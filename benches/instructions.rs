@@ -19,11 +19,11 @@ fn kept<T>(it: T) -> &'static mut T {
     Box::leak(Box::new(it))
 }
 
-fn before_a_step<const N: usize>(tableau: &'static Tableau) -> &'static mut Stepping<Rotor<Effects>, N> {
+fn before_a_step<const N: usize>(tableau: &'static Tableau) -> &'static mut Stepping<Rotor<'static, Effects>, N> {
     kept(rotor::<N>().before_a_step(tableau))
 }
 
-fn after_a_step(tableau: &'static Tableau) -> &'static mut Stepping<Rotor<Effects>, 12> {
+fn after_a_step(tableau: &'static Tableau) -> &'static mut Stepping<Rotor<'static, Effects>, 12> {
     let stepping = before_a_step(tableau);
     stepping.step();
     stepping
@@ -35,13 +35,13 @@ fn before_a_free_step(tableau: &'static Tableau) -> &'static mut Stepping<Copied
 
 #[library_benchmark]
 #[bench::equations_12(kept(rotor()))]
-fn right_hand_side(at: &mut At<Rotor<Effects>, 12>) -> [f64; 12] {
+fn right_hand_side(at: &mut At<Rotor<'static, Effects>, 12>) -> [f64; 12] {
     at.rates()
 }
 
 #[library_benchmark]
 #[bench::equations_14(kept(rotor()))]
-fn right_hand_side_with_work(at: &mut At<Rotor<Effects>, 14>) -> [f64; 14] {
+fn right_hand_side_with_work(at: &mut At<Rotor<'static, Effects>, 14>) -> [f64; 14] {
     at.rates()
 }
 
@@ -49,19 +49,19 @@ macro_rules! of_each_method {
     ($($name:ident $tableau:expr,)*) => {
         #[library_benchmark]
         $(#[bench::$name(before_a_step($tableau))])*
-        fn step(it: &mut Stepping<Rotor<Effects>, 12>) {
+        fn step(it: &mut Stepping<Rotor<'static, Effects>, 12>) {
             it.step();
         }
 
         #[library_benchmark]
         $(#[bench::$name(before_a_step($tableau))])*
-        fn step_with_work(it: &mut Stepping<Rotor<Effects>, 14>) {
+        fn step_with_work(it: &mut Stepping<Rotor<'static, Effects>, 14>) {
             it.step();
         }
 
         #[library_benchmark]
         $(#[bench::$name(after_a_step($tableau))])*
-        fn prepare_dense_output(it: &mut Stepping<Rotor<Effects>, 12>) {
+        fn prepare_dense_output(it: &mut Stepping<Rotor<'static, Effects>, 12>) {
             it.prepare_dense();
         }
 

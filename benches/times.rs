@@ -27,7 +27,7 @@ fn main() {
 }
 
 fn rates(criterion: &mut Criterion) {
-    let mut at: At<Rotor<Effects>, 12> = rotor();
+    let mut at: At<Rotor<'static, Effects>, 12> = rotor();
     criterion.bench_function("right hand side, one after another", |bencher| {
         bencher.iter(|| black_box(&at).rates());
     });

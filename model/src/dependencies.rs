@@ -1,8 +1,7 @@
 //! What depends on what: found by changing one thing after another, not written by hand.
 
-use crate::effects::{All, Effects};
 use crate::scene::Scene;
-use crate::simulation::{Integrator, Simulation};
+use crate::simulation::{Any, Integrator};
 use crate::state::{WITH_WORK, Whole};
 use crate::variable::{Bound, Kind, Place, Role};
 use crate::variables::Variable;
@@ -19,9 +18,9 @@ pub struct Dependencies {
 const SAMPLES: usize = 64;
 
 /// Whether a rotor can have these parameters.
-type Possible = fn(&mut Simulation<All>) -> bool;
+type Possible = fn(&mut Any) -> bool;
 
-fn can_start(simulation: &mut Simulation<All>) -> bool {
+fn can_start(simulation: &mut Any) -> bool {
     simulation.parameters().check().is_ok() && simulation.read().is_ok()
 }
 
@@ -95,8 +94,8 @@ impl Dependencies {
 const TRIES: usize = 64;
 
 /// A rotor with random parameters, effects that have switches mostly on, so that what two of them do together is seen.
-fn somewhere(scene: &Scene, random: &mut Random, possible: Possible) -> Simulation<All> {
-    let own = || Simulation::with(Integrator::Host, scene.parameters());
+fn somewhere(scene: &Scene, random: &mut Random, possible: Possible) -> Any {
+    let own = || Any::with(Integrator::Host, scene.parameters());
     let mut simulation = own();
     for variable in &scene.variables {
         if let Some(range) = range(variable) {
@@ -124,7 +123,7 @@ fn somewhere(scene: &Scene, random: &mut Random, possible: Possible) -> Simulati
 const HALVINGS: u32 = 8;
 
 /// Changes one variable, by less where that much is not possible; false, and all is as it was, where no change is.
-fn change(simulation: &mut Simulation<All>, variable: &Variable, random: &mut Random, possible: Possible) -> bool {
+fn change(simulation: &mut Any, variable: &Variable, random: &mut Random, possible: Possible) -> bool {
     let old = value(simulation, variable);
     let Some(range) = range(variable) else {
         // Of a switch there is one.
@@ -153,7 +152,7 @@ fn is_drawn(variable: &Variable) -> bool {
     range(variable).is_some() || variable.meta.kind == Kind::Boolean
 }
 
-fn value(simulation: &mut Simulation<All>, variable: &Variable) -> f64 {
+fn value(simulation: &mut Any, variable: &Variable) -> f64 {
     let value = simulation.get(variable.place).unwrap_or_else(|invalid| panic!("of a possible rotor {invalid}"));
     value.unwrap_or_else(|| panic!("{} is in the list, and has no value", variable.name))
 }
@@ -181,19 +180,19 @@ fn range(variable: &Variable) -> Option<(f64, f64)> {
     }
 }
 
-fn set<E: Effects>(simulation: &mut Simulation<E>, variable: &Variable, value: f64) {
+fn set(simulation: &mut Any, variable: &Variable, value: f64) {
     let found = simulation.set_parameter(variable.place, value) || simulation.set_input(variable.place, value);
     assert!(found, "{} can be set", variable.name);
 }
 
 /// Moves to a state; whether it can be calculated there.
-fn moves_to(simulation: &mut Simulation<All>, state: &Whole<f64>) -> bool {
+fn moves_to(simulation: &mut Any, state: &Whole<f64>) -> bool {
     simulation.exchange().expect("it was started for a host").set_state(state);
     simulation.admits().is_ok()
 }
 
 /// The values of all calculated variables; 0 of others.
-fn values(simulation: &mut Simulation<All>, scene: &Scene) -> Vec<f64> {
+fn values(simulation: &mut Any, scene: &Scene) -> Vec<f64> {
     let value = |variable: &Variable| if variable.meta.has_start() { 0.0 } else { value(simulation, variable) };
     scene.variables.iter().map(value).collect()
 }
@@ -242,7 +241,7 @@ mod tests {
         Scene::find("driven", &scenes).unwrap_or_else(|error| panic!("{error}"))
     }
 
-    fn parameters(simulation: &mut Simulation<All>) -> crate::variables::Setup {
+    fn parameters(simulation: &mut Any) -> crate::variables::Setup {
         simulation.parameters().setup.clone()
     }
 

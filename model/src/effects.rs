@@ -4,11 +4,15 @@
 //! type, a list of [`Called`] effects that build.rs writes: what is not in the list is not compiled. The list [`All`]
 //! holds every effect behind a switch.
 
+mod act;
 mod list;
+mod motion;
 mod terminal;
 mod wrench;
 
-pub use list::{Action, Called, Effects, Switched, follows_all_inputs};
+pub use act::Act;
+pub use list::{Called, Effects, Switched, follows_all_inputs};
+pub use motion::Motion;
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
@@ -16,24 +20,29 @@ use crate::body::Shape;
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::Kinematics;
 use crate::variable::units::ONE;
 use crate::variable::{self, Bound, Kind, Meta, Role};
 
-/// Outputs of effects are read from the motion.
-pub enum Motion {}
+/// Outputs of effects are read from the motion that laws see.
+pub enum Seen {}
 
-impl variable::Shown for Motion {
-    type Of<S: Scalar> = Kinematics<S>;
+impl variable::Shown for Seen {
+    type Of<'m, S: Scalar> = Motion<'m, S>;
 }
 
 /// A variable of an effect.
-pub type Row<E> = variable::Row<E, Motion>;
+pub type Row<E> = variable::Row<E, Seen>;
+
+/// An effect has at most so many states of its own.
+pub const MOST_OWN: usize = 6;
 
 /// A law and its variables. All vectors in the inertial frame O.
 pub trait Effect: Clone + Default + Send + 'static {
     /// Its variables, named within its block; new ones go to the end, for a value reference is a place in this list.
     const ROWS: &'static [Row<Self>];
+
+    /// How many states of its own it has, at most [`MOST_OWN`]: numbers that are integrated with the motion.
+    const OWN: usize = 0;
 
     /// Whether it can lose energy or be supplied with it, with any parameters. To forget to deny it costs time, not
     /// energy.
@@ -48,9 +57,8 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Whether what it does follows φ, so that φ is no quadrature where it is at work.
     const FOLLOWS_PHI: bool = Self::SHAPES;
 
-    /// Whether it has a law that follows where the rotor is or how fast it moves there. To forget to deny it costs time in
-    /// the general FMU.
-    const FOLLOWS_PLACE: bool = true;
+    /// Whether its law is analytic in everything that it depends on, so that its motion has power series in time.
+    const ANALYTIC: bool = true;
 
     /// Whether it [extrapolates](Effect::extrapolate) inputs.
     const EXTRAPOLATES: bool = false;
@@ -73,41 +81,27 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Adds its share to the mass, mass centre and inertia of the body.
     fn shape(&self, _body: &mut Shape) {}
 
-    /// Force on the rotor and moment about c [N, N·m].
+    /// What it does to the rotor: loads, energy, power, and the rates of its own states. What nobody asks for of the answer, the
+    /// compiler leaves out.
     #[inline(always)]
-    fn load<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
-        Wrench::zero()
+    fn act<S: Scalar>(&self, _motion: &Motion<S>) -> Act<S> {
+        Act::none()
     }
 
-    /// What damps, as a force on the rotor and a moment about c [N, N·m], beside [`Effect::load`]: it is asked for only
-    /// where some effect [works](Effect::works), so that undamped motions do not pay for it.
-    #[inline(always)]
-    fn damping<S: Scalar>(&self, _motion: &Kinematics<S>) -> Wrench<S> {
-        Wrench::zero()
-    }
-
-    /// Potential energy [J].
-    #[inline(always)]
-    fn potential<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
-        S::zero()
-    }
-
-    /// Power that leaves the mechanics [W], ≥ 0; none is −0, as in [`Wrench::zero`].
-    #[inline(always)]
-    fn loss<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
-        S::constant(-0.0)
-    }
-
-    /// Power that comes from outside [W]; none is −0.
-    #[inline(always)]
-    fn supply<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
-        S::constant(-0.0)
-    }
-
-    /// The ω_φ that it imposes at time `t` [rad/s], and the rate of that [rad/s²]; None where it imposes none.
+    /// The ω_φ that it imposes at time `t` [s] [rad/s], and the rate of that [rad/s²]; None where it imposes none.
     #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
         None
+    }
+
+    /// Its own states where the motion begins; those beyond [`Effect::OWN`] do not count.
+    fn own_at_start(&self, _start: &Motion<f64>) -> [f64; MOST_OWN] {
+        [0.0; MOST_OWN]
+    }
+
+    /// What its own states count with until they have been larger, in their units, > 0.
+    fn own_nominal(&self) -> [f64; MOST_OWN] {
+        [1.0; MOST_OWN]
     }
 
     /// Whether, with its present parameters and inputs, its law has no limit where |γ| = π, because it follows the
@@ -122,7 +116,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     }
 
     /// Hears where the motion begins, before anything is asked.
-    fn begin(&mut self, _start: &Kinematics<f64>) {}
+    fn begin(&mut self, _start: &Motion<f64>) {}
 
     /// Hears that a communication step begins at time `t` [s].
     fn step_from(&mut self, _t: f64) {}
@@ -135,11 +129,8 @@ pub trait Effect: Clone + Default + Send + 'static {
         !set.goes_on
     }
 
-    /// Takes over what another like it remembers of its inputs.
-    fn take_over(&mut self, _other: &Self) {}
-
     /// Hears where a communication step ended.
-    fn step_to(&mut self, _end: &Kinematics<f64>) {}
+    fn step_to(&mut self, _end: &Motion<f64>) {}
 
     /// What it remembers of a run besides its variables: saved and brought back with them.
     fn memory(&mut self) -> &mut [f64] {
@@ -151,10 +142,15 @@ pub trait Effect: Clone + Default + Send + 'static {
         true
     }
 
-    /// Whether, with its present parameters, it can lose energy or be supplied with it. Where no effect can, the work
-    /// integrals are not solved.
+    /// Whether, with its present parameters, it can lose energy or be supplied with it: it is not conservative. Where no effect
+    /// can, the work integrals are not solved.
     fn works(&self) -> bool {
         Self::COULD_WORK
+    }
+
+    /// Whether, with its present parameters, what it applies to the rotor depends on how fast that moves.
+    fn follows_speed(&self) -> bool {
+        self.works()
     }
 }
 
@@ -200,6 +196,8 @@ pub struct Info {
     pub could_work: bool,
     /// Whether it can impose a speed.
     pub imposes: bool,
+    /// How many states of its own it has.
+    pub own: usize,
 }
 
 /// The switch of an effect: whether it acts.
@@ -231,6 +229,14 @@ fn block_name(name: &str, several: bool, index: u32) -> String {
     if several { format!("{name}[{index}]") } else { name.to_owned() }
 }
 
+/// The full name of a variable of this block: `drag.tau`, `der(motor.state.tau)`.
+pub fn full_name(block: &str, name: &str) -> String {
+    match name.strip_prefix("der(") {
+        Some(state) => format!("der({block}.{state}"),
+        None => format!("{block}.{name}"),
+    }
+}
+
 /// The effect of this name.
 #[cfg(feature = "scenes")]
 pub fn named(name: &str) -> Option<&'static Info> {
@@ -252,7 +258,10 @@ macro_rules! catalogue {
             }
 
             #[cfg($module)]
-            const _: () = assert!(<$module::$type as Effect>::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
+            const _: () = {
+                assert!(<$module::$type as Effect>::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
+                assert!(<$module::$type as Effect>::OWN <= MOST_OWN, "an effect has at most MOST_OWN states of its own");
+            };
         )*
 
         /// Every effect there is.
@@ -266,6 +275,7 @@ macro_rules! catalogue {
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,
             imposes: <$module::$type as Effect>::IMPOSES,
+            own: <$module::$type as Effect>::OWN,
         }),*];
 
         /// Every effect, each behind a switch.

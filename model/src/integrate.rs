@@ -12,7 +12,7 @@ pub mod stiff;
 pub mod tableau;
 
 use crate::stored::{Damaged, Stored, Walk, count};
-use sizes::{GROUPS, Squares};
+use sizes::Squares;
 
 pub use sizes::Tolerance;
 
@@ -21,36 +21,52 @@ pub trait System<const N: usize> {
     /// The rates depend on the first so many components only; the others are quadratures.
     const DEPENDED_ON: usize = N;
 
+    /// The components after the first so many are solved only where somebody [wants](System::solves_all) them.
+    const ALWAYS: usize = N;
+
+    /// So many groups of components are measured, each by a norm of its own: at most N.
+    const GROUPS: usize = 1;
+
+    /// Whether all components are solved, not only the first [`System::ALWAYS`].
+    fn solves_all(&self) -> bool {
+        true
+    }
+
     /// On how many of these they depend as the system is now.
     fn depended_on(&self) -> usize {
         Self::DEPENDED_ON.min(N)
     }
 
-    /// f(t, y).
-    fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N];
+    /// f(t, y); where not `ALL` is solved, of the first [`System::ALWAYS`] components, and zeros of the others.
+    fn rates<const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N];
+
+    /// f(t, y) of what is solved.
+    fn rates_of_all(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        if self.solves_all() { self.rates::<true>(t, y) } else { self.rates::<false>(t, y) }
+    }
 
     /// Whether a step may end at y; the reason where it may not.
     fn admits(&self, t: f64, y: &[f64; N]) -> Result<(), Refusal>;
 
     /// How large the motion is at `y`, where its rate is `rate`, if excursions are counted from `origin`: group by group, squared.
-    fn sizes(&self, y: &[f64; N], _rate: &[f64; N], _origin: &[f64; N]) -> Squares {
+    fn sizes(&self, y: &[f64; N], _rate: &[f64; N], _origin: &[f64; N]) -> Squares<N> {
         in_one_group(y)
     }
 
     /// The parts of a small change of the state at `y`, in the same groups, squared.
-    fn parts(&self, _y: &[f64; N], change: &[f64; N]) -> Squares {
+    fn parts(&self, _y: &[f64; N], change: &[f64; N]) -> Squares<N> {
         in_one_group(change)
     }
 
     /// How large the numbers are that a step of size `h` [s] from `y` adds up, in the same groups, squared.
-    fn roundings(&self, y: &[f64; N], _h: f64) -> Squares {
+    fn roundings(&self, y: &[f64; N], _h: f64) -> Squares<N> {
         in_one_group(y)
     }
 }
 
 /// All numbers as one group.
-fn in_one_group<const N: usize>(y: &[f64; N]) -> Squares {
-    let mut squares = [0.0; GROUPS];
+fn in_one_group<const N: usize>(y: &[f64; N]) -> Squares<N> {
+    let mut squares = [0.0; N];
     squares[0] = y.iter().map(|y| y * y).sum();
     squares
 }

@@ -4,30 +4,70 @@ pub mod groups;
 
 use crate::body::Inertia;
 use crate::dual::Dual;
-use crate::effects::{Action, Effects, Wrench};
+use crate::effects::{Act, Effects, Wrench};
 use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
 use crate::rotation::{Chart, Tilt};
 use crate::scalar::Scalar;
-use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, Whole};
+use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, own, rigid};
 use crate::stored::{Damaged, Stored, Walk, whole};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::PI;
 
-/// A rotor with what acts on it.
-#[derive(Clone, Default)]
-pub struct Rotor<E> {
+/// A rotor with what acts on it. Its state of N numbers is written as [`crate::state`] has it.
+#[derive(Clone, Copy)]
+pub struct Rotor<'e, E> {
+    /// Where it is written.
+    pub frame: Frame,
+    /// What acts on it.
+    pub effects: &'e E,
+}
+
+/// A body, and how its state is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Frame {
     /// The body.
     pub body: Inertia,
-    /// What acts on it.
-    pub effects: E,
     /// The chart in which its state is written.
     pub chart: Chart,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
-    /// Whether none of its effects follows where it is: asked once, not in each evaluation.
-    placeless: bool,
+    /// Whether one of its effects works: asked once, not in each evaluation.
+    works: bool,
+}
+
+impl Frame {
+    /// Of a body under effects that stay switched as they are, φ beyond these `turns`.
+    pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
+        Self { body, chart, turns, works: effects.works() }
+    }
+
+    /// The rotor under these effects.
+    #[inline(always)]
+    pub fn under<E>(self, effects: &E) -> Rotor<'_, E> {
+        Rotor { frame: self, effects }
+    }
+
+    /// Whether one of its effects can lose energy or be supplied with it.
+    pub fn works(&self) -> bool {
+        self.works
+    }
+
+    /// Whether it can be that of a body under these effects: what was saved may have been altered.
+    pub fn is_of<E: Effects>(&self, body: &Inertia, effects: &E) -> bool {
+        *self == Self::new(*body, effects, self.chart, self.turns)
+    }
+}
+
+impl Stored for Frame {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let Self { body, chart, turns, works } = self;
+        body.walk(walk)?;
+        chart.walk(walk)?;
+        whole(turns, walk)?;
+        works.walk(walk)
+    }
 }
 
 /// |γ| [rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
@@ -58,7 +98,7 @@ fn moment<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Vector3<S> {
 /// A motion with the speed that effects impose on it.
 #[inline(always)]
 pub fn imposed<S: Scalar, E: Effects>(effects: &E, motion: Kinematics<S>) -> Kinematics<S> {
-    if E::IMPOSES
+    if E::FACTS.imposes
         && let Some([speed, _]) = effects.imposed::<S>(motion.t)
     {
         motion.imposed(speed)
@@ -89,18 +129,6 @@ fn rates<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Coordinates<S> {
     }
 }
 
-/// The rates of the coordinates and of the work integrals.
-#[inline(always)]
-fn working_rates<S: Scalar, E: Effects, const PLACE: bool>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
-    let mut whole = [S::zero(); WITH_WORK];
-    let Action { load, damping, supply, loss } = effects.action_of::<S, PLACE>(motion);
-    let load = load + damping;
-    rates(motion, load).write(&mut whole);
-    whole[SUPPLIED] = imposing(effects, motion, load).map_or(supply, |power| supply + power);
-    whole[DISSIPATED] = loss;
-    whole
-}
-
 /// Whether a law that follows γ has no limit near this tilt; as [`Rotor::reaches`] has it, to the last bit.
 fn is_beyond_limit<S: Scalar>(tilt: &Tilt<S>) -> bool {
     let theta_squared = tilt.gamma_in_chart().map(S::re).norm_squared();
@@ -110,115 +138,123 @@ fn is_beyond_limit<S: Scalar>(tilt: &Tilt<S>) -> bool {
     }
 }
 
-/// The rates of the coordinates and of the work integrals; not a number where a law that follows γ has no limit nearby.
-pub fn whole_rates<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>) -> Whole<S> {
+/// The rates of a state of N numbers, of the work where it is asked for; not a number where a law that follows γ has no limit
+/// nearby.
+pub fn whole_rates<S: Scalar, E: Effects, const N: usize>(
+    effects: &E,
+    motion: &Kinematics<S>,
+    state: &[S; N],
+) -> [S; N] {
     if effects.needs_gamma() && is_beyond_limit(&motion.tilt) {
-        return [S::constant(f64::NAN); WITH_WORK];
+        return [S::constant(f64::NAN); N];
     }
+    let own = &state[..own(N)];
     if effects.works() {
-        return working_rates::<S, E, true>(effects, motion);
+        all_rates::<S, E, N, true>(effects, motion, own)
+    } else {
+        all_rates::<S, E, N, false>(effects, motion, own)
     }
-    let mut whole = [S::zero(); WITH_WORK];
-    rates(motion, effects.load(motion)).write(&mut whole);
-    whole
 }
 
-impl<E: Effects> Rotor<E> {
+/// The rates of a state of N numbers, of the work where `ALL` is asked for.
+#[inline(always)]
+fn all_rates<S: Scalar, E: Effects, const N: usize, const ALL: bool>(
+    effects: &E,
+    motion: &Kinematics<S>,
+    states: &[S],
+) -> [S; N] {
+    let mut all = [S::zero(); N];
+    let act = effects.act(motion, states);
+    effects.own_rates(motion, states, &mut all[..own(N)]);
+    written::<S, E, N, ALL>(effects, motion, &act, all)
+}
+
+/// What acts, as rates of the coordinates and of the work, behind those of the own states.
+#[inline(always)]
+fn written<S: Scalar, E: Effects, const N: usize, const ALL: bool>(
+    effects: &E,
+    motion: &Kinematics<S>,
+    act: &Act<S>,
+    mut all: [S; N],
+) -> [S; N] {
+    let load = if ALL { act.load + act.damping } else { act.load };
+    let rigid = &mut all[own(N)..];
+    rates(motion, load).write(rigid);
+    if ALL && N >= WITH_WORK {
+        rigid[SUPPLIED] = imposing(effects, motion, load).map_or(act.supply, |power| act.supply + power);
+        rigid[DISSIPATED] = act.loss;
+    }
+    all
+}
+
+impl<'e, E: Effects> Rotor<'e, E> {
     /// A body under effects that stay switched as they are, its state written in this chart, φ beyond these `turns`.
-    pub fn new(body: Inertia, effects: E, chart: Chart, turns: f64) -> Self {
-        let placeless = !effects.follows_place();
-        Self { body, effects, chart, turns, placeless }
+    pub fn new(body: Inertia, effects: &'e E, chart: Chart, turns: f64) -> Self {
+        Frame::new(body, effects, chart, turns).under(effects)
     }
 
     /// The motion at time `t` [s], from a state.
     #[inline(always)]
     pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
-        self.motion_in(self.chart, t, y)
+        self.motion_in(self.frame.chart, t, y)
     }
 
     /// [`Rotor::motion`] from a state that is written in this chart.
     #[inline(always)]
     pub fn motion_in<S: Scalar>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
-        self.known_motion::<S, false, false>(chart, t, y)
+        self.known_motion::<S, false>(chart, t, y)
     }
 
     /// [`Rotor::motion_in`] without the speed that is imposed.
     #[inline(always)]
     pub fn free_motion_in<S: Scalar>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
-        self.known_motion::<S, false, true>(chart, t, y)
+        self.known_motion::<S, true>(chart, t, y)
     }
 
-    /// [`Rotor::motion_in`] of a body that is known to be `SYMMETRIC`, and `FREE` of an imposed speed: the compiler leaves out
-    /// the rest.
+    /// [`Rotor::motion_in`] of a body that is known to be `FREE` of an imposed speed.
     #[inline(always)]
-    fn known_motion<S: Scalar, const SYMMETRIC: bool, const FREE: bool>(
-        &self,
-        chart: Chart,
-        t: f64,
-        y: &[S],
-    ) -> Kinematics<S> {
-        let inertia = if SYMMETRIC { self.body.symmetric() } else { self.inertia() };
-        let motion = Kinematics::new(inertia, chart, Coordinates::from_slice(y)).when(S::constant(t), self.turns);
-        if FREE { motion } else { imposed(&self.effects, motion) }
+    fn known_motion<S: Scalar, const FREE: bool>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
+        let motion = Kinematics::new(self.inertia(), chart, Coordinates::from_slice(rigid(y)));
+        let motion = motion.when(S::constant(t), self.frame.turns);
+        if FREE { motion } else { imposed(self.effects, motion) }
     }
 
     /// The body; where no effect can shape it, the compiler knows that it is symmetric.
     #[inline(always)]
     pub fn inertia(&self) -> Inertia {
-        if E::SHAPES { self.body } else { self.body.symmetric() }
-    }
-
-    /// The rates of a state of N numbers; once for each chart, so that neither asks again which one it is.
-    #[inline(always)]
-    fn known_rates<const N: usize, const SYMMETRIC: bool, const FREE: bool, const PLACE: bool>(
-        &self,
-        t: f64,
-        y: &[f64; N],
-    ) -> [f64; N] {
-        match self.chart {
-            Chart::FromE => self.rates_in::<f64, N, SYMMETRIC, FREE, PLACE>(Chart::FromE, t, y),
-            Chart::FromMinusE => self.rates_in::<f64, N, SYMMETRIC, FREE, PLACE>(Chart::FromMinusE, t, y),
-        }
-    }
-
-    /// [`Rotor::known_rates`], called: laws of all effects are too long to stand in every stage.
-    #[inline(never)]
-    fn called_rates<const N: usize, const SYMMETRIC: bool, const FREE: bool, const PLACE: bool>(
-        &self,
-        t: f64,
-        y: &[f64; N],
-    ) -> [f64; N] {
-        self.known_rates::<N, SYMMETRIC, FREE, PLACE>(t, y)
-    }
-
-    /// [`Rotor::called_rates`] of a body that is symmetric. Where no effect follows the place, the compiler is told that those which
-    /// could are off.
-    #[inline(never)]
-    fn symmetric_rates<const N: usize, const FREE: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        if self.placeless {
-            self.known_rates::<N, true, FREE, false>(t, y)
-        } else {
-            self.called_rates::<N, true, FREE, true>(t, y)
-        }
+        if E::FACTS.shapes { self.frame.body } else { self.frame.body.symmetric() }
     }
 
     /// The rates of a state of N numbers in this chart.
     #[inline(always)]
-    fn rates_in<S: Scalar, const N: usize, const SYMMETRIC: bool, const FREE: bool, const PLACE: bool>(
-        &self,
-        chart: Chart,
-        t: f64,
-        y: &[S; N],
-    ) -> [S; N] {
-        let motion = self.known_motion::<S, SYMMETRIC, FREE>(chart, t, y);
-        let mut some = [S::zero(); N];
-        debug_assert!(N == WITH_WORK || !self.effects.works(), "what works is solved with its work");
-        if N == WITH_WORK {
-            some.copy_from_slice(&working_rates::<S, E, PLACE>(&self.effects, &motion));
-        } else {
-            rates(&motion, self.effects.load_of::<S, PLACE>(&motion)).write(&mut some);
+    fn rates_in<S: Scalar, const N: usize, const ALL: bool>(&self, chart: Chart, t: f64, y: &[S; N]) -> [S; N] {
+        let motion = self.known_motion::<S, false>(chart, t, y);
+        debug_assert!(ALL || !self.frame.works, "what works is solved with its work");
+        all_rates::<S, E, N, ALL>(self.effects, &motion, &y[..own(N)])
+    }
+
+    /// The same where effects have switches: those that act are asked one after another.
+    #[inline(never)]
+    fn rates_of_active<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        let motion = self.known_motion::<f64, false>(self.frame.chart, t, y);
+        let mut all = [0.0; N];
+        let (mut act, mut from) = (().act(&motion, &[]), own(N));
+        for n in (0..E::FACTS.count).rev() {
+            let Some(block) = self.effects.nth(n) else { continue };
+            let to = from;
+            from -= block.kind().own;
+            if !block.is_active() {
+                continue;
+            }
+            if ALL || to > from {
+                let one = block.act(&motion, &y[from..to]);
+                all[from..to].copy_from_slice(&one.own[..to - from]);
+                act = one + act;
+            } else {
+                act.load = block.load(&motion, &[]) + act.load;
+            }
         }
-        some
+        written::<f64, E, N, ALL>(self.effects, &motion, &act, all)
     }
 
     /// Whether a state may have this γ [rad] in the chart, whose own reach is told, under these effects.
@@ -227,84 +263,74 @@ impl<E: Effects> Rotor<E> {
         if theta_squared > reach * reach {
             return Err(if reach < LIMIT { BEYOND_REACH } else { BEYOND_CHART });
         }
-        if self.chart == Chart::FromMinusE && self.effects.needs_gamma() && theta_squared < FORBIDDEN * FORBIDDEN {
+        if self.frame.chart == Chart::FromMinusE && self.effects.needs_gamma() && theta_squared < FORBIDDEN * FORBIDDEN
+        {
             return Err(BEYOND_LIMIT);
         }
         Ok(())
     }
 }
 
-impl<E: Effects> Stored for Rotor<E> {
-    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { body, effects, chart, turns, placeless } = self;
-        body.walk(walk)?;
-        effects.walk(walk)?;
-        chart.walk(walk)?;
-        whole(turns, walk)?;
-        placeless.walk(walk)?;
-        // A rotor that runs was checked, and what is asked once follows from its effects.
-        if effects.check().is_ok() && *placeless != effects.follows_place() { Ok(()) } else { Err(Damaged) }
-    }
-}
-
-impl<E: Effects, const N: usize> System<N> for Rotor<E> {
+impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     /// The work integrals are quadratures: no law depends on them. φ is one too where no effect follows it.
-    const DEPENDED_ON: usize = if E::FOLLOWS_PHI { COORDINATES } else { PHI };
+    const DEPENDED_ON: usize = own(N) + if E::FACTS.follows_phi { COORDINATES } else { PHI };
+
+    const ALWAYS: usize = own(N) + COORDINATES;
+
+    const GROUPS: usize = own(N) + groups::RIGID;
 
     fn depended_on(&self) -> usize {
-        if E::FOLLOWS_PHI && self.effects.follows_phi() { COORDINATES } else { PHI }
+        own(N) + if E::FACTS.follows_phi && self.effects.follows_phi() { COORDINATES } else { PHI }
     }
 
     #[inline(always)]
-    fn rates(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        if !E::SWITCHED {
-            return self.known_rates::<N, false, false, true>(t, y);
+    fn solves_all(&self) -> bool {
+        self.frame.works
+    }
+
+    #[inline(always)]
+    fn rates<const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        if E::FACTS.switched {
+            return self.rates_of_active::<N, ALL>(t, y);
         }
-        // What could be switched on, and is not, is told here instead of asked for all along the laws.
-        match (self.body.asymmetric.is_none(), self.effects.imposed::<f64>(t).is_none()) {
-            (true, true) => self.symmetric_rates::<N, true>(t, y),
-            (true, false) => self.symmetric_rates::<N, false>(t, y),
-            (false, true) => self.called_rates::<N, false, true, true>(t, y),
-            (false, false) => self.called_rates::<N, false, false, true>(t, y),
+        // Once for each chart, so that neither asks again which one it is.
+        match self.frame.chart {
+            Chart::FromE => self.rates_in::<f64, N, ALL>(Chart::FromE, t, y),
+            Chart::FromMinusE => self.rates_in::<f64, N, ALL>(Chart::FromMinusE, t, y),
         }
     }
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {
-        self.reaches(Coordinates::from_slice(y).gamma, Chart::REACH)
+        self.reaches(Coordinates::from_slice(rigid(y)).gamma, Chart::REACH)
     }
 
     #[inline(always)]
-    fn sizes(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
+    fn sizes(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares<N> {
         self.sizes_of(y, rate, origin)
     }
 
     #[inline(always)]
-    fn parts(&self, y: &[f64; N], change: &[f64; N]) -> Squares {
+    fn parts(&self, y: &[f64; N], change: &[f64; N]) -> Squares<N> {
         self.parts_of(y, change)
     }
 
     #[inline(always)]
-    fn roundings(&self, y: &[f64; N], h: f64) -> Squares {
+    fn roundings(&self, y: &[f64; N], h: f64) -> Squares<N> {
         self.roundings_of(y, h)
     }
 }
 
-impl<E: Effects, const N: usize> Differentiable<N> for Rotor<E> {
+impl<E: Effects, const N: usize> Differentiable<N> for Rotor<'_, E> {
     fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
-        if System::<N>::depended_on(self) == COORDINATES {
-            self.jacobian_along::<COORDINATES, N>(t, y)
+        // Nothing depends on the quadratures.
+        let size = System::<N>::depended_on(self);
+        let moving = |n: usize| if n < size { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
+        let state: [Dual<N>; N] = std::array::from_fn(moving);
+        let rates = if System::<N>::solves_all(self) {
+            self.rates_in::<_, N, true>(self.frame.chart, t, &state)
         } else {
-            self.jacobian_along::<PHI, N>(t, y)
-        }
-    }
-}
-
-impl<E: Effects> Rotor<E> {
-    /// The derivatives along the first D numbers of the state: nothing depends on the others, the quadratures.
-    fn jacobian_along<const D: usize, const N: usize>(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
-        let moving = |n: usize| if n < D { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
-        let rates: [Dual<D>; N] =
-            self.rates_in::<_, N, false, false, true>(self.chart, t, &std::array::from_fn(moving));
-        rates.map(|rate| std::array::from_fn(|n| if n < D { rate.eps[n] } else { 0.0 }))
+            self.rates_in::<_, N, false>(self.frame.chart, t, &state)
+        };
+        rates.map(|rate| rate.eps)
     }
 }

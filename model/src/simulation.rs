@@ -11,20 +11,20 @@ mod plan;
 mod start;
 mod tangents;
 
-pub use exchange::{Exchange, Settled};
+use exchange::Exchange;
+pub use exchange::Settled;
 pub use tangents::Tangents;
 
-use crate::effects::{Effects, follows_all_inputs};
-use crate::energy::Ledger;
+use crate::effects::{Effects, InputSet, follows_all_inputs};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
-use crate::integrate::{Cost, Fault, Refusal};
+use crate::integrate::{Fault, Refusal};
 use crate::rotor;
 use crate::signal::Signal;
-use crate::state::{COORDINATES, WITH_WORK, Whole};
+use crate::state::{COORDINATES, WITH_WORK, own};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
-use crate::variables::{Parameters, Reading, numbers};
+use crate::variables::{Instant, Parameters, Reading, numbers};
 use integration::Integration;
 use nominals::Nominals;
 use start::{BESIDE, Motion};
@@ -39,36 +39,47 @@ pub enum Integrator {
     Host,
 }
 
-/// A rotor of the scene `E`, from its parameters to its motion.
+/// A rotor of the scene `E`, from its parameters to its motion, whose state has N numbers: [`WITH_WORK`] and the own states of
+/// its effects. The effects live in the parameters, and everything that runs reads them there.
 #[derive(Clone, Default)]
-pub struct Simulation<E> {
+pub struct Simulation<E, const N: usize = WITH_WORK> {
     integrator: Integrator,
     parameters: Parameters<E>,
-    run: Option<Run<E>>,
-    /// Whether an input was set of which the run has not heard.
-    news: bool,
+    run: Option<Run<N>>,
     /// What the communication point shows, once somebody asked.
-    reading: Option<Reading>,
+    instant: Option<Instant<N>>,
 }
 
-/// A motion under way; without the work integrals where nothing can do work.
+/// A motion under way.
 #[derive(Clone)]
 #[allow(clippy::large_enum_variant, reason = "a run is kept in place, so that it needs no allocation")]
-enum Run<E> {
-    Conservative(Integration<E, COORDINATES>),
-    Working(Integration<E, WITH_WORK>),
-    Exchange(Exchange<E>),
+enum Run<const N: usize> {
+    Method(Integration<N>),
+    Exchange(Exchange<N>),
 }
 
-impl<E: Effects> From<Parameters<E>> for Simulation<E> {
+/// A rotor of any scene.
+#[cfg(feature = "scenes")]
+pub type Any = Simulation<crate::effects::All, { numbers_of_state::<crate::effects::All>() }>;
+
+/// How many numbers the state of a rotor under these effects has.
+pub const fn numbers_of_state<E: Effects>() -> usize {
+    WITH_WORK + E::FACTS.own
+}
+
+impl<E: Effects, const N: usize> From<Parameters<E>> for Simulation<E, N> {
     fn from(parameters: Parameters<E>) -> Self {
         Self::with(Integrator::Method, parameters)
     }
 }
 
-impl<E: Effects> Simulation<E> {
-    /// How many continuous states a host integrates: the coordinates, and the work integrals where an effect could work.
-    pub const STATES: usize = if E::COULD_WORK { WITH_WORK } else { COORDINATES };
+impl<E: Effects, const N: usize> Simulation<E, N> {
+    /// How many continuous states a host integrates: the coordinates, the work integrals where an effect could work, and the own
+    /// states of the effects.
+    pub const STATES: usize = {
+        assert!(N == numbers_of_state::<E>(), "N is numbers_of_state::<E>()");
+        N - if E::FACTS.could_work { 0 } else { WITH_WORK - COORDINATES }
+    };
 
     /// A simulation with these parameters.
     pub fn with(integrator: Integrator, parameters: Parameters<E>) -> Self {
@@ -87,7 +98,7 @@ impl<E: Effects> Simulation<E> {
 
     /// Sets a parameter; false where there is none at this place. It acts at the next [`Simulation::start`].
     pub fn set_parameter(&mut self, place: Place, value: f64) -> bool {
-        self.reading = None;
+        self.instant = None;
         self.parameters.set(place, value)
     }
 
@@ -101,23 +112,26 @@ impl<E: Effects> Simulation<E> {
         self.change_input(place, order, |signal, t| signal.set_derivative(t, order, value))
     }
 
-    fn change_input(&mut self, place: Place, order: u32, change: impl FnOnce(&mut Signal, f64)) -> bool {
+    fn change_input(&mut self, place: Place, order: u32, change: impl Fn(&mut Signal, f64)) -> bool {
         let t = self.time().unwrap_or_default();
-        let changes = self.parameters.effects.change_input(place, order, t, |signal| change(signal, t));
-        if changes == Some(true) {
-            self.tell_of_inputs();
+        let (set, change) =
+            (InputSet { row: place.row, order, t, goes_on: false }, |signal: &mut Signal| change(signal, t));
+        let Some((block, _)) = self.parameters.effects.at(place) else { return false };
+        let Some(changes) = block.would_change(set, &change) else { return false };
+        if changes {
+            self.hold();
         }
-        changes.is_some()
+        let block = self.parameters.effects.at_mut(place).expect("it was there");
+        block.change_input(set, &change);
+        true
     }
 
-    /// A host's motion hears of inputs at once, a method when it goes on. What is shown follows them at once.
-    fn tell_of_inputs(&mut self) {
-        if let Some(Run::Exchange(exchange)) = &mut self.run {
-            exchange.hear(&self.parameters.effects);
-        } else {
-            self.news = true;
+    /// Before an input changes: a method keeps the communication point as it was. What is shown follows the input at once.
+    fn hold(&mut self) {
+        if let Some(Run::Method(integration)) = &mut self.run {
+            integration.hold(&self.parameters.effects);
         }
-        self.reading = None;
+        self.instant = None;
     }
 
     /// Starts the motion at time `t` [s]; a relative tolerance [1] given here stands in for that of the parameters.
@@ -131,22 +145,21 @@ impl<E: Effects> Simulation<E> {
     /// [`Simulation::start`] of a run that is known to stop at `stop` [s]: no step runs ahead of that.
     pub fn start_until(&mut self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
-        let parameters = self.in_force(t, relative_tolerance);
+        let mut parameters = self.parameters.clone();
+        let solver = &mut parameters.setup.solver;
+        solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
+        parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         parameters.check()?;
-        let (motion, reading) = self.at_start(&parameters, t)?;
+        let (start, instant) = self.at_start(&mut parameters, t)?;
         let span = stop.map(|stop| stop - t);
         // From here on nothing is refused any more: what is refused leaves everything as it was.
-        self.parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
-        self.parameters.effects.begin(&reading.motion);
-        self.reading = None;
-        self.news = false;
+        let effects = &parameters.effects;
         self.run = Some(match self.integrator {
-            Integrator::Host => Run::Exchange(Exchange::start(motion, &reading)),
-            Integrator::Method if parameters.effects.works() => {
-                Run::Working(Integration::start(motion, &reading, &parameters.setup, t, span))
-            }
-            Integrator::Method => Run::Conservative(Integration::start(motion, &reading, &parameters.setup, t, span)),
+            Integrator::Host => Run::Exchange(Exchange::start(effects, &start, &instant)),
+            Integrator::Method => Run::Method(Integration::start(effects, &start, &instant, &parameters.setup, span)),
         });
+        self.parameters.effects = parameters.effects;
+        self.instant = None;
         Ok(())
     }
 
@@ -154,8 +167,7 @@ impl<E: Effects> Simulation<E> {
     pub fn auto(&self) -> Option<String> {
         let is_auto = self.parameters.setup.solver.method_in_force() == numbers::AUTO;
         match self.run.as_ref().filter(|_| is_auto)? {
-            Run::Conservative(integration) => Some(integration.auto()),
-            Run::Working(integration) => Some(integration.auto()),
+            Run::Method(integration) => Some(integration.auto()),
             Run::Exchange(_) => None,
         }
     }
@@ -163,19 +175,9 @@ impl<E: Effects> Simulation<E> {
     /// How often it has gone on with another method.
     pub fn changes_of_method(&self) -> u32 {
         match &self.run {
-            Some(Run::Conservative(integration)) => integration.changes_of_method(),
-            Some(Run::Working(integration)) => integration.changes_of_method(),
+            Some(Run::Method(integration)) => integration.changes_of_method(),
             Some(Run::Exchange(_)) | None => 0,
         }
-    }
-
-    /// The parameters with this tolerance [1], the inputs as they are at time `t` [s].
-    fn in_force(&self, t: f64, relative_tolerance: Option<f64>) -> Parameters<E> {
-        let mut parameters = self.parameters.clone();
-        parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
-        let solver = &mut parameters.setup.solver;
-        solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
-        parameters
     }
 
     /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
@@ -184,18 +186,15 @@ impl<E: Effects> Simulation<E> {
     /// Before [`Simulation::start`], where a host integrates, or where `t` lies before the communication point or is not
     /// a number.
     pub fn advance(&mut self, t: f64) -> Result<(), Fault> {
-        self.reading = None;
+        self.instant = None;
         if self.parameters.effects.extrapolates() {
             self.extrapolate();
         }
-        let news = self.news.then_some(&self.parameters.effects);
-        match self.run.as_mut().expect("a run was started") {
-            Run::Conservative(integration) => integration.advance(t, news)?,
-            Run::Working(integration) => integration.advance(t, news)?,
-            Run::Exchange(_) => panic!("the host integrates"),
-        }
-        self.news = false;
-        if E::IMPOSES && self.parameters.effects.imposed::<f64>(t).is_some() {
+        let Some(Run::Method(integration)) = &mut self.run else {
+            panic!("no run of a method was started");
+        };
+        integration.advance(&self.parameters.effects, t)?;
+        if E::FACTS.imposes && self.parameters.effects.imposed::<f64>(t).is_some() {
             self.tell_of_step();
         }
         Ok(())
@@ -203,9 +202,8 @@ impl<E: Effects> Simulation<E> {
 
     /// Effects hear where a communication step ended.
     fn tell_of_step(&mut self) {
-        if let Ok(Reading { motion, .. }) = self.read() {
-            let end = *motion;
-            self.parameters.effects.step_to(&end);
+        if let Ok(Instant { reading, state }) = self.instant().copied() {
+            self.parameters.effects.step_to(&reading.motion, &state[..own(N)]);
         }
     }
 
@@ -225,16 +223,17 @@ impl<E: Effects> Simulation<E> {
             changes |= *signal != before;
             number += 1;
         });
-        effects.hear(&extrapolated);
-        self.news |= changes;
+        if changes {
+            self.hold();
+        }
+        self.parameters.effects.take_extrapolated(&extrapolated);
     }
 
     /// The communication point [s]; None before the start.
     #[inline(always)]
     pub fn time(&self) -> Option<f64> {
         match self.run.as_ref()? {
-            Run::Conservative(integration) => Some(integration.time()),
-            Run::Working(integration) => Some(integration.time()),
+            Run::Method(integration) => Some(integration.time()),
             Run::Exchange(exchange) => Some(exchange.time()),
         }
     }
@@ -242,8 +241,7 @@ impl<E: Effects> Simulation<E> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π: a warning is due.
     pub fn has_tilted(&self) -> bool {
         match &self.run {
-            Some(Run::Conservative(integration)) => integration.has_tilted(),
-            Some(Run::Working(integration)) => integration.has_tilted(),
+            Some(Run::Method(integration)) => integration.has_tilted(),
             Some(Run::Exchange(exchange)) => exchange.has_tilted(),
             None => false,
         }
@@ -252,8 +250,7 @@ impl<E: Effects> Simulation<E> {
     /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was [s].
     pub fn growth(&self) -> Option<(f64, f64)> {
         match self.run.as_ref()? {
-            Run::Conservative(integration) => integration.growth(),
-            Run::Working(integration) => integration.growth(),
+            Run::Method(integration) => integration.growth(),
             Run::Exchange(exchange) => exchange.growth(),
         }
     }
@@ -270,85 +267,123 @@ impl<E: Effects> Simulation<E> {
     /// [`Simulation::get`] without asking for a reading; None of a calculated variable where there was none.
     #[inline(always)]
     pub fn value(&self, place: Place) -> Option<f64> {
-        self.parameters.value(place, self.time().unwrap_or_default(), self.reading.as_ref())
+        self.parameters.value(place, self.time().unwrap_or_default(), self.instant.as_ref())
     }
 
     /// The values of Real variables that are at hand, by their value references; false, and the values are void, where one
     /// is not, or is not finite.
     #[inline(always)]
     pub fn reals_at_hand(&self, references: &[u32], values: &mut [f64]) -> bool {
-        let Some(reading) = &self.reading else { return false };
-        self.parameters.reals(references, values, reading)
+        let Some(instant) = &self.instant else { return false };
+        self.parameters.reals(references, values, instant)
     }
 
     /// What the communication point shows; before the start, what the parameters make of it.
     #[inline(always)]
     pub fn read(&mut self) -> Result<&Reading, Invalid> {
-        if self.reading.is_none() {
-            let news = self.news.then_some(&self.parameters.effects);
-            self.reading = Some(match &mut self.run {
-                Some(Run::Conservative(integration)) => integration.read(news),
-                Some(Run::Working(integration)) => integration.read(news),
-                Some(Run::Exchange(exchange)) => exchange.read(),
+        Ok(&self.instant()?.reading)
+    }
+
+    /// The same with the state behind it.
+    #[inline(always)]
+    fn instant(&mut self) -> Result<&Instant<N>, Invalid> {
+        if self.instant.is_none() {
+            let effects = &self.parameters.effects;
+            self.instant = Some(match &mut self.run {
+                Some(Run::Method(integration)) => integration.read(effects),
+                Some(Run::Exchange(exchange)) => exchange.read(effects),
                 None => {
                     self.parameters.check()?;
-                    let reading = self.at_start(&self.parameters, 0.0)?.1;
-                    self.parameters.effects.begin(&reading.motion);
-                    reading
+                    let mut parameters = self.parameters.clone();
+                    let (_, instant) = self.at_start(&mut parameters, 0.0)?;
+                    self.parameters.effects = parameters.effects;
+                    instant
                 }
             });
         }
-        Ok(self.reading.as_ref().expect("just made"))
+        Ok(self.instant.as_ref().expect("just made"))
     }
 
-    /// The state at the communication point.
-    pub fn state(&mut self) -> Result<Whole<f64>, Invalid> {
-        match &self.run {
-            Some(Run::Exchange(exchange)) => Ok(exchange.state()),
-            _ => Ok(self.read()?.state()),
+    /// The state at the communication point as a host sees it: coordinates, work where an effect could do some, own states of the
+    /// effects, [`Simulation::STATES`] numbers.
+    pub fn state(&mut self) -> Result<[f64; N], Invalid> {
+        let state = match &self.run {
+            Some(Run::Exchange(exchange)) => *exchange.state(),
+            _ => self.instant()?.state,
+        };
+        Ok(Self::to_host(state))
+    }
+
+    /// The rates of the state at the communication point, units per second, as a host sees them.
+    pub fn rates(&mut self) -> Result<[f64; N], Invalid> {
+        self.own_rates().map(Self::to_host)
+    }
+
+    fn own_rates(&mut self) -> Result<[f64; N], Invalid> {
+        let Instant { reading, state } = *self.instant()?;
+        Ok(rotor::whole_rates(&self.parameters.effects, &reading.motion, &state))
+    }
+
+    /// A state in the order of a host.
+    fn to_host(state: [f64; N]) -> [f64; N] {
+        std::array::from_fn(|n| state[Self::number_of_host(n)])
+    }
+
+    /// Where the state of a host's number stands.
+    fn number_of_host(n: usize) -> usize {
+        let rigid = COORDINATES + if E::FACTS.could_work { WITH_WORK - COORDINATES } else { 0 };
+        match n.checked_sub(rigid) {
+            None => own(N) + n,
+            Some(n) if n < own(N) => n,
+            Some(n) => rigid + n,
         }
-    }
-
-    /// The rates of the state at the communication point, units per second.
-    pub fn rates(&mut self) -> Result<Whole<f64>, Invalid> {
-        let motion = self.read()?.motion;
-        Ok(rotor::whole_rates(&self.parameters.effects, &motion))
     }
 
     /// How states and inputs differ from what they are, as derivatives go with them: of each place that is named, by its
     /// seed. Places of other variables count for nothing.
-    pub fn tangents(&mut self, seeds: impl Iterator<Item = (Place, f64)>) -> Result<Tangents<E>, Invalid> {
-        let reading = *self.read()?;
-        Ok(Tangents::new(&self.parameters, &reading, seeds))
+    pub fn tangents(&mut self, seeds: impl Iterator<Item = (Place, f64)>) -> Result<Tangents<E, N>, Invalid> {
+        let instant = *self.instant()?;
+        Ok(Tangents::new(&self.parameters, &instant, seeds))
     }
 
     /// How everything changes with time at the communication point, per second.
-    pub fn time_derivatives(&mut self) -> Result<Tangents<E>, Invalid> {
-        let rates = self.rates()?;
-        let reading = *self.read()?;
-        Ok(Tangents::along_motion(&self.parameters, &reading, &rates))
+    pub fn time_derivatives(&mut self) -> Result<Tangents<E, N>, Invalid> {
+        let rates = self.own_rates()?;
+        let instant = *self.instant()?;
+        Ok(Tangents::along_motion(&self.parameters, &instant, &rates))
     }
 
     /// The motion that a host integrates, once it was started; None where a method of ours does.
-    pub fn exchange(&mut self) -> Option<&mut Exchange<E>> {
+    pub fn exchange(&mut self) -> Option<Hosted<'_, E, N>> {
         let Some(Run::Exchange(exchange)) = &mut self.run else { return None };
-        self.reading = None;
-        Some(exchange)
+        self.instant = None;
+        Some(Hosted { exchange, effects: &self.parameters.effects })
     }
 
     /// Whether anything can be calculated of the present state; always, where a method of ours reached it.
     #[inline(always)]
     pub fn admits(&self) -> Result<(), Refusal> {
         match &self.run {
-            Some(Run::Exchange(exchange)) => exchange.admits(),
+            Some(Run::Exchange(exchange)) => exchange.admits(&self.parameters.effects),
             _ => Ok(()),
         }
     }
 
-    /// What a continuous state of the host's counts with, in its unit.
-    pub fn nominals(&self) -> Whole<f64> {
+    /// What each continuous state of the host's counts with, in its unit.
+    pub fn nominals(&self) -> [f64; N] {
+        Self::to_host(self.own_nominals())
+    }
+
+    /// What the continuous state at this place counts with; None where there is none.
+    pub fn nominal(&self, place: Place) -> Option<f64> {
+        self.parameters.number_in_state::<N>(place).map(|n| self.own_nominals()[n])
+    }
+
+    fn own_nominals(&self) -> [f64; N] {
         let t = self.time().unwrap_or_default();
-        Nominals::of(&Motion::at_start(&self.parameters, t), t).each()
+        let mut parameters = self.parameters.clone();
+        let start = Motion::<N>::at_start(&mut parameters, t);
+        Nominals::of(&parameters.effects, &start, t).each()
     }
 
     /// Below which place [m], velocity [m/s], angular momentum [kg·m²/s] and tilt [rad] errors are not compared with a smaller
@@ -358,59 +393,88 @@ impl<E: Effects> Simulation<E> {
         [0, 3, 6, 9].map(|n| LEAST * BESIDE * nominals[n])
     }
 
-    /// The energy at the start [J].
-    fn total_at_start(&self, parameters: &Parameters<E>, t: f64) -> f64 {
-        let Motion { rotor, state } = Motion::at_start(parameters, t);
-        Ledger::new(&rotor.motion(t, &state), &rotor.effects, [0.0; 2], 0.0).total()
-    }
-
-    /// The start as the parameters make it, and what it shows. An error where it overflows.
-    fn at_start(&self, parameters: &Parameters<E>, t: f64) -> Result<(Motion<E>, Reading), Invalid> {
+    /// The start as the parameters make it, of which their effects hear, and what it shows. An error where it overflows.
+    fn at_start(&self, parameters: &mut Parameters<E>, t: f64) -> Result<(Motion<N>, Instant<N>), Invalid> {
         let mut start = Motion::at_start(parameters, t);
         if self.integrator == Integrator::Host {
             start.unwrap_turns();
         }
-        let Motion { rotor, state } = &start;
-        let motion = rotor.motion(t, state);
-        let mut reading = Reading::new(motion, &rotor.effects, [0.0; 2], 0.0, Cost::default());
-        reading.ledger.total_at_start = reading.ledger.total();
-        if !reading.ledger.total().is_finite() {
-            return Err(parameters.blamed(|parameters| self.total_at_start(parameters, t).is_finite()));
+        let instant = start.shows(&parameters.effects, t);
+        if !instant.reading.ledger.total().is_finite() {
+            let total = |parameters: &Parameters<E>| {
+                let mut parameters = parameters.clone();
+                Motion::<N>::at_start(&mut parameters, t).shows(&parameters.effects, t).reading.ledger.total()
+            };
+            return Err(parameters.blamed(|parameters| total(parameters).is_finite()));
         }
-        Ok((start, reading))
+        Ok((start, instant))
     }
 }
 
-impl<E: Effects> Stored for Simulation<E> {
+/// A motion that a host integrates, under its effects.
+pub struct Hosted<'s, E, const N: usize> {
+    exchange: &'s mut Exchange<N>,
+    effects: &'s E,
+}
+
+impl<E: Effects, const N: usize> Hosted<'_, E, N> {
+    /// The host's time [s].
+    pub fn set_time(&mut self, t: f64) {
+        self.exchange.set_time(t);
+    }
+
+    /// The host's state: its first numbers, or all.
+    pub fn set_state(&mut self, state: &[f64]) {
+        for (n, number) in state.iter().enumerate() {
+            self.exchange.state_mut()[Simulation::<E, N>::number_of_host(n)] = *number;
+        }
+    }
+
+    /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
+    pub fn complete_step(&mut self) -> bool {
+        self.exchange.complete_step(self.effects)
+    }
+
+    /// An event begins.
+    pub fn enter_event(&mut self) {
+        self.exchange.enter_event(self.effects);
+    }
+
+    /// The event is over.
+    pub fn leave_event(&mut self) {
+        self.exchange.leave_event();
+    }
+
+    /// At an event: goes on in the other chart where this one is left, and books the work of a jump. What of the state
+    /// that changed.
+    pub fn settle(&mut self) -> Settled {
+        self.exchange.settle(self.effects)
+    }
+}
+
+impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { integrator, parameters, run, news, reading } = self;
+        let Self { integrator, parameters, run, instant } = self;
         choice(integrator, &[Integrator::Method, Integrator::Host], walk)?;
         parameters.walk(walk)?;
-        news.walk(walk)?;
         // What it shows follows from the rest.
-        *reading = None;
+        *instant = None;
         let mut kind = match run {
             None => 0,
-            Some(Run::Conservative(_)) => 1,
-            Some(Run::Working(_)) => 2,
-            Some(Run::Exchange(_)) => 3,
+            Some(Run::Method(_)) => 1,
+            Some(Run::Exchange(_)) => 2,
         };
         kind.walk(walk)?;
         match (kind, &run) {
             (0, _) => *run = None,
-            (1, Some(Run::Conservative(_))) | (2, Some(Run::Working(_))) | (3, Some(Run::Exchange(_))) => {}
-            (1, _) => *run = Some(Run::Conservative(Integration::blank())),
-            (2, _) => *run = Some(Run::Working(Integration::blank())),
-            (3, _) => *run = Some(Run::Exchange(Exchange::blank())),
+            (1, Some(Run::Method(_))) | (2, Some(Run::Exchange(_))) => {}
+            (1, _) => *run = Some(Run::Method(Integration::blank())),
+            (2, _) => *run = Some(Run::Exchange(Exchange::blank())),
             _ => return Err(Damaged),
         }
         let (integrates, fits) = match run {
             None => return Ok(()),
-            Some(Run::Conservative(integration)) => {
-                integration.walk(walk)?;
-                (Integrator::Method, integration.is_of(parameters))
-            }
-            Some(Run::Working(integration)) => {
+            Some(Run::Method(integration)) => {
                 integration.walk(walk)?;
                 (Integrator::Method, integration.is_of(parameters))
             }

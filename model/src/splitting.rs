@@ -5,7 +5,7 @@ mod tumbling;
 
 pub use tumbling::{Beside, Tumbling};
 
-use crate::effects::{Action, Effects};
+use crate::effects::Effects;
 use crate::integrate::composition::{Composition, Split, Splitting};
 use crate::integrate::sizes::Squares;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
@@ -13,19 +13,22 @@ use crate::integrate::{Refusal, System};
 use crate::rotation::arc::{Reduced, atan2};
 use crate::rotation::{Angle, Chart, Tilt, Turn, Turned};
 use crate::rotor::{BEYOND_LIMIT, FORBIDDEN, LIMIT, Rotor, groups};
-use crate::state::{Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK};
+use crate::state::{Coordinates, Kinematics, PHI, own, put_work, rigid, rigid_mut, work};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
 /// A motion of N equations on its way through a step.
 pub struct Flow<'r, E, const N: usize> {
-    rotor: &'r Rotor<E>,
+    rotor: &'r Rotor<'r, E>,
     at: Coordinates<f64>,
     tilt: Tilt<f64>,
     /// Whole turns of φ from e since the step began, besides φ in the chart.
     turns: f64,
-    /// Work supplied and lost [J].
+    /// Work supplied and lost [J], and whether it is solved.
     work: [f64; 2],
+    works: bool,
+    /// The state where the step began; its own states are those that the motion has reached.
+    y: [f64; N],
     /// Follows the speeds through a kick, where effects depend on them.
     inner: Option<&'static Tableau>,
     /// Whether kicks are spread over the drift.
@@ -37,15 +40,12 @@ pub struct Flow<'r, E, const N: usize> {
     refusal: Option<Refusal>,
 }
 
-/// v_c, K_c and the work supplied and lost, or their rates.
-type Speeds = [f64; 8];
-
 /// A step in which the axis goes further about K than this [rad] spreads its kicks: the nutation is not resolved. Measured
 /// from 0.03 to 32 times around, worst of 20 step sizes: below this angle both ways are as good, beyond it kicks that
 /// are not spread are up to 10⁴ times worse.
 const RESOLVED: f64 = PI;
 
-impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
+impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
     type Flow<'r>
         = Flow<'r, E, N>
     where
@@ -53,34 +53,35 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<E> {
 
     #[inline(always)]
     fn flow<'r>(&'r self, y: &[f64; N], composition: &Composition, h: f64) -> Flow<'r, E, N> {
-        let at = Coordinates::from_slice(y);
+        let at = Coordinates::from_slice(rigid(y));
         Flow {
             rotor: self,
             at,
-            tilt: Tilt::new(self.chart, at.gamma),
+            tilt: Tilt::new(self.frame.chart, at.gamma),
             turns: 0.0,
-            work: if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0; 2] },
-            // Where no effect works, none depends on the speeds.
-            inner: self.effects.works().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
-            spreads: self.inertia().asymmetric.is_none() && at.k.norm() * h * self.body.per_jt > RESOLVED,
+            work: work(y),
+            y: *y,
+            works: self.frame.works(),
+            inner: self.effects.follows_speed().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
+            spreads: self.inertia().asymmetric.is_none() && at.k.norm() * h * self.frame.body.per_jt > RESOLVED,
             guarded: self.effects.needs_gamma(),
             evaluations: 0.0,
             refusal: None,
         }
     }
 
-    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
+    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
         let mut squares = self.roundings(y, h);
         // A drift turns the rotor anew, and directions and angles are known to so many radians.
-        squares[groups::GAMMA] = 1.0;
-        squares[groups::PHI] += 1.0;
+        squares[own(N) + groups::GAMMA] = 1.0;
+        squares[own(N) + groups::PHI] += 1.0;
         squares
     }
 
     fn apart(&self, a: &[f64; N], b: &[f64; N]) -> [f64; N] {
         let mut apart = std::array::from_fn(|n| a[n] - b[n]);
         // From −e, φ jumps by whole turns where γ is on the other side of where its azimuth begins.
-        apart[PHI] -= TAU * (apart[PHI] / TAU).round();
+        apart[own(N) + PHI] -= TAU * (apart[own(N) + PHI] / TAU).round();
         apart
     }
 }
@@ -98,13 +99,13 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         self.at.gamma = turned.gamma;
         self.at.phi += turned.phi;
         self.turns += turned.turns;
-        self.tilt = Tilt::new(self.rotor.chart, turned.gamma);
+        self.tilt = Tilt::new(self.rotor.frame.chart, turned.gamma);
     }
 
     /// Whether the axis may come near −e within a drift of `h` [s], where a law has no limit.
     fn may_pass_the_limit(&self, h: f64) -> bool {
         let (body, k, theta) = (self.rotor.inertia(), self.at.k, self.tilt.gamma_in_chart().norm());
-        let to_antipode = if self.rotor.chart == Chart::FromE { PI - theta } else { theta };
+        let to_antipode = if self.rotor.frame.chart == Chart::FromE { PI - theta } else { theta };
         let way = match &body.asymmetric {
             // About K it goes round on a cone.
             None => {
@@ -121,7 +122,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     #[inline(always)]
     fn motion(&self, t: f64, v: Vector3<f64>, k: Vector3<f64>) -> Kinematics<f64> {
         let at = Coordinates { v, k, ..self.at };
-        Kinematics::tilted(self.rotor.inertia(), self.tilt, at).when(t, self.rotor.turns)
+        Kinematics::tilted(self.rotor.inertia(), self.tilt, at).when(t, self.rotor.frame.turns)
     }
 
     /// Follows the speeds for a time `h` [s], the place and the time `t` [s] standing still.
@@ -140,31 +141,42 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         // eq. 40: m dv/dt = ΣF, dK/dt = ΣM, place and time frozen
         let Some(tableau) = self.inner else {
             let motion = self.motion(t, self.at.v, self.at.k);
-            let load = effects.load(&motion);
-            self.at.v += load.force * (h * self.rotor.body.per_m);
-            self.at.k += load.about_centre(&motion) * h;
+            let load = effects.act(&motion, &self.y[..own(N)]).load;
+            let (v, k) = (load.force * (h * self.rotor.frame.body.per_m), load.about_centre(&motion) * h);
+            if self.works {
+                // No load follows the speeds, so power does so linearly, and the middle of the way tells the work.
+                let middle = self.motion(t, self.at.v + v * 0.5, self.at.k + k * 0.5);
+                let act = effects.act(&middle, &self.y[..own(N)]);
+                self.work = [self.work[0] + act.supply * h, self.work[1] + act.loss * h];
+                self.evaluations += 1.0;
+            }
+            self.at.v += v;
+            self.at.k += k;
             self.evaluations += 1.0;
             return;
         };
-        let (v, k) = (self.at.v, self.at.k);
-        let speeds: Speeds = [v.x, v.y, v.z, k.x, k.y, k.z, self.work[0], self.work[1]];
-        let rates = |speeds: &Speeds| {
-            let [v, k] = vectors(speeds);
-            let motion = self.motion(t, v, k);
-            let Action { load, damping, supply, loss } = effects.action(&motion);
-            let load = load + damping;
-            let (a, m) = (load.force * self.rotor.body.per_m, load.about_centre(&motion));
-            [a.x, a.y, a.z, m.x, m.y, m.z, supply, loss]
+        let mut speeds = self.y;
+        Coordinates { v: self.at.v, k: self.at.k, ..self.at }.write(rigid_mut(&mut speeds));
+        put_work(&mut speeds, self.work);
+        let rates = |speeds: &[f64; N]| {
+            let at = Coordinates::from_slice(rigid(speeds));
+            let motion = self.motion(t, at.v, at.k);
+            let act = effects.act(&motion, &speeds[..own(N)]);
+            let load = act.load + act.damping;
+            let mut rates = [0.0; N];
+            effects.own_rates(&motion, &speeds[..own(N)], &mut rates[..own(N)]);
+            let still = Vector3::zeros();
+            let (v, k) = (load.force * self.rotor.frame.body.per_m, load.about_centre(&motion));
+            Coordinates { r: still, v, k, gamma: still.yz(), phi: 0.0 }.write(rigid_mut(&mut rates));
+            put_work(&mut rates, [act.supply, act.loss]);
+            rates
         };
         let speeds = tableau.advanced(rates, speeds, h);
-        [self.at.v, self.at.k] = vectors(&speeds);
-        self.work = [speeds[6], speeds[7]];
+        let at = Coordinates::from_slice(rigid(&speeds));
+        (self.at.v, self.at.k, self.work) = (at.v, at.k, work(&speeds));
+        self.y[..own(N)].copy_from_slice(&speeds[..own(N)]);
         self.evaluations += tableau.stages.len() as f64;
     }
-}
-
-fn vectors(speeds: &Speeds) -> [Vector3<f64>; 2] {
-    [Vector3::new(speeds[0], speeds[1], speeds[2]), Vector3::new(speeds[3], speeds[4], speeds[5])]
 }
 
 impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
@@ -195,7 +207,7 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         self.push(t, 0.5 * h);
         let k = self.at.k;
         let (square, gain) = (k.norm_squared(), (k - before) * 2.0);
-        let half = 0.5 * square.sqrt() * (h * self.rotor.body.per_jt).abs();
+        let half = 0.5 * square.sqrt() * (h * self.rotor.frame.body.per_jt).abs();
         if half > 0.0 {
             // eq. 41: ρ = (1 − sin a/a) K×ΔK/|K|², a = |K| h/(2Jt)
             let lag = 1.0 - Reduced::new(half).sine() / half;
@@ -206,13 +218,11 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
 
     #[inline(always)]
     fn end(self) -> (Result<[f64; N], Refusal>, f64) {
-        let mut y = [0.0; N];
-        self.at.write(&mut y);
+        let mut y = self.y;
         // φ has all the turns that φ from e has gained.
-        y[PHI] = Angle { turns: self.turns, remainder: self.at.phi }.radians();
-        if N == WITH_WORK {
-            (y[SUPPLIED], y[DISSIPATED]) = (self.work[0], self.work[1]);
-        }
+        let phi = Angle { turns: self.turns, remainder: self.at.phi }.radians();
+        Coordinates { phi, ..self.at }.write(rigid_mut(&mut y));
+        put_work(&mut y, self.work);
         (self.refusal.map_or(Ok(y), Err), self.evaluations)
     }
 }

@@ -21,25 +21,59 @@ pub struct Coordinates<S: Scalar> {
     pub phi: S,
 }
 
-/// How many coordinates a motion has; a state without the work integrals.
+/// How many coordinates a motion has.
 pub const COORDINATES: usize = 12;
 
-/// A state with the work integrals, which follow the coordinates.
+/// The work integrals follow them. A state is `[own states of the effects, coordinates, work]`: what nothing depends on stands
+/// last. N is [`WITH_WORK`] and the own states; a state of [`COORDINATES`] only has neither.
 pub const WITH_WORK: usize = COORDINATES + 2;
 
-/// Where the work supplied [J] stands in a state with work.
+/// Where the work supplied [J] stands behind the own states.
 pub const SUPPLIED: usize = COORDINATES;
 
-/// Where the work lost [J] stands in a state with work.
+/// Where the work lost [J] stands behind the own states.
 pub const DISSIPATED: usize = COORDINATES + 1;
 
-/// A state with work, or its rates.
+/// The coordinates and the work, or their rates.
 pub type Whole<S> = [S; WITH_WORK];
 
-/// Where γ stands among them.
+/// How many own states a state of N numbers begins with.
+#[inline(always)]
+pub const fn own(n: usize) -> usize {
+    n.saturating_sub(WITH_WORK)
+}
+
+/// The work supplied and lost [J] of a state.
+#[inline(always)]
+pub fn work<S: Scalar, const N: usize>(y: &[S; N]) -> [S; 2] {
+    if N < WITH_WORK { [S::zero(); 2] } else { [y[N - 2], y[N - 1]] }
+}
+
+/// Puts them there, where the state has them.
+#[inline(always)]
+pub fn put_work<S: Scalar, const N: usize>(y: &mut [S; N], work: [S; 2]) {
+    if N >= WITH_WORK {
+        [y[N - 2], y[N - 1]] = work;
+    }
+}
+
+/// A state without the own states.
+#[inline(always)]
+pub fn rigid<S>(y: &[S]) -> &[S] {
+    &y[own(y.len())..]
+}
+
+/// The same to be changed.
+#[inline(always)]
+pub fn rigid_mut<S>(y: &mut [S]) -> &mut [S] {
+    let own = own(y.len());
+    &mut y[own..]
+}
+
+/// Where γ stands among the coordinates.
 pub const GAMMA: std::ops::Range<usize> = 9..11;
 
-/// Where φ stands among them.
+/// Where φ stands among the coordinates.
 pub const PHI: usize = 11;
 
 impl<S: Scalar> Coordinates<S> {
@@ -62,6 +96,27 @@ impl<S: Scalar> Coordinates<S> {
         for (part, vector) in y.chunks_exact_mut(3).zip([r, v, k, gamma]) {
             part.copy_from_slice(vector.as_slice());
         }
+    }
+}
+
+/// How fast everything changes, for outputs that ask for it.
+#[derive(Clone, Copy)]
+pub struct Rates<'m, S: Scalar> {
+    /// Of the coordinates.
+    pub coordinates: Coordinates<S>,
+    /// Of the work supplied and lost [W].
+    pub work: [S; 2],
+    /// Of the effect's own states.
+    pub own: &'m [S],
+}
+
+impl<S: Scalar> Rates<'_, S> {
+    /// Those of the coordinates and of the work, by their number.
+    pub fn rigid(&self, n: usize) -> S {
+        let mut whole = [S::zero(); WITH_WORK];
+        self.coordinates.write(&mut whole);
+        [whole[SUPPLIED], whole[DISSIPATED]] = self.work;
+        whole[n]
     }
 }
 

@@ -6,7 +6,7 @@ use crate::dual::Tangent;
 use crate::error::{Invalid, written};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::Whole;
+use crate::state::Rates;
 use units::Unit;
 
 /// One variable of a block that lives on `P` (its parameters and inputs) and is read from `O` (what an instant shows).
@@ -20,7 +20,7 @@ pub struct Row<P: 'static, O: Shown> {
 /// What an instant shows, in values or in values with derivatives.
 pub trait Shown: 'static {
     /// Over this scalar.
-    type Of<S: Scalar>;
+    type Of<'m, S: Scalar>;
 }
 
 /// Where a variable stands, the same in every scene: its block, and its row within the block.
@@ -88,73 +88,54 @@ pub enum Access<P: 'static, O: Shown> {
 /// One line of calculation, compiled for values and for values with derivatives.
 pub struct Output<P: 'static, O: Shown> {
     /// For values.
-    pub value: fn(&P, &O::Of<f64>) -> f64,
+    pub value: for<'m> fn(&P, &O::Of<'m, f64>) -> f64,
     /// For derivatives.
-    pub tangent: fn(&P, &O::Of<Tangent>) -> Tangent,
+    pub tangent: for<'m> fn(&P, &O::Of<'m, Tangent>) -> Tangent,
 }
 
 /// As [`Output`], of the rates too.
 pub struct Rate<P: 'static, O: Shown> {
     /// For values.
-    pub value: fn(&P, &O::Of<f64>, &Whole<f64>) -> f64,
+    pub value: for<'m> fn(&P, &O::Of<'m, f64>, &Rates<'m, f64>) -> f64,
     /// For derivatives.
-    pub tangent: fn(&P, &O::Of<Tangent>, &Whole<Tangent>) -> Tangent,
-}
-
-/// A scalar over which outputs are compiled: f64 or [`Tangent`].
-pub trait Readable: Scalar {
-    /// An output's value.
-    fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self;
-    /// A rate's value.
-    fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self;
-}
-
-impl Readable for f64 {
-    #[inline(always)]
-    fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self {
-        (output.value)(of, shown)
-    }
-
-    fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self {
-        (rate.value)(of, shown, rates)
-    }
-}
-
-impl Readable for Tangent {
-    fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self {
-        (output.tangent)(of, shown)
-    }
-
-    fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self {
-        (rate.tangent)(of, shown, rates)
-    }
+    pub tangent: for<'m> fn(&P, &O::Of<'m, Tangent>, &Rates<'m, Tangent>) -> Tangent,
 }
 
 impl<P, O: Shown> Access<P, O> {
-    /// The value of a calculated variable, None of others; `rates` is asked only where it counts.
-    #[inline(always)]
-    pub fn calculated<S: Readable>(&self, of: &P, shown: &O::Of<S>, rates: impl FnOnce() -> Whole<S>) -> Option<S> {
-        match self {
-            Access::Output(output) => Some(S::output(output, of, shown)),
-            Access::Rate(rate) => Some(S::rate(rate, of, shown, &rates())),
-            Access::Parameter { .. } | Access::Input { .. } => None,
-        }
+    /// Whether it is calculated.
+    pub fn is_calculated(&self) -> bool {
+        matches!(self, Access::Output(_) | Access::Rate(_))
     }
 
-    /// The value of a variable at an instant, an input's at time `t` [s]; None of a calculated one where nothing is shown.
+    /// The value of a variable at an instant, an input's at time `t` [s]; None of a calculated one where nothing is shown, or not
+    /// the rates that it asks for.
     #[inline(always)]
-    pub fn value(
+    pub fn value<'m>(
         &self,
         of: &P,
         t: f64,
-        shown: Option<&O::Of<f64>>,
-        rates: impl FnOnce() -> Option<Whole<f64>>,
+        shown: Option<&O::Of<'m, f64>>,
+        rates: Option<&Rates<'m, f64>>,
     ) -> Option<f64> {
         match self {
             Access::Parameter { get, .. } => Some(get(of)),
             Access::Input { get, .. } => Some(get(of).at(t)),
             Access::Output(output) => Some((output.value)(of, shown?)),
-            Access::Rate(rate) => Some((rate.value)(of, shown?, &rates()?)),
+            Access::Rate(rate) => Some((rate.value)(of, shown?, rates?)),
+        }
+    }
+
+    /// The value of a calculated variable with its derivative; None of others.
+    pub fn tangent<'m>(
+        &self,
+        of: &P,
+        shown: &O::Of<'m, Tangent>,
+        rates: Option<&Rates<'m, Tangent>>,
+    ) -> Option<Tangent> {
+        match self {
+            Access::Output(output) => Some((output.tangent)(of, shown)),
+            Access::Rate(rate) => Some((rate.tangent)(of, shown, rates?)),
+            Access::Parameter { .. } | Access::Input { .. } => None,
         }
     }
 }
@@ -394,5 +375,16 @@ macro_rules! output {
     };
 }
 
+/// The two rows of a state of an effect's own, by its number: `own!(0, "state.tau", &NEWTON_METRE, &UNIT_OF_ITS_RATE, "…")`.
+#[allow(unused_macros, reason = "a scene's effects may have none")]
+macro_rules! own {
+    (state $n:expr, $name:expr, $unit:expr, $description:expr) => {
+        $crate::variable::output!(State, $name, $unit, $description, |_, m| m.own($n))
+    };
+    (rate $n:expr, $name:expr, $unit:expr, $description:expr) => {
+        $crate::variable::output!(State, $name, $unit, $description, |_, _, rates| rates.own[$n])
+    };
+}
+
 #[allow(unused_imports, reason = "a scene's effects may have none")]
-pub(crate) use {input, output, parameter};
+pub(crate) use {input, output, own, parameter};

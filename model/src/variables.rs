@@ -6,17 +6,18 @@ mod solver;
 pub use solver::{METHODS, Solver, TOLERANCES, numbers};
 
 use crate::body::{Body, Shape};
-use crate::effects::{Effects, Info, SWITCH};
+use crate::dual::Tangent;
+use crate::effects::{Effects, Info, Motion, SWITCH, full_name};
 use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::Cost;
 use crate::rotation::Chart;
 use crate::rotor;
 use crate::scalar::Scalar;
-use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, SUPPLIED, WITH_WORK, Whole};
+use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, Rates, SUPPLIED, WITH_WORK, own, rigid, work};
 use crate::stored::{Damaged, Stored, Walk};
 use crate::variable::units::*;
-use crate::variable::{Access, Bound, Kind, Meta, Output, Place, Readable, Role, Row, Shown, output, parameter};
+use crate::variable::{Access, Bound, Kind, Meta, Output, Place, Role, Row, Shown, output, parameter};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{PI, TAU};
 
@@ -58,20 +59,6 @@ pub struct Reading<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Reading<S> {
-    /// What a motion shows, with the work supplied and lost [J] since the start, and the total energy there [J].
-    pub fn new<E: Effects>(motion: Kinematics<S>, effects: &E, work: [S; 2], total_at_start: f64, cost: Cost) -> Self {
-        Self { motion, ledger: Ledger::new(&motion, effects, work, total_at_start), cost }
-    }
-
-    /// The state.
-    pub fn state(&self) -> Whole<S> {
-        let mut state = [S::zero(); WITH_WORK];
-        self.motion.at.write(&mut state);
-        state[SUPPLIED] = self.ledger.supplied;
-        state[DISSIPATED] = self.ledger.dissipated;
-        state
-    }
-
     fn r_c(&self) -> Vector3<S> {
         self.motion.r_c()
     }
@@ -102,27 +89,65 @@ impl<S: Scalar> Reading<S> {
     fn axis(&self) -> &Vector3<S> {
         self.motion.axis()
     }
+
+    /// The coordinates and the work by their number.
+    fn state(&self, n: usize) -> S {
+        let mut whole = [S::zero(); WITH_WORK];
+        self.motion.at.write(&mut whole);
+        [whole[SUPPLIED], whole[DISSIPATED]] = [self.ledger.supplied, self.ledger.dissipated];
+        whole[n]
+    }
 }
 
-impl Reading {
+/// What an instant shows, and the state of N numbers behind it.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant<const N: usize, S: Scalar = f64> {
+    /// What it shows.
+    pub reading: Reading<S>,
+    /// The state.
+    pub state: [S; N],
+}
+
+impl<const N: usize, S: Scalar> Instant<N, S> {
+    /// What a motion with this state shows, and the total energy at the start [J].
+    pub fn new<E: Effects>(motion: Kinematics<S>, state: [S; N], effects: &E, total_at_start: f64, cost: Cost) -> Self {
+        let ledger = Ledger::new(&motion, &state[..own(N)], effects, work(&state), total_at_start);
+        Self { reading: Reading { motion, ledger, cost }, state }
+    }
+
+    /// The states of the effects.
+    fn own(&self) -> &[S] {
+        &self.state[..own(N)]
+    }
+
+    /// The rates of all of it under these effects.
+    fn rates<E: Effects>(&self, effects: &E) -> [S; N] {
+        rotor::whole_rates(effects, &self.reading.motion, &self.state)
+    }
+}
+
+impl<const N: usize> Instant<N> {
     /// The same with the derivatives of a state that moves in the direction `seeds` and of time that moves by `time` [s],
     /// under these effects.
-    pub fn moving<S: Scalar, E: Effects>(&self, seeds: &Whole<f64>, time: f64, effects: &E) -> Reading<S> {
-        let state = self.state();
-        let moving: Whole<S> = std::array::from_fn(|n| S::moving(state[n], seeds[n]));
-        let Kinematics { body, t, turns, .. } = self.motion;
-        let (at, t) = (Coordinates::from_slice(&moving), S::moving(t, time));
-        let motion = rotor::imposed(effects, Kinematics::new(body, self.motion.tilt.chart(), at).when(t, turns));
-        let work = [moving[SUPPLIED], moving[DISSIPATED]];
-        Reading::new(motion, effects, work, self.ledger.total_at_start, self.cost)
+    pub fn moving<S: Scalar, E: Effects>(&self, seeds: &[f64; N], time: f64, effects: &E) -> Instant<N, S> {
+        let state: [S; N] = std::array::from_fn(|n| S::moving(self.state[n], seeds[n]));
+        let Kinematics { body, t, turns, tilt, .. } = self.reading.motion;
+        let (at, t) = (Coordinates::from_slice(rigid(&state)), S::moving(t, time));
+        let motion = rotor::imposed(effects, Kinematics::new(body, tilt.chart(), at).when(t, turns));
+        Instant::new(motion, state, effects, self.reading.ledger.total_at_start, self.reading.cost)
     }
+}
+
+/// Rates as outputs see them, those of an effect's own states being the first of `count` from number `from`.
+fn seen<S: Scalar, const N: usize>(rates: &[S; N], from: usize, count: usize) -> Rates<'_, S> {
+    Rates { coordinates: Coordinates::from_slice(rigid(rates)), work: work(rates), own: &rates[from..][..count] }
 }
 
 /// The variables that are always there are read from a [`Reading`].
 pub enum Always {}
 
 impl Shown for Always {
-    type Of<S: Scalar> = Reading<S>;
+    type Of<'m, S: Scalar> = Reading<S>;
 }
 
 type AlwaysRow = Row<Setup, Always>;
@@ -217,13 +242,13 @@ const ENERGY: &[AlwaysRow] = &[
 macro_rules! states {
     ($($n:expr, $name:literal, $unit:ident, $rate:ident, $what:literal;)*) => {
         &[
-            $(output!(State, concat!("state.", $name), &$unit, $what, |_, r| r.state()[$n]),)*
+            $(output!(State, concat!("state.", $name), &$unit, $what, |_, r| r.state($n)),)*
             $(output!(
                 State,
                 concat!("der(state.", $name, ")"),
                 &$rate,
                 concat!("rate of the ", $what),
-                |_, _, rates| rates[$n]
+                |_, _, rates| rates.rigid($n)
             ),)*
             Row {
                 meta: Meta {
@@ -287,7 +312,7 @@ fn always(place: Place, could_work: bool) -> Option<&'static AlwaysRow> {
 }
 
 /// Reads an output.
-type Read = fn(&Setup, &Reading) -> f64;
+type Read = for<'m> fn(&Setup, &Reading) -> f64;
 
 /// The Real outputs that are always there, by value reference: a second way to what [`BLOCKS`] holds, without detours.
 static QUICK: [Option<Read>; (STATES << 8) as usize] = {
@@ -315,12 +340,12 @@ fn is_of_work(place: Place) -> bool {
     place.block == STATES && place.row < 2 * WITH_WORK && place.row % WITH_WORK >= COORDINATES
 }
 
-/// The place of a number of the state.
+/// The place of a coordinate or a work integral, by its number.
 pub fn state_place(n: usize) -> Place {
     Place { block: STATES, row: n }
 }
 
-/// The number of the state at this place, if it is one of them.
+/// The number of the coordinate or the work integral at this place, if it is one of them.
 pub fn state_number(place: Place) -> Option<usize> {
     (place.block == STATES && place.row < WITH_WORK).then_some(place.row)
 }
@@ -372,35 +397,42 @@ impl<E: Effects> FromIterator<(Place, f64)> for Parameters<E> {
 impl<E: Effects> Parameters<E> {
     /// The full name of the variable at this place; None where there is none.
     pub fn name(place: Place) -> Option<String> {
-        always(place, E::COULD_WORK).map_or_else(|| E::name(place), |row| Some(row.meta.name.to_owned()))
+        always(place, E::FACTS.could_work).map_or_else(|| E::name(place), |row| Some(row.meta.name.to_owned()))
     }
 
     /// What is said of the variable at this place; None where there is none.
     #[inline(always)]
     pub fn meta(place: Place) -> Option<&'static Meta> {
-        always(place, E::COULD_WORK).map_or_else(|| E::meta(place), |row| Some(&row.meta))
+        always(place, E::FACTS.could_work).map_or_else(|| E::meta(place), |row| Some(&row.meta))
     }
 
     /// The value of a variable, an input's at time `t` [s]; None where there is none at this place, or where it is
     /// calculated and there is no reading.
     #[inline(always)]
-    pub fn value(&self, place: Place, t: f64, reading: Option<&Reading>) -> Option<f64> {
-        let rates = || Some(rotor::whole_rates(&self.effects, &reading?.motion));
-        match always(place, E::COULD_WORK) {
-            None => self.effects.value(place, t, reading.map(|reading| &reading.motion), rates),
-            Some(row) => row.access.value(&self.setup, t, reading, rates),
-        }
+    pub fn value<const N: usize>(&self, place: Place, t: f64, instant: Option<&Instant<N>>) -> Option<f64> {
+        let Some(row) = always(place, E::FACTS.could_work) else {
+            let (block, from) = self.effects.at(place)?;
+            let count = block.kind().own;
+            let motion = instant.map(|now| Motion::new(&now.reading.motion, &now.own()[from..][..count]));
+            let rates = instant.filter(|_| block.asks_rates(place.row)).map(|now| now.rates(&self.effects));
+            let rates = rates.as_ref().map(|rates| seen(rates, from, count));
+            return block.value(place.row, t, motion.as_ref(), rates.as_ref());
+        };
+        let asks = matches!(row.access, Access::Rate(_));
+        let rates = instant.filter(|_| asks).map(|now| now.rates(&self.effects));
+        let rates = rates.as_ref().map(|rates| seen(rates, 0, 0));
+        row.access.value(&self.setup, t, instant.map(|now| &now.reading), rates.as_ref())
     }
 
     /// The values of Real variables by their value references, as many as both slices hold; false, and the values are void,
     /// where one is missing, of another type, or not finite. This is what hosts ask for all the time: outputs that are
     /// always there go the shortest way.
     #[inline(never)]
-    pub fn reals(&self, references: &[u32], values: &mut [f64], reading: &Reading) -> bool {
+    pub fn reals<const N: usize>(&self, references: &[u32], values: &mut [f64], instant: &Instant<N>) -> bool {
         for (reference, value) in references.iter().zip(values.iter_mut()) {
             *value = match QUICK.get(*reference as usize) {
-                Some(Some(read)) => read(&self.setup, reading),
-                _ => self.real(Place::of(*reference), reading),
+                Some(Some(read)) => read(&self.setup, &instant.reading),
+                _ => self.real(Place::of(*reference), instant),
             };
         }
         // A sum of zeros, or of a NaN where a value is not finite.
@@ -409,14 +441,14 @@ impl<E: Effects> Parameters<E> {
 
     /// The value of a Real variable; NaN where there is none.
     #[inline(never)]
-    fn real(&self, place: Place, reading: &Reading) -> f64 {
+    fn real<const N: usize>(&self, place: Place, instant: &Instant<N>) -> f64 {
         let is_real = Self::meta(place).is_some_and(|meta| meta.kind == Kind::Real);
-        is_real.then(|| self.value(place, reading.motion.t, Some(reading))).flatten().unwrap_or(f64::NAN)
+        is_real.then(|| self.value(place, instant.reading.motion.t, Some(instant))).flatten().unwrap_or(f64::NAN)
     }
 
     /// Sets a parameter; false where there is none at this place.
     pub fn set(&mut self, place: Place, value: f64) -> bool {
-        match always(place, E::COULD_WORK) {
+        match always(place, E::FACTS.could_work) {
             None => self.effects.set_parameter(place, value),
             Some(Row { access: Access::Parameter { set, .. }, .. }) => {
                 set(&mut self.setup, value);
@@ -431,14 +463,28 @@ impl<E: Effects> Parameters<E> {
         self.set(place, value) || self.effects.signal_mut(place).map(|signal| signal.set(0.0, value)).is_some()
     }
 
-    /// The value of a calculated variable at an instant; None where there is none at this place.
-    #[inline(always)]
-    pub fn calculated<S: Readable>(&self, place: Place, reading: &Reading<S>) -> Option<S> {
-        let rates = || rotor::whole_rates(&self.effects, &reading.motion);
-        match always(place, E::COULD_WORK) {
-            None => self.effects.calculated(place, &reading.motion, rates),
-            Some(row) => row.access.calculated(&self.setup, reading, rates),
+    /// A calculated variable with its derivative; None where there is none at this place.
+    pub fn tangent<const N: usize>(&self, place: Place, instant: &Instant<N, Tangent>) -> Option<Tangent> {
+        let Some(row) = always(place, E::FACTS.could_work) else {
+            let (block, from) = self.effects.at(place)?;
+            let count = block.kind().own;
+            let rates = block.asks_rates(place.row).then(|| instant.rates(&self.effects));
+            let rates = rates.as_ref().map(|rates| seen(rates, from, count));
+            let motion = Motion::new(&instant.reading.motion, &instant.own()[from..][..count]);
+            return block.tangent(place.row, &motion, rates.as_ref());
+        };
+        let rates = matches!(row.access, Access::Rate(_)).then(|| instant.rates(&self.effects));
+        let rates = rates.as_ref().map(|rates| seen(rates, 0, 0));
+        row.access.tangent(&self.setup, &instant.reading, rates.as_ref())
+    }
+
+    /// The number of the state at this place in a state of N numbers, if it is one.
+    pub fn number_in_state<const N: usize>(&self, place: Place) -> Option<usize> {
+        if let Some(n) = state_number(place) {
+            return Some(own(N) + n);
         }
+        let (block, from) = self.effects.at(place)?;
+        block.own_state(place.row).map(|n| from + n)
     }
 
     /// The first parameter whose value is not possible.
@@ -447,7 +493,7 @@ impl<E: Effects> Parameters<E> {
         self.effects.check()?;
         let solver = &self.setup.solver;
         let is_symplectic = solver.method_in_force() == numbers::SYMPLECTIC;
-        if is_symplectic && E::IMPOSES && self.effects.imposed::<f64>(0.0).is_some() {
+        if is_symplectic && E::FACTS.imposes && self.effects.imposed::<f64>(0.0).is_some() {
             let bound = "another method: drifts and kicks do not keep an imposed speed";
             return Err(Invalid::out_of_bound(solver.method_variable(), "symplectic", bound));
         }
@@ -462,7 +508,8 @@ impl<E: Effects> Parameters<E> {
         let metas = |block| (0..).map_while(move |row| Some((Place { block, row }, Self::meta(Place { block, row })?)));
         let is_given = |(_, meta): &(Place, &Meta)| meta.kind == Kind::Real && meta.has_start();
         let given = (0..LAST).flat_map(metas).filter(is_given);
-        let mut given: Vec<_> = given.filter_map(|(place, _)| Some((place, self.value(place, 0.0, None)?))).collect();
+        let mut given: Vec<_> =
+            given.filter_map(|(place, _)| Some((place, self.value::<WITH_WORK>(place, 0.0, None)?))).collect();
         let extremity = |value: f64| if value == 0.0 { 1.0 } else { value.abs().max(1.0 / value.abs()) };
         given.sort_by(|(_, one), (_, other)| extremity(*other).total_cmp(&extremity(*one)));
         let moderated = |places: &[(Place, f64)]| {
@@ -521,19 +568,20 @@ pub struct Variable {
 pub fn of_scene(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
     let could_work = effects.iter().any(|(info, _)| info.could_work);
     let mut list = Vec::new();
-    let mut block = |block: u32, prefix: &str, metas: Vec<Meta>| {
+    let mut block = |block: u32, name: &dyn Fn(&str) -> String, metas: Vec<Meta>| {
         let placed = metas.into_iter().enumerate().map(|(row, meta)| (Place { block, row }, meta));
         list.extend(placed.filter(|(place, _)| could_work || !is_of_work(*place)).map(|(place, meta)| Variable {
-            name: format!("{prefix}{}", meta.name),
+            name: name(meta.name),
             place,
             meta,
         }));
     };
     for (number, rows) in (0..).zip(BLOCKS) {
-        block(number, "", rows.iter().map(|row| row.meta).collect());
+        block(number, &str::to_owned, rows.iter().map(|row| row.meta).collect());
     }
     for (info, index) in effects {
-        block(Place::effect_block(info.number, *index), &format!("{}.", info.block_name(*index)), (info.metas)());
+        let name = |name: &str| full_name(&info.block_name(*index), name);
+        block(Place::effect_block(info.number, *index), &name, (info.metas)());
     }
     list
 }

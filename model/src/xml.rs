@@ -3,7 +3,7 @@
 use crate::dependencies::Dependencies;
 use crate::log::{self, Category};
 use crate::scene::Scene;
-use crate::simulation::{Integrator, Simulation};
+use crate::simulation::{Any, Integrator};
 use crate::state::{GAMMA, PHI, SUPPLIED};
 use crate::variable::units::Unit;
 use crate::variable::{Bound, Enumeration, Kind, Role};
@@ -205,8 +205,7 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
 
 /// What a continuous state counts with, in its unit.
 fn nominal_of(scene: &Scene, variable: &Variable) -> Option<f64> {
-    let nominals = || Simulation::with(Integrator::Host, scene.parameters()).nominals();
-    state_number(variable.place).map(|n| nominals()[n])
+    Any::with(Integrator::Host, scene.parameters()).nominal(variable.place)
 }
 
 /// The index from 1 of the state whose derivative the variable is.

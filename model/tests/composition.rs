@@ -194,7 +194,7 @@ fn exact_spread_kicks_with_damping_and_a_torque_that_changes() {
         let momentum = Tilt::new(Chart::FromE, gamma).axis * (2e4 * Scene::paper().body.Ja);
         y[6..9].copy_from_slice(momentum.as_slice());
         if chart == Chart::FromMinusE {
-            rotor.chart = chart;
+            rotor.frame.chart = chart;
             y[GAMMA].copy_from_slice(crossed_exactly(gamma).as_slice());
         }
         let exact = reference(&rotor, y, 0.2, 20_000);

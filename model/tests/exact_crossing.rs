@@ -67,7 +67,7 @@ fn total<S: Scalar>(shape: f64, chart: Chart, at: Coordinates<f64>) -> S {
         phi: S::constant(at.phi),
     };
     let motion = Kinematics::new(Body { m: 5.0, Ja: shape * 0.078125, Jt: 0.078125, l: 0.75 }.into(), chart, at);
-    energy::kinetic(&motion) + mount().potential(&motion)
+    energy::kinetic(&motion) + mount().act(&motion, &[]).stored
 }
 
 proptest! {

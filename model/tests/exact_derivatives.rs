@@ -25,11 +25,11 @@ fn jacobian(scene: &Scene, y: &[f64; COORDINATES]) -> [[f64; COORDINATES]; COORD
 fn rates(scene: &Scene, y: &[f64; COORDINATES]) -> [f64; COORDINATES] {
     let rotor = scene.rotor();
     if !rotor.effects.works() {
-        return System::<COORDINATES>::rates(&rotor, 0.0, y);
+        return System::<COORDINATES>::rates_of_all(&rotor, 0.0, y);
     }
     let mut whole = [0.0; WITH_WORK];
     whole[..COORDINATES].copy_from_slice(y);
-    let rates = System::<WITH_WORK>::rates(&rotor, 0.0, &whole);
+    let rates = System::<WITH_WORK>::rates_of_all(&rotor, 0.0, &whole);
     std::array::from_fn(|n| rates[n])
 }
 

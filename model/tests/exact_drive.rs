@@ -11,6 +11,7 @@ use oracles::rigid_body::{RigidBody, joint};
 use oracles::rotation;
 use proptest::prelude::*;
 use split_rotor_model::body::Body;
+use split_rotor_model::effects::Motion;
 use split_rotor_model::effects::drive::Drive;
 use split_rotor_model::effects::{Effect, Effects};
 use split_rotor_model::integrate::Fault;
@@ -51,13 +52,14 @@ proptest! {
         let at = Coordinates { r: Vector3::zeros(), v: Vector3::zeros(), k: k.into(), gamma, phi: 0.3 };
         let motion = Kinematics::new(Scene::paper().body.into(), chart, at);
         let drive = Drive { tau: Signal::held(tau) };
-        let load = drive.load(&motion);
+        let act = drive.act(&Motion::new(&motion, &[]));
+        let load = act.load;
         let expected = joint(&(rotation::axis(&gamma) * chart.sign())) * tau;
         within("moment", (load.moment - expected).norm() / expected.norm(), MOMENT);
         prop_assert_eq!(load.force, Vector3::zeros());
         let (power, size) = (tau * motion.axial_rate(), expected.norm() * motion.omega.norm());
         within("moment on the rotor", (load.moment.dot(&motion.omega) - power).abs() / size, POWER);
-        within("supply", (drive.supply(&motion) - power).abs() / size, POWER);
+        within("supply", (act.supply - power).abs() / size, POWER);
     }
 }
 
@@ -249,7 +251,7 @@ fn exact_ledger_closes() {
                 let (mut kinetic, mut turnover, mut residual) = (0.0, 0.0, 0.0);
                 for t in times(2.0, 100) {
                     let reading = at(&mut simulation, t);
-                    let loss = simulation.parameters().effects.action(&reading.motion).loss;
+                    let loss = simulation.parameters().effects.act(&reading.motion, &[]).loss;
                     turnover += ((torque(t) * reading.motion.axial_rate()).abs() + loss) * 0.02;
                     kinetic = largest([kinetic, reading.ledger.kinetic]);
                     residual = largest([residual, reading.ledger.residual().abs()]);

@@ -8,8 +8,9 @@ use harness::{Random, Scene, largest, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::body::{Inertia, Shape};
 use split_rotor_model::dual::Tangent;
-use split_rotor_model::effects::{Action, All, CATALOGUE, Effects, Info};
+use split_rotor_model::effects::{Act, All, CATALOGUE, Effects, Info};
 use split_rotor_model::rotation::Chart;
+use split_rotor_model::scalar::Scalar;
 use split_rotor_model::state::{Coordinates, Kinematics};
 use split_rotor_model::variable::{Bound, Place, Role};
 
@@ -83,9 +84,10 @@ fn exact_power_of_each_effect() {
             let effects = drawn(info, &mut random);
             let body = if sample % 4 < 2 { Scene::paper().body.into() } else { asymmetric() };
             let motion = Kinematics::new(body, chart, motion(chart, &mut random));
-            let Action { load, damping, supply, loss } = effects.action(&motion);
+            let own: [f64; All::FACTS.own] = std::array::from_fn(|_| random.within(-2.0, 2.0));
+            let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own);
             let load = load + damping;
-            let [of_potential] = effects.potential(&moving(&motion)).eps;
+            let [of_potential] = effects.act(&moving(&motion), &own.map(Tangent::constant)).stored.eps;
             let powers = [load.force.dot(&motion.v_c()), load.moment.dot(&motion.omega), of_potential, loss, -supply];
             let size = largest(powers.map(f64::abs)).max(1.0);
             worst = largest([worst, powers.iter().sum::<f64>().abs() / size]);

@@ -129,7 +129,7 @@ fn run(scene: &Scene, relative: f64, end: f64) -> Stiff<WITH_WORK> {
     method
 }
 
-fn with_work(scene: &Scene) -> (Rotor<Supported>, [f64; WITH_WORK]) {
+fn with_work(scene: &Scene) -> (Rotor<'_, Supported>, [f64; WITH_WORK]) {
     let mut y = [0.0; WITH_WORK];
     y[..12].copy_from_slice(&scene.state());
     (scene.rotor(), y)
@@ -262,7 +262,7 @@ fn exact_jacobian() {
         let along = |x: f64| {
             let mut moved = y;
             moved[column] = x;
-            System::rates(&rotor, 0.3, &moved)
+            System::rates_of_all(&rotor, 0.3, &moved)
         };
         let differences = derivative(along, y[column], 0.02);
         let worst = largest((0..WITH_WORK).map(|row| (jacobian[row][column] - differences[row]).abs()));

@@ -6,7 +6,6 @@ use crate::calls::State;
 use crate::guard::{Room, fill};
 use crate::scene::Simulation;
 use split_rotor_model::log::Category;
-use split_rotor_model::simulation::Exchange;
 
 /// What fmi2NewDiscreteStates found.
 pub struct Events {
@@ -17,7 +16,7 @@ pub struct Events {
 impl Instance {
     /// fmi2EnterEventMode
     pub fn enter_event_mode(&mut self) -> Reply {
-        if let Some(exchange) = self.memory.simulation.exchange() {
+        if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.enter_event();
         }
         self.memory.state = State::EventMode;
@@ -27,7 +26,7 @@ impl Instance {
     /// fmi2NewDiscreteStates
     pub fn new_discrete_states(&mut self) -> Result<Events, Failure> {
         self.memory.simulation.admits()?;
-        let settled = self.memory.simulation.exchange().map(Exchange::settle).unwrap_or_default();
+        let settled = self.memory.simulation.exchange().map(|mut exchange| exchange.settle()).unwrap_or_default();
         if settled.chart {
             self.tell(Category::Events, || {
                 "the axis has turned far: gamma and phi are now measured in the other chart, and the states changed"
@@ -43,7 +42,7 @@ impl Instance {
     /// fmi2EnterContinuousTimeMode
     pub fn enter_continuous_time_mode(&mut self) -> Reply {
         self.warn_of_zeros();
-        if let Some(exchange) = self.memory.simulation.exchange() {
+        if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.leave_event();
         }
         self.memory.state = State::ContinuousTime;
@@ -53,7 +52,7 @@ impl Instance {
     /// fmi2CompletedIntegratorStep; whether event mode should be entered.
     pub fn completed_integrator_step(&mut self) -> Result<bool, Failure> {
         self.memory.simulation.admits()?;
-        let wants_event = self.memory.simulation.exchange().is_some_and(|exchange| exchange.complete_step());
+        let wants_event = self.memory.simulation.exchange().is_some_and(|mut exchange| exchange.complete_step());
         self.warn();
         Ok(wants_event)
     }
@@ -63,7 +62,7 @@ impl Instance {
         if !t.is_finite() {
             return Err(Failure::error(format!("time = {t:?} must be a finite number of seconds")));
         }
-        if let Some(exchange) = self.memory.simulation.exchange() {
+        if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.set_time(t);
         }
         Ok(Status::Ok)
@@ -76,7 +75,7 @@ impl Instance {
             let message = format!("state {} of {} = {:?} must be a finite number", n + 1, states.len(), states[n]);
             return Err(Failure::discard(message));
         }
-        if let Some(exchange) = self.memory.simulation.exchange() {
+        if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.set_state(states);
         }
         Ok(Status::Ok)

@@ -25,8 +25,6 @@ impl Effect for Asymmetry {
 
     const PUSHES: bool = false;
 
-    const FOLLOWS_PLACE: bool = false;
-
     const COULD_WORK: bool = false;
 
     const SHAPES: bool = true;

@@ -1,9 +1,8 @@
 //! `bearing`: linear springs and dampers at a station, with cross coupling.
 
-use super::{Effect, Row, Wrench};
+use super::{Act, Effect, Motion, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
-use crate::state::Kinematics;
 use crate::variable::units::{
     METRE, NEWTON, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE,
 };
@@ -65,31 +64,31 @@ impl Bearing {
 
     /// (x, q) of its station, x from its place at the start [m].
     #[inline(always)]
-    fn displacement<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+    fn displacement<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         motion.station(self.position) - Vector3::x() * S::constant(self.x_at_start)
     }
 
     #[inline(always)]
-    fn velocity<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+    fn velocity<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         motion.station_velocity(self.position)
     }
 
     /// Force of the springs on the rotor [N].
     #[inline(always)]
-    fn spring<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+    fn spring<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         // eq. 61: F = −(kxx x, K q)
         -times(self.kxx, self.stiffness(), self.displacement(motion))
     }
 
     /// Force of the dampers on the rotor [N].
     #[inline(always)]
-    fn damper<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+    fn damper<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         // eq. 61: F = −(cxx dx/dt, C dq/dt)
         -times(self.cxx, self.damping(), self.velocity(motion))
     }
 
     /// Force on the rotor at the station [N].
-    fn force<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+    fn force<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         self.spring(motion) + self.damper(motion)
     }
 }
@@ -158,40 +157,30 @@ impl Effect for Bearing {
     ];
 
     #[inline(always)]
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        let gamma = motion.tilt.gamma();
-        // eq. 61: M = −kt γ
-        let moment = Vector3::new(S::zero(), gamma.x, gamma.y) * S::constant(-self.kt);
-        Wrench::at_station(motion, self.position, self.spring(motion)) + Wrench::couple(moment)
-    }
-
-    #[inline(always)]
-    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        // eq. 61: M = −ct t×(dt/dt)
-        let moment = motion.axis().cross(&motion.axis_rate()) * S::constant(-self.ct);
-        Wrench::at_station(motion, self.position, self.damper(motion)) + Wrench::couple(moment)
-    }
-
-    #[inline(always)]
-    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let (r, gamma) = (self.displacement(motion), motion.tilt.gamma());
-        // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
-        let springs = r.dot(&times(self.kxx, self.stiffness(), r));
-        (springs + gamma.dot(&gamma) * S::constant(self.kt)) * S::constant(0.5)
-    }
-
-    #[inline(always)]
-    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let (v, t_rate) = (self.velocity(motion), motion.axis_rate());
-        // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
-        v.dot(&times(self.cxx, self.damping(), v)) + t_rate.dot(&t_rate) * S::constant(self.ct)
-    }
-
-    #[inline(always)]
-    fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let (r, v) = (self.displacement(motion), self.velocity(motion));
-        // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
-        r.yz().perp(&v.yz()) * S::constant(self.circulation())
+        let (lean, t_rate) = (motion.lean(), motion.axis_rate());
+        // eq. 61: M = −kt γ, M = −ct t×(dt/dt)
+        let against_lean = Vector3::new(S::zero(), lean.x, lean.y) * S::constant(-self.kt);
+        let against_rate = motion.axis().cross(&t_rate) * S::constant(-self.ct);
+        let at_station = |force| Wrench::at_station(motion, self.position, force);
+        let springs = r.dot(&times(self.kxx, self.stiffness(), r));
+        Act {
+            load: at_station(self.spring(motion)) + Wrench::couple(against_lean),
+            damping: at_station(self.damper(motion)) + Wrench::couple(against_rate),
+            // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
+            stored: (springs + lean.dot(&lean) * S::constant(self.kt)) * S::constant(0.5),
+            // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
+            supply: r.yz().perp(&v.yz()) * S::constant(self.circulation()),
+            // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
+            loss: v.dot(&times(self.cxx, self.damping(), v)) + t_rate.dot(&t_rate) * S::constant(self.ct),
+            ..Act::none()
+        }
+    }
+
+    fn follows_speed(&self) -> bool {
+        let Self { cyy, cyz, czy, czz, cxx, ct, .. } = *self;
+        [cyy, cyz, czy, czz, cxx, ct].iter().any(|c| *c != 0.0)
     }
 
     fn needs_gamma(&self) -> bool {
@@ -199,9 +188,8 @@ impl Effect for Bearing {
     }
 
     fn works(&self) -> bool {
-        let Self { cyy, cyz, czy, czz, cxx, ct, .. } = *self;
         // What damps across gives no work, but is asked for only where something works.
-        self.circulation() != 0.0 || [cyy, cyz, czy, czz, cxx, ct].iter().any(|c| *c != 0.0)
+        self.circulation() != 0.0 || self.follows_speed()
     }
 
     fn check(&self) -> Result<(), Invalid> {
@@ -217,7 +205,7 @@ impl Effect for Bearing {
         Err(Invalid::new(name, value, bound))
     }
 
-    fn begin(&mut self, start: &Kinematics<f64>) {
+    fn begin(&mut self, start: &Motion<f64>) {
         self.x_at_start = start.station(self.position).x;
     }
 

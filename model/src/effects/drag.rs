@@ -1,8 +1,7 @@
 //! `drag`: what the medium around the rotor does to its spin, linear and quadratic in it.
 
-use super::{Effect, Row, Wrench};
+use super::{Act, Effect, Motion, Row, Wrench};
 use crate::scalar::Scalar;
-use crate::state::Kinematics;
 use crate::variable::units::{
     NEWTON_METRE, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_METRE_SECOND_SQUARED_PER_RADIAN_SQUARED,
 };
@@ -27,8 +26,8 @@ impl Drag {
 
     /// ω_a, the spin about t [rad/s], and the torque on the rotor [N·m].
     #[inline(always)]
-    fn torque<S: Scalar>(&self, motion: &Kinematics<S>) -> [S; 2] {
-        let speed = motion.omega.dot(motion.axis());
+    fn torque<S: Scalar>(&self, motion: &Motion<S>) -> [S; 2] {
+        let speed = motion.spin();
         // eq. 65: τ = −(linear + quadratic |ω_a|) ω_a, ω_a = ω·t
         [speed, -(self.per_speed(speed) * speed)]
     }
@@ -53,19 +52,14 @@ impl Effect for Drag {
         output!("tau", &NEWTON_METRE, "torque of the drag on the rotor, along its axis", |d, m| d.torque(m)[1]),
     ];
 
-    const FOLLOWS_PLACE: bool = false;
+    // |ω_a| bends at zero.
+    const ANALYTIC: bool = false;
 
     #[inline(always)]
-    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        // eq. 65: M = τ t
-        Wrench::couple(motion.axis() * self.torque(motion)[1])
-    }
-
-    #[inline(always)]
-    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let [speed, tau] = self.torque(motion);
-        // eq. 65: P = −τ ω_a
-        -(tau * speed)
+        // eq. 65: M = τ t, P = −τ ω_a
+        Act { damping: Wrench::couple(motion.axis() * tau), loss: -(tau * speed), ..Act::none() }
     }
 
     fn works(&self) -> bool {

@@ -1,9 +1,8 @@
 //! `drive`: a torque from outside, and the angle that goes with it.
 
-use super::{Effect, Row, Terminal, Wrench};
+use super::{Act, Effect, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::{Coordinates, Kinematics};
 use crate::variable::units::{NEWTON_METRE, RADIAN, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
 use crate::variable::{input, output};
 
@@ -18,13 +17,11 @@ impl Effect for Drive {
     const ROWS: &'static [Row<Self>] = &[
         input!(tau, &NEWTON_METRE, 0.0, "torque of the drive on the rotor, passed on by a constant-velocity joint"),
         output!("phi", &RADIAN, "angle of the drive, the axial angle of the rotor", |_, m| m.phi()),
-        output!("w", &RADIAN_PER_SECOND, "speed of the drive, the rate of its angle", |_, m| m.axial_rate()),
+        output!("w", &RADIAN_PER_SECOND, "speed of the drive, the rate of its angle", |_, m| m.omega_phi()),
         output!("a", &RADIAN_PER_SECOND_SQUARED, "acceleration of the drive", |_, m, rates| {
-            m.axial_acceleration(&Coordinates::from_slice(rates))
+            m.axial_acceleration(rates)
         }),
     ];
-
-    const FOLLOWS_PLACE: bool = false;
 
     const EXCLUDES: &'static [&'static str] = &["imposed_speed"];
 
@@ -33,15 +30,14 @@ impl Effect for Drive {
         Some(Terminal { kind: "Modelica.Mechanics.Rotational.Interfaces.Flange_a", flows: &["tau"] });
 
     #[inline(always)]
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        // eq. 32: M = τ n
-        Wrench { moment: motion.tilt.joint_axis() * self.tau.at::<S>(motion.t), ..Wrench::zero() }
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
+        let tau = self.tau.at::<S>(motion.t());
+        // eq. 32: M = τ n, P = τ ω_φ
+        Act { load: Wrench::couple(motion.joint_axis() * tau), supply: tau * motion.omega_phi(), ..Act::none() }
     }
 
-    #[inline(always)]
-    fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        // eq. 32: P = τ ω_φ
-        self.tau.at::<S>(motion.t) * motion.axial_rate()
+    fn follows_speed(&self) -> bool {
+        false
     }
 
     fn needs_gamma(&self) -> bool {

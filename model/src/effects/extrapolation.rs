@@ -91,15 +91,13 @@ impl Effect for Extrapolation {
 
     const PUSHES: bool = false;
 
-    const FOLLOWS_PLACE: bool = false;
-
     const COULD_WORK: bool = false;
 
     const EXTRAPOLATES: bool = true;
 
     const MOST_EXTRAPOLATED: usize = MOST;
 
-    fn begin(&mut self, _start: &crate::state::Kinematics<f64>) {
+    fn begin(&mut self, _start: &super::Motion<f64>) {
         self.memory[0] = 0.0;
     }
 
@@ -171,8 +169,8 @@ mod tests {
     #[test]
     fn regress_no_input_is_silently_not_followed() {
         // A drive has one input, a port six; nobody extrapolates what an imposed speed tells of itself.
-        assert_eq!(<List as Effects>::EXTRAPOLATED, 1);
-        assert_eq!(<crate::effects::All as Effects>::EXTRAPOLATED, 25);
+        assert_eq!(<List as Effects>::FACTS.extrapolated, 1);
+        assert_eq!(<crate::effects::All as Effects>::FACTS.extrapolated, 25);
         assert!(follows_all_inputs::<crate::effects::All>());
         type Ports = (Called<Port, 1>, (Called<Port, 2>, (Called<Port, 3>, (Called<Port, 4>, ()))));
         type Many = (Called<Drive, 1>, (Called<Port, 1>, (Called<Port, 2>, Ports)));

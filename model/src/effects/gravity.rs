@@ -1,8 +1,7 @@
 //! `gravity`: uniform gravity on the mass centre.
 
-use super::{Effect, Row, Wrench};
+use super::{Act, Effect, Motion, Row, Wrench};
 use crate::scalar::Scalar;
-use crate::state::Kinematics;
 use crate::variable::units::METRE_PER_SECOND_SQUARED;
 use crate::variable::{Bound, parameter};
 use nalgebra::Vector3;
@@ -21,19 +20,12 @@ impl Effect for Gravity {
         parameter!("g.z", g.z, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along z"),
     ];
 
-    const FOLLOWS_PLACE: bool = false;
-
     const COULD_WORK: bool = false;
 
     #[inline(always)]
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        // eq. 13: F = m g, at the mass centre of the whole
-        Wrench::at_centre(motion, (self.g * motion.body.m).map(S::constant))
-    }
-
-    #[inline(always)]
-    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        // eq. 13: V = −m g·r
-        -(self.g * motion.body.m).map(S::constant).dot(&motion.at.r)
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
+        let weight = (self.g * motion.mass()).map(S::constant);
+        // eq. 13: F = m g, at the mass centre of the whole, V = −m g·r
+        Act { load: Wrench::at_centre(motion, weight), stored: -weight.dot(motion.centre()), ..Act::none() }
     }
 }

@@ -3,10 +3,10 @@
 //! Both inputs tell one signal, a speed that is continuous: a new rate bends it from where it is, a new speed sets it. Where a
 //! host sends derivatives of w, they tell the rate themselves.
 
-use super::{Effect, InputSet, Row, Terminal};
+use super::{Effect, InputSet, Motion, Row, Terminal};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::{Coordinates, Kinematics};
+use crate::state::{Kinematics, Rates};
 use crate::variable::units::{KILOGRAM_METRE_SQUARED, NEWTON_METRE, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
 use crate::variable::{Bound, input, output, parameter};
 use nalgebra::Vector3;
@@ -51,9 +51,10 @@ const W: usize = 0;
 
 impl ImposedSpeed {
     /// The torque of the shaft on the rotor, where the state has these rates [N·m].
-    fn torque<S: Scalar>(&self, motion: &Kinematics<S>, rates: &Coordinates<S>) -> S {
+    fn torque<S: Scalar>(&self, motion: &Motion<S>, rates: &Rates<S>) -> S {
+        let motion = motion.whole();
         // eq. 76: M = dK/dt + λ dn/dt
-        let moment = rates.k + motion.carried().unwrap_or_else(Vector3::zeros);
+        let moment = rates.coordinates.k + motion.carried().unwrap_or_else(Vector3::zeros);
         motion.torque(self.told(motion.t)[1], &moment)
     }
 
@@ -104,7 +105,7 @@ impl Effect for ImposedSpeed {
             "rate of w, from where it is; does not count where derivatives of w are sent"
         ),
         output!("tau", &NEWTON_METRE, "torque of the shaft on the rotor at this moment", |s, m, rates| {
-            s.torque(m, &Coordinates::from_slice(rates))
+            s.torque(m, rates)
         }),
         parameter!(
             "partner_J",
@@ -121,8 +122,6 @@ impl Effect for ImposedSpeed {
             |s, _| Scalar::constant(s.memory[at::SENT])
         ),
     ];
-
-    const FOLLOWS_PLACE: bool = false;
 
     const IMPOSES: bool = true;
 
@@ -143,7 +142,8 @@ impl Effect for ImposedSpeed {
         true
     }
 
-    fn begin(&mut self, start: &Kinematics<f64>) {
+    fn begin(&mut self, start: &Motion<f64>) {
+        let start = start.whole();
         self.memory = [0.0; MEMORY];
         self.memory[at::TOLD] = self.w.at(start.t);
         self.memory[at::T] = start.t;
@@ -170,11 +170,8 @@ impl Effect for ImposedSpeed {
         true
     }
 
-    fn take_over(&mut self, other: &Self) {
-        self.memory = other.memory;
-    }
-
-    fn step_to(&mut self, end: &Kinematics<f64>) {
+    fn step_to(&mut self, end: &Motion<f64>) {
+        let end = end.whole();
         let h = end.t - self.memory[at::T];
         let Some(impulse) = end.impulse.filter(|_| h > 0.0) else { return };
         let sent = self.mean(end, impulse, h);

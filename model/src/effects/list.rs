@@ -1,149 +1,393 @@
 //! The effects of one scene as a type: `(Called<Gravity, 1>, (Called<Support, 1>, ()))`.
+//!
+//! What every evaluation asks, the list sums up itself, so that it is compiled for just these effects. All else goes from
+//! [`Block`] to [`Block`].
 
+mod block;
 mod member;
-mod none;
-mod pair;
 
+pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::Wrench;
+use super::{Act, Effect, InputSet, Motion, SWITCH, Wrench};
 use crate::body::Shape;
+use crate::dual::Tangent;
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::{Kinematics, Whole};
-use crate::stored::Stored;
-use crate::variable::{Meta, Place, Readable};
-use std::ops::Add;
+use crate::state::Kinematics;
+use crate::stored::{Damaged, Stored, Walk};
+use crate::variable::{Meta, Place};
+use member::{Member, inputs_extrapolated};
 
 /// Whether what extrapolates inputs has room for all of the list's.
 pub const fn follows_all_inputs<E: Effects>() -> bool {
-    E::EXTRAPOLATED <= E::MOST_EXTRAPOLATED
+    E::FACTS.extrapolated <= E::FACTS.most_extrapolated
 }
 
-/// What effects do to a rotor.
-#[derive(Clone, Copy)]
-pub struct Action<S: Scalar> {
-    /// Force and moment about c [N, N·m], without what damps.
-    pub load: Wrench<S>,
-    /// Of what damps [N, N·m].
-    pub damping: Wrench<S>,
-    /// Power that comes from outside [W].
-    pub supply: S,
-    /// Power that leaves the mechanics [W].
-    pub loss: S,
+/// What is known of a list while it is compiled.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts {
+    /// How many effects it has.
+    pub count: usize,
+    /// How many states they have of their own.
+    pub own: usize,
+    /// Whether any of them has a switch.
+    pub switched: bool,
+    /// Whether any of them can lose energy or be supplied with it, with any parameters.
+    pub could_work: bool,
+    /// Whether any of them can shape the body.
+    pub shapes: bool,
+    /// Whether any of them can follow φ.
+    pub follows_phi: bool,
+    /// Whether any of them can impose a speed.
+    pub imposes: bool,
+    /// How many inputs they have that may be extrapolated.
+    pub extrapolated: usize,
+    /// How many can be.
+    pub most_extrapolated: usize,
 }
 
-impl<S: Scalar> Add for Action<S> {
-    type Output = Self;
+/// The effects of a scene together: sums of what each does, and the way to each.
+pub trait Effects: Clone + Default + Send + Stored + 'static {
+    /// What is known of them while they are compiled.
+    const FACTS: Facts;
 
+    /// What they do together. `own` are their states, in their order.
+    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S>;
+
+    /// The rates of their own states.
+    fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]);
+
+    /// The ω_φ that one of them imposes at time `t` [s] [rad/s], and the rate of that [rad/s²].
+    fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
+
+    /// The effect of this number, counted from 0.
+    fn nth(&self, n: usize) -> Option<&dyn Block>;
+
+    /// The effect of this number, to change it.
+    fn nth_mut(&mut self, n: usize) -> Option<&mut dyn Block>;
+
+    /// What the effect of this number is.
+    fn kind(n: usize) -> Option<&'static Kind>;
+
+    /// The number of the effect that has this block, and that of the first of its own states.
+    fn number_of(block: u32) -> Option<[usize; 2]>;
+
+    /// All of them.
+    fn blocks(&self) -> impl Iterator<Item = &dyn Block> {
+        (0..Self::FACTS.count).filter_map(|n| self.nth(n))
+    }
+
+    /// Those that act.
+    fn active(&self) -> impl Iterator<Item = &dyn Block> {
+        self.blocks().filter(|block| block.is_active())
+    }
+
+    /// Shows each of them, to be changed.
+    fn for_each(&mut self, mut show: impl FnMut(&mut dyn Block)) {
+        for n in 0..Self::FACTS.count {
+            self.nth_mut(n).into_iter().for_each(&mut show);
+        }
+    }
+
+    /// What they make of the body.
+    fn shape(&self, body: &mut Shape) {
+        self.active().for_each(|block| block.shape(body));
+    }
+
+    /// Whether any of them follows φ.
+    fn follows_phi(&self) -> bool {
+        self.active().any(|block| block.kind().follows_phi)
+    }
+
+    /// Whether the law of any of them has no limit where |γ| = π.
+    fn needs_gamma(&self) -> bool {
+        self.active().any(Block::needs_gamma)
+    }
+
+    /// Whether any of them can act on the rotor.
+    fn push(&self) -> bool {
+        self.active().any(|block| block.kind().pushes)
+    }
+
+    /// Whether any of them can lose energy or be supplied with it.
+    fn works(&self) -> bool {
+        self.active().any(Block::works)
+    }
+
+    /// Whether what any of them applies depends on how fast the rotor moves, or on states of its own.
+    fn follows_speed(&self) -> bool {
+        self.active().any(|block| block.follows_speed() || block.kind().own > 0)
+    }
+
+    /// Whether any of them extrapolates inputs.
+    fn extrapolates(&self) -> bool {
+        self.active().any(|block| block.kind().extrapolates)
+    }
+
+    /// The first parameter whose value is not possible.
+    fn check(&self) -> Result<(), Invalid> {
+        self.active().try_for_each(|block| {
+            block.check()?;
+            let excluded = |name: &&&str| self.active().any(|other| other.kind().name == **name);
+            match block.kind().excludes.iter().find(excluded) {
+                Some(other) => Err(Invalid::excluded(block.kind().switch_name(), &format!("effects.{other}"))),
+                None => Ok(()),
+            }
+        })
+    }
+
+    /// Hear where the motion begins, and write down their own states there and what these count with.
+    fn begin(&mut self, start: &Kinematics<f64>, own: &mut [f64], nominal: &mut [f64]) {
+        let mut from = 0;
+        self.for_each(|block| {
+            let (motion, count) = (Motion::new(start, &[]), block.kind().own);
+            block.begin(&motion);
+            if block.is_active() {
+                own[from..][..count].copy_from_slice(&block.own_at_start(&motion)[..count]);
+            }
+            nominal[from..][..count].copy_from_slice(&block.own_nominal()[..count]);
+            from += count;
+        });
+    }
+
+    /// Hear where a communication step ended.
+    fn step_to(&mut self, end: &Kinematics<f64>, own: &[f64]) {
+        let mut from = 0;
+        self.for_each(|block| {
+            let to = from + block.kind().own;
+            if block.is_active() {
+                block.step_to(&Motion::new(end, &own[from..to]));
+            }
+            from = to;
+        });
+    }
+
+    /// Hear that a communication step begins at time `t` [s].
+    fn step_from(&mut self, t: f64) {
+        self.for_each(|block| {
+            if block.is_active() {
+                block.step_from(t);
+            }
+        });
+    }
+
+    /// Extrapolate the input of this number over the step that begins.
+    fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
+        self.for_each(|block| {
+            if block.is_active() {
+                block.extrapolate(number, signal);
+            }
+        });
+    }
+
+    /// Each input that may be extrapolated.
+    fn for_each_extrapolated(&mut self, act: &mut dyn FnMut(&mut Signal)) {
+        self.for_each(|block| {
+            if !block.kind().tells_rates {
+                block.for_each_signal(act);
+            }
+        });
+    }
+
+    /// Takes the inputs that may be extrapolated from effects of the same list.
+    fn take_extrapolated(&mut self, other: &Self) {
+        for n in 0..Self::FACTS.count {
+            let (Some(block), Some(other)) = (self.nth_mut(n), other.nth(n)) else { continue };
+            let (tells_rates, mut row) = (block.kind().tells_rates, 0);
+            while !tells_rates && (block.kind().meta)(row).is_some() {
+                if let (Some(signal), Some(extrapolated)) = (block.signal_mut(row), other.signal(row)) {
+                    *signal = *extrapolated;
+                }
+                row += 1;
+            }
+        }
+    }
+
+    /// Each input.
+    fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal)) {
+        self.for_each(|block| block.for_each_signal(act));
+    }
+
+    /// What is said of the variable at this place; None where there is none.
     #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Self {
-            load: self.load + other.load,
-            damping: self.damping + other.damping,
-            supply: self.supply + other.supply,
-            loss: self.loss + other.loss,
+    fn meta(place: Place) -> Option<&'static Meta> {
+        let [n, _] = Self::number_of(place.block)?;
+        let kind = Self::kind(n)?;
+        if kind.switched && place.row == Place::SWITCH { Some(&SWITCH) } else { (kind.meta)(place.row) }
+    }
+
+    /// The full name of the variable at this place; None where there is none.
+    fn name(place: Place) -> Option<String> {
+        let meta = Self::meta(place)?;
+        let [n, _] = Self::number_of(place.block)?;
+        let kind = Self::kind(n)?;
+        Some(if place.row == Place::SWITCH { kind.switch_name() } else { kind.full_name(meta.name) })
+    }
+
+    /// The effect at this place, and the number of the first of its own states.
+    #[inline(always)]
+    fn at(&self, place: Place) -> Option<(&dyn Block, usize)> {
+        let [n, own] = Self::number_of(place.block)?;
+        Some((self.nth(n)?, own))
+    }
+
+    /// The effect at this place, to change it.
+    fn at_mut(&mut self, place: Place) -> Option<&mut dyn Block> {
+        self.nth_mut(Self::number_of(place.block)?[0])
+    }
+
+    /// Sets a parameter; false where there is none at this place.
+    fn set_parameter(&mut self, place: Place, value: f64) -> bool {
+        self.at_mut(place).is_some_and(|block| block.set_parameter(place.row, value))
+    }
+
+    /// An input; None where there is none at this place.
+    fn signal(&self, place: Place) -> Option<&Signal> {
+        self.at(place)?.0.signal(place.row)
+    }
+
+    /// An input to set; None where there is none at this place.
+    fn signal_mut(&mut self, place: Place) -> Option<&mut Signal> {
+        self.at_mut(place)?.signal_mut(place.row)
+    }
+
+    /// Switches the effect at this place on, where it has a switch.
+    fn switch_on(&mut self, block: u32) {
+        if let Some(block) = self.at_mut(Place::switch(block)) {
+            block.switch(true);
         }
     }
 }
 
-/// The effects of a scene together: sums of what each does, and access to their variables.
-pub trait Effects: Clone + Default + Send + Stored + 'static {
-    /// Whether any of them has a switch.
-    const SWITCHED: bool;
-    /// Whether any of them can lose energy or be supplied with it, with any parameters.
-    const COULD_WORK: bool;
-    /// Whether any of them can shape the body.
-    const SHAPES: bool;
-    /// Whether any of them can follow φ.
-    const FOLLOWS_PHI: bool;
-    /// Whether any of them can impose a speed.
-    const IMPOSES: bool;
-    /// How many inputs they have that may be extrapolated.
-    const EXTRAPOLATED: usize;
-    /// How many can be.
-    const MOST_EXTRAPOLATED: usize;
-    /// The ω_φ that one of them imposes at time `t` [rad/s], and the rate of that [rad/s²].
-    fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
-    /// What they make of the body.
-    fn shape(&self, body: &mut Shape);
-    /// Force on the rotor and moment about c [N, N·m], without what damps.
-    #[inline(always)]
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        self.load_of::<S, true>(motion)
+impl Stored for () {
+    fn walk(&mut self, _walk: &mut impl Walk) -> Result<(), Damaged> {
+        Ok(())
     }
-    /// What they do where any of them works, in one pass, so that each switch is asked once.
+}
+
+/// The end of a list.
+impl Effects for () {
+    const FACTS: Facts = Facts {
+        count: 0,
+        own: 0,
+        switched: false,
+        could_work: false,
+        shapes: false,
+        follows_phi: false,
+        imposes: false,
+        extrapolated: 0,
+        most_extrapolated: usize::MAX,
+    };
+
     #[inline(always)]
-    fn action<S: Scalar>(&self, motion: &Kinematics<S>) -> Action<S> {
-        self.action_of::<S, true>(motion)
+    fn act<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S]) -> Act<S> {
+        Act { stored: S::zero(), supply: S::zero(), loss: S::zero(), ..Act::none() }
     }
-    /// [`Effects::load`]; without `PLACE`, of those that do not follow the place: the others are known to be off.
-    fn load_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Wrench<S>;
-    /// [`Effects::action`] of the same.
-    fn action_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Action<S>;
-    /// Potential energy [J].
-    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
-    /// Whether any of them follows φ.
-    fn follows_phi(&self) -> bool;
-    /// Whether any of them follows where the rotor is or how fast it moves there.
-    fn follows_place(&self) -> bool;
-    /// Whether the law of any of them has no limit where |γ| = π.
-    fn needs_gamma(&self) -> bool;
-    /// Whether any of them can act on the rotor.
-    fn push(&self) -> bool;
-    /// Whether any of them can lose energy or be supplied with it.
-    fn works(&self) -> bool;
-    /// Whether one of this name acts.
-    fn acts(&self, name: &str) -> bool;
-    /// The first parameter whose value is not possible.
-    fn check(&self) -> Result<(), Invalid>;
-    /// Hear where the motion begins.
-    fn begin(&mut self, start: &Kinematics<f64>);
-    /// What is said of the variable at this place; None where there is none.
-    fn meta(place: Place) -> Option<&'static Meta>;
-    /// The full name of the variable at this place; None where there is none.
-    fn name(place: Place) -> Option<String>;
-    /// The value of a variable, an input's at time `t` [s], a calculated one's of a switched-off effect zero; None where
-    /// there is none at this place, or nothing is shown. `rates` is asked only where it counts.
-    fn value(
-        &self,
-        place: Place,
-        t: f64,
-        motion: Option<&Kinematics<f64>>,
-        rates: impl FnOnce() -> Option<Whole<f64>>,
-    ) -> Option<f64>;
-    /// Sets a parameter; false where there is none at this place.
-    fn set_parameter(&mut self, place: Place, value: f64) -> bool;
-    /// The value of a calculated variable, zero where its effect is switched off; None where there is none at this
-    /// place. `rates` is asked only where it counts.
-    fn calculated<S: Readable>(
-        &self,
-        place: Place,
-        motion: &Kinematics<S>,
-        rates: impl FnOnce() -> Whole<S>,
-    ) -> Option<S>;
-    /// An input; None where there is none at this place.
-    fn signal(&self, place: Place) -> Option<&Signal>;
-    /// An input to set; None where there is none at this place.
-    fn signal_mut(&mut self, place: Place) -> Option<&mut Signal>;
-    /// Changes an input at the communication point `t` [s], its value or its derivative of an order; whether anything goes on
-    /// otherwise, None where there is none at this place.
-    fn change_input(&mut self, place: Place, order: u32, t: f64, change: impl FnOnce(&mut Signal)) -> Option<bool>;
-    /// Hear where a communication step ended.
-    fn step_to(&mut self, end: &Kinematics<f64>);
-    /// Whether any of them extrapolates inputs.
-    fn extrapolates(&self) -> bool;
-    /// Hear that a communication step begins at time `t` [s].
-    fn step_from(&mut self, t: f64);
-    /// Extrapolate the input of this number over the step that begins.
-    fn extrapolate(&mut self, number: usize, signal: &mut Signal);
-    /// Each input that may be extrapolated.
-    fn for_each_extrapolated(&mut self, act: &mut impl FnMut(&mut Signal));
-    /// Each input.
-    fn for_each_signal(&mut self, act: &mut impl FnMut(&mut Signal));
-    /// Takes the inputs of other effects of the same list.
-    fn hear(&mut self, other: &Self);
-    /// Switches the effect at this place on, where it has a switch.
-    fn switch_on(&mut self, block: u32);
+
+    #[inline(always)]
+    fn own_rates<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S], _rates: &mut [S]) {}
+
+    #[inline(always)]
+    fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
+        None
+    }
+
+    #[inline(always)]
+    fn nth(&self, _n: usize) -> Option<&dyn Block> {
+        None
+    }
+
+    #[inline(always)]
+    fn nth_mut(&mut self, _n: usize) -> Option<&mut dyn Block> {
+        None
+    }
+
+    #[inline(always)]
+    fn kind(_n: usize) -> Option<&'static Kind> {
+        None
+    }
+
+    #[inline(always)]
+    fn number_of(_block: u32) -> Option<[usize; 2]> {
+        None
+    }
+}
+
+/// What an effect does that has these states, called: over a scalar with derivatives its law is too long to stand in every sum.
+#[inline(never)]
+fn called<E: Effect, S: Scalar>(effect: &E, motion: &Motion<S>) -> Act<S> {
+    effect.act(motion)
+}
+
+/// An effect and the rest of the list.
+impl<H: Member, T: Effects> Effects for (H, T) {
+    const FACTS: Facts = {
+        let rest = T::FACTS;
+        let most = H::Effect::MOST_EXTRAPOLATED;
+        Facts {
+            count: 1 + rest.count,
+            own: H::Effect::OWN + rest.own,
+            switched: H::SWITCHED || rest.switched,
+            could_work: H::Effect::COULD_WORK || rest.could_work,
+            shapes: H::Effect::SHAPES || rest.shapes,
+            follows_phi: H::Effect::FOLLOWS_PHI || rest.follows_phi,
+            imposes: H::Effect::IMPOSES || rest.imposes,
+            extrapolated: inputs_extrapolated::<H::Effect>() + rest.extrapolated,
+            most_extrapolated: if most < rest.most_extrapolated { most } else { rest.most_extrapolated },
+        }
+    };
+
+    #[inline(always)]
+    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S> {
+        let (mine, others) = own.split_at(H::Effect::OWN);
+        let rest = self.1.act(motion, others);
+        let seen = Motion::new(motion, mine);
+        match self.0.active() {
+            Some(effect) if S::LONG => called(effect, &seen) + rest,
+            Some(effect) => effect.act(&seen) + rest,
+            None => rest,
+        }
+    }
+
+    #[inline(always)]
+    fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]) {
+        let (mine, others) = own.split_at(H::Effect::OWN);
+        let (to, other_rates) = rates.split_at_mut(H::Effect::OWN);
+        if H::Effect::OWN > 0
+            && let Some(effect) = self.0.active()
+        {
+            to.copy_from_slice(&effect.act(&Motion::new(motion, mine)).own[..H::Effect::OWN]);
+        }
+        self.1.own_rates(motion, others, other_rates);
+    }
+
+    #[inline(always)]
+    fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]> {
+        self.0.active().and_then(|effect| effect.imposed(t)).or_else(|| self.1.imposed(t))
+    }
+
+    #[inline(always)]
+    fn nth(&self, n: usize) -> Option<&dyn Block> {
+        if n == 0 { Some(&self.0) } else { self.1.nth(n - 1) }
+    }
+
+    #[inline(always)]
+    fn nth_mut(&mut self, n: usize) -> Option<&mut dyn Block> {
+        if n == 0 { Some(&mut self.0) } else { self.1.nth_mut(n - 1) }
+    }
+
+    #[inline(always)]
+    fn kind(n: usize) -> Option<&'static Kind> {
+        if n == 0 { Some(const { &H::KIND }) } else { T::kind(n - 1) }
+    }
+
+    #[inline(always)]
+    fn number_of(block: u32) -> Option<[usize; 2]> {
+        if block == H::KIND.block {
+            return Some([0, 0]);
+        }
+        T::number_of(block).map(|[n, own]| [n + 1, own + H::Effect::OWN])
+    }
 }

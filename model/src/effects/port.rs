@@ -1,9 +1,8 @@
 //! `port`: force and moment from outside at a station, and the motion that goes with them.
 
-use super::{Effect, Row, Terminal, Wrench};
+use super::{Act, Effect, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::Kinematics;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, RADIAN, RADIAN_PER_SECOND};
 use crate::variable::{Bound, input, output, parameter};
 use nalgebra::Vector3;
@@ -22,8 +21,8 @@ pub struct Port {
 impl Port {
     /// Force [N] and moment [N·m].
     #[inline(always)]
-    fn given<S: Scalar>(&self, motion: &Kinematics<S>) -> [Vector3<S>; 2] {
-        let now = |signal: &Signal| signal.at::<S>(motion.t);
+    fn given<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
+        let now = |signal: &Signal| signal.at::<S>(motion.t());
         [self.f.map(|signal| now(&signal)), self.m.map(|signal| now(&signal))]
     }
 }
@@ -44,27 +43,29 @@ impl Effect for Port {
         output!("v.y", &METRE_PER_SECOND, "velocity of the station, y", |p, m| m.station_velocity(p.position).y),
         output!("v.z", &METRE_PER_SECOND, "velocity of the station, z", |p, m| m.station_velocity(p.position).z),
         output!("theta.x", &RADIAN, "axial angle phi", |_, m| m.phi()),
-        output!("theta.y", &RADIAN, "transverse Euler vector, y", |_, m| m.tilt.gamma().x),
-        output!("theta.z", &RADIAN, "transverse Euler vector, z", |_, m| m.tilt.gamma().y),
-        output!("omega.x", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, x", |_, m| m.omega.x),
-        output!("omega.y", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, y", |_, m| m.omega.y),
-        output!("omega.z", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, z", |_, m| m.omega.z),
+        output!("theta.y", &RADIAN, "transverse Euler vector, y", |_, m| m.lean().x),
+        output!("theta.z", &RADIAN, "transverse Euler vector, z", |_, m| m.lean().y),
+        output!("omega.x", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, x", |_, m| m.omega().x),
+        output!("omega.y", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, y", |_, m| m.omega().y),
+        output!("omega.z", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, z", |_, m| m.omega().z),
     ];
 
     const TERMINAL: Option<Terminal> =
         Some(Terminal { kind: "split-rotor.Port", flows: &["f.x", "f.y", "f.z", "m.x", "m.y", "m.z"] });
 
     #[inline(always)]
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let [force, moment] = self.given(motion);
-        // eq. 66: M_c = p t×F + M
-        Wrench::at_station(motion, self.position, force) + Wrench::couple(moment)
+        Act {
+            // eq. 66: M_c = p t×F + M
+            load: Wrench::at_station(motion, self.position, force) + Wrench::couple(moment),
+            // eq. 66: P = F·v_s + M·ω
+            supply: force.dot(&motion.station_velocity(self.position)) + moment.dot(motion.omega()),
+            ..Act::none()
+        }
     }
 
-    #[inline(always)]
-    fn supply<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let [force, moment] = self.given(motion);
-        // eq. 66: P = F·v_s + M·ω
-        force.dot(&motion.station_velocity(self.position)) + moment.dot(&motion.omega)
+    fn follows_speed(&self) -> bool {
+        false
     }
 }

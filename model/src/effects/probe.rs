@@ -22,7 +22,5 @@ impl Effect for Probe {
 
     const PUSHES: bool = false;
 
-    const FOLLOWS_PLACE: bool = false;
-
     const COULD_WORK: bool = false;
 }

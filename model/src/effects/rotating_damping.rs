@@ -1,8 +1,7 @@
 //! `rotating_damping`: a damper that turns with the rotor.
 
-use super::{Effect, Row, Wrench};
+use super::{Act, Effect, Motion, Row, Wrench};
 use crate::scalar::Scalar;
-use crate::state::Kinematics;
 use crate::variable::units::{METRE, NEWTON_SECOND_PER_METRE};
 use crate::variable::{Bound, parameter};
 use nalgebra::Vector3;
@@ -19,8 +18,8 @@ pub struct RotatingDamping {
 impl RotatingDamping {
     /// dq/dt − Ω e×q, Ω = e·ω, the velocity of the station in the turning axes [m/s].
     #[inline(always)]
-    fn slip<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
-        let (q, v, speed) = (motion.station(self.position), motion.station_velocity(self.position), motion.omega.x);
+    fn slip<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
+        let (q, v, speed) = (motion.station(self.position), motion.station_velocity(self.position), motion.omega().x);
         Vector3::new(S::zero(), v.y + speed * q.z, v.z - speed * q.y)
     }
 }
@@ -37,22 +36,19 @@ impl Effect for RotatingDamping {
         parameter!(position, &METRE, Some(0.0), Bound::Finite, "place along t from c"),
     ];
 
-    const FOLLOWS_PLACE: bool = false;
-
     #[inline(always)]
-    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let (q, slip) = (motion.station(self.position), self.slip(motion));
         // eq. 64: F = −d (dq/dt − Ω e×q), and the couple −e·(q×F) along e
         let force = slip * S::constant(-self.d);
         let couple = -q.yz().perp(&force.yz());
-        Wrench::at_station(motion, self.position, force) + Wrench::couple(Vector3::new(couple, S::zero(), S::zero()))
-    }
-
-    #[inline(always)]
-    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let slip = self.slip(motion);
-        // eq. 64: P = d |dq/dt − Ω e×q|²
-        slip.dot(&slip) * S::constant(self.d)
+        let couple = Wrench::couple(Vector3::new(couple, S::zero(), S::zero()));
+        Act {
+            damping: Wrench::at_station(motion, self.position, force) + couple,
+            // eq. 64: P = d |dq/dt − Ω e×q|²
+            loss: slip.dot(&slip) * S::constant(self.d),
+            ..Act::none()
+        }
     }
 
     fn works(&self) -> bool {

@@ -1,8 +1,7 @@
 //! `support`: the paper's spring block at the rod's end a, with damping of our own.
 
-use super::{Effect, Row, Wrench};
+use super::{Act, Effect, Motion, Row, Wrench};
 use crate::scalar::Scalar;
-use crate::state::Kinematics;
 use crate::variable::units::{
     NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
     NEWTON_SECOND_PER_METRE,
@@ -26,36 +25,36 @@ pub struct Support {
 impl Support {
     /// Force of the springs at a [N], and their moment against tilt [N·m].
     #[inline(always)]
-    fn springs<S: Scalar>(&self, motion: &Kinematics<S>) -> [Vector3<S>; 2] {
-        let to_origin = motion.lever(motion.body.l) - motion.r_c();
+    fn springs<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
+        let to_origin = motion.lever(motion.l()) - motion.r_c();
         // eq. 14: F = −c1 r_a, M = −c2 γ
-        [to_origin * S::constant(self.c1), -across(motion.tilt.gamma() * S::constant(self.c2))]
+        [to_origin * S::constant(self.c1), -across(motion.lean() * S::constant(self.c2))]
     }
 
     /// Force of the dampers at a [N], and their moment against tilt [N·m].
     #[inline(always)]
-    fn dampers<S: Scalar>(&self, motion: &Kinematics<S>) -> [Vector3<S>; 2] {
+    fn dampers<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
         // eq. 14: F = −d1 v_a, M = −d2 t×(dt/dt)
         [
-            motion.station_velocity(-motion.body.l) * S::constant(-self.d1),
+            motion.station_velocity(-motion.l()) * S::constant(-self.d1),
             motion.axis().cross(&motion.axis_rate()) * S::constant(-self.d2),
         ]
     }
 
     /// A force at a [N] and a moment [N·m] as a wrench.
     #[inline(always)]
-    fn wrench<S: Scalar>(motion: &Kinematics<S>, [force, moment]: [Vector3<S>; 2]) -> Wrench<S> {
+    fn wrench<S: Scalar>(motion: &Motion<S>, [force, moment]: [Vector3<S>; 2]) -> Wrench<S> {
         // eq. 14: M_c = F×l t + M
-        Wrench { force, moment: force.cross(&motion.lever(motion.body.l)) + moment }
+        Wrench { force, moment: force.cross(&motion.lever(motion.l())) + moment }
     }
 
     /// Force on the rotor at a [N].
-    fn force<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+    fn force<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         self.springs(motion)[0] + self.dampers(motion)[0]
     }
 
     /// Moment against tilt [N·m].
-    fn moment<S: Scalar>(&self, motion: &Kinematics<S>) -> Vector3<S> {
+    fn moment<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         self.springs(motion)[1] + self.dampers(motion)[1]
     }
 }
@@ -81,27 +80,18 @@ impl Effect for Support {
     ];
 
     #[inline(always)]
-    fn load<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        Self::wrench(motion, self.springs(motion))
-    }
-
-    #[inline(always)]
-    fn damping<S: Scalar>(&self, motion: &Kinematics<S>) -> Wrench<S> {
-        if self.works() { Self::wrench(motion, self.dampers(motion)) } else { Wrench::zero() }
-    }
-
-    #[inline(always)]
-    fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let (r_a, gamma) = (motion.station(-motion.body.l), motion.tilt.gamma());
-        // eq. 15: V = ½ c1 |r_a|² + ½ c2 |γ|²
-        r_a.dot(&r_a) * S::constant(0.5 * self.c1) + gamma.dot(&gamma) * S::constant(0.5 * self.c2)
-    }
-
-    #[inline(always)]
-    fn loss<S: Scalar>(&self, motion: &Kinematics<S>) -> S {
-        let (v_a, t_rate) = (motion.station_velocity(-motion.body.l), motion.axis_rate());
-        // eq. 16: P = d1 |v_a|² + d2 |dt/dt|²
-        v_a.dot(&v_a) * S::constant(self.d1) + t_rate.dot(&t_rate) * S::constant(self.d2)
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
+        let (r_a, lean) = (motion.station(-motion.l()), motion.lean());
+        let (v_a, t_rate) = (motion.station_velocity(-motion.l()), motion.axis_rate());
+        Act {
+            load: Self::wrench(motion, self.springs(motion)),
+            damping: if self.works() { Self::wrench(motion, self.dampers(motion)) } else { Wrench::zero() },
+            // eq. 15: V = ½ c1 |r_a|² + ½ c2 |γ|²
+            stored: r_a.dot(&r_a) * S::constant(0.5 * self.c1) + lean.dot(&lean) * S::constant(0.5 * self.c2),
+            // eq. 16: P = d1 |v_a|² + d2 |dt/dt|²
+            loss: v_a.dot(&v_a) * S::constant(self.d1) + t_rate.dot(&t_rate) * S::constant(self.d2),
+            ..Act::none()
+        }
     }
 
     fn needs_gamma(&self) -> bool {

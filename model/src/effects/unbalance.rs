@@ -35,8 +35,6 @@ impl Effect for Unbalance {
 
     const PUSHES: bool = false;
 
-    const FOLLOWS_PLACE: bool = false;
-
     const COULD_WORK: bool = false;
 
     const SHAPES: bool = true;

@@ -1,5 +1,6 @@
 //! A force and a moment.
 
+use super::Motion;
 use crate::scalar::Scalar;
 use crate::state::Kinematics;
 use nalgebra::Vector3;
@@ -25,8 +26,8 @@ impl<S: Scalar> Wrench<S> {
 
     /// A force [N] at the mass centre G of the whole.
     #[inline(always)]
-    pub fn at_centre(motion: &Kinematics<S>, force: Vector3<S>) -> Self {
-        match motion.to_centre {
+    pub fn at_centre(motion: &Motion<S>, force: Vector3<S>) -> Self {
+        match motion.to_centre() {
             None => Self { force, ..Self::zero() },
             // eq. 73: M_c = L b×F
             Some(to_centre) => Self { force, moment: to_centre.cross(&force) },
@@ -42,7 +43,7 @@ impl<S: Scalar> Wrench<S> {
 
     /// A force [N] at the station at `p` [m] along t from c.
     #[inline(always)]
-    pub fn at_station(motion: &Kinematics<S>, p: f64, force: Vector3<S>) -> Self {
+    pub fn at_station(motion: &Motion<S>, p: f64, force: Vector3<S>) -> Self {
         // eq. 60: M_c = p t×F
         Self { force, moment: motion.lever(p).cross(&force) }
     }

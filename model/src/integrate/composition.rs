@@ -38,7 +38,7 @@ pub trait Splitting<const N: usize>: System<N> {
     fn flow<'s>(&'s self, y: &[f64; N], composition: &Composition, h: f64) -> Self::Flow<'s>;
 
     /// [`System::roundings`] of one part of a step of size `h` [s] from `y`.
-    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
+    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
         self.roundings(y, h)
     }
 
@@ -104,7 +104,7 @@ const ALL: [&Composition; 4] = [&STRANG, &SUZUKI, &SOFRONIOU, &KAHAN];
 pub struct Composed<const N: usize> {
     composition: &'static Composition,
     /// What its steps must keep; None where their size is given.
-    tolerance: Option<Tolerance>,
+    tolerance: Option<Tolerance<N>>,
     sizes: Sizes<N>,
     /// Size of a step [s].
     size: f64,
@@ -171,16 +171,17 @@ impl<const N: usize> Composed<N> {
     /// The same with steps that keep the tolerance.
     pub fn start_within(
         composition: &'static Composition,
-        tolerance: Tolerance,
+        tolerance: Tolerance<N>,
         system: &impl System<N>,
         t: f64,
         y: [f64; N],
     ) -> Self {
         let tolerance = tolerance.times(SHARE);
-        let rate = system.rates(t, &y);
+        let rate = system.rates_of_all(t, &y);
         let sizes = Sizes::at_start(&tolerance, system, &y, &rate);
-        let weights = sizes.weights(&tolerance, &system.roundings(&y, f64::INFINITY), &sizes.seen(system, &y, &rate));
-        let speed = largest_square(&system.parts(&y, &rate), &weights).sqrt();
+        let weights =
+            sizes.weights(system, &tolerance, &system.roundings(&y, f64::INFINITY), &sizes.seen(system, &y, &rate));
+        let speed = largest_square(system, &system.parts(&y, &rate), &weights).sqrt();
         // In which some size changes by a hundredth; what is too long is rejected.
         let size = (0.01 / (tolerance.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t));
         Self { tolerance: Some(tolerance), sizes, ..Self::start(composition, size, t, y) }
@@ -301,18 +302,18 @@ impl<const N: usize> Composed<N> {
         let halves = middle.and_then(|middle| self.followed(system, self.t + 0.5 * h, &middle, 0.5 * h));
         let Ok(halves) = halves else { return Some(0.5) };
         let end = self.t + h;
-        let rate = system.rates(end, y);
+        let rate = system.rates_of_all(end, y);
         self.cost.evaluations += 1.0;
         let seen = self.sizes.seen(system, y, &rate);
         let sums = self.composition.parts().count() as f64;
         let rounded = system.roundings_of_parts(&self.y, h).map(|square| square * sums * sums);
         let noise = noise(&rounded);
         let rounded = rounded.map(|square| square * SUMS * SUMS);
-        let weights = self.sizes.weights(&tolerance, &rounded, &seen);
+        let weights = self.sizes.weights(system, &tolerance, &rounded, &seen);
         // eq. 45
         let apart = system.apart(y, &halves);
         let parts = system.parts(&self.y, &apart);
-        let error = largest_square(&parts, &weights).sqrt();
+        let error = largest_square(system, &parts, &weights).sqrt();
         if !error.is_finite() {
             return Some(0.5);
         }
@@ -320,11 +321,11 @@ impl<const N: usize> Composed<N> {
         if error > 1.0 {
             return Some(factor(error).max(0.1));
         }
-        self.sizes.take(&seen, 1.0);
+        self.sizes.take(system, &seen, 1.0);
         self.cost.error_estimate += SHARE * error;
         // What rounding alone may do says nothing of the step.
         let told = std::array::from_fn(|group| if parts[group] > noise[group] { parts[group] } else { 0.0 });
-        Some(factor(largest_square(&told, &weights).sqrt()).clamp(1.0, MOST_GROWTH))
+        Some(factor(largest_square(system, &told, &weights).sqrt()).clamp(1.0, MOST_GROWTH))
     }
 
     /// One step of size `h` [s], wherever it ends.

@@ -18,7 +18,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub struct Explicit<const N: usize> {
     tableau: &'static Tableau,
-    tolerance: Tolerance,
+    tolerance: Tolerance<N>,
     sizes: Sizes<N>,
     controller: Controller,
     cost: Cost,
@@ -44,7 +44,7 @@ impl<const N: usize> Explicit<N> {
     /// Starts at time `t` [s] and state `y`.
     pub fn start(
         tableau: &'static Tableau,
-        tolerance: Tolerance,
+        tolerance: Tolerance<N>,
         system: &impl System<N>,
         t: f64,
         y: [f64; N],
@@ -132,7 +132,7 @@ impl<const N: usize> Explicit<N> {
         if is_within {
             // The sizes of what lies ahead are forgotten.
             self.sizes = sizes;
-            self.sizes.take(&sizes.seen(system, &y, self.rate()), (t - start) / h);
+            self.sizes.take(system, &sizes.seen(system, &y, self.rate()), (t - start) / h);
         }
     }
 
@@ -200,7 +200,7 @@ impl<const N: usize> Explicit<N> {
                 Some(Fault::Refused { t: self.t, reason: refusal })
             } else {
                 let share = if self.h < 0.999 * wish { self.h / wish } else { 1.0 };
-                self.accept(end, y, error, &seen, share);
+                self.accept(system, end, y, error, &seen, share);
                 if share < 1.0 {
                     // What was cut short says little about the step that may follow.
                     self.h = self.h.max(wish);
@@ -218,20 +218,20 @@ impl<const N: usize> Explicit<N> {
         self.h = h;
         self.k[0] = self.k[self.tableau.last];
         let Attempt { y, seen, .. } = self.attempt::<false>(system);
-        self.accept(self.t + h, y, 0.0, &seen, 1.0);
+        self.accept(system, self.t + h, y, 0.0, &seen, 1.0);
         self.h = h;
     }
 
     fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {
         self.cost.evaluations += 1.0;
-        system.rates(t, y)
+        system.rates_of_all(t, y)
     }
 
-    fn accept(&mut self, end: f64, y: [f64; N], error: f64, seen: &Squares, share: f64) {
+    fn accept(&mut self, system: &impl System<N>, end: f64, y: [f64; N], error: f64, seen: &Squares<N>, share: f64) {
         let segment = &mut self.segment;
         (segment.t, segment.h, segment.y, segment.dense) = (self.t, self.h, self.y, false);
         segment.sizes = self.sizes;
-        self.sizes.take(seen, share);
+        self.sizes.take(system, seen, share);
         if segment.rough {
             // Only such a step is read by what an answer keeps.
             (segment.rough, segment.answer) = (false, Answer::none());
@@ -249,7 +249,7 @@ impl<const N: usize> Explicit<N> {
     fn first_step(&mut self, system: &impl System<N>) -> f64 {
         let (t, y, rate) = (self.t, self.y, self.k[self.tableau.last]);
         let weights = self.weights(system, f64::INFINITY, &self.sizes.seen(system, &y, &rate));
-        let norm = |v: &[f64; N]| largest_square(&system.parts(&y, v), &weights).sqrt();
+        let norm = |v: &[f64; N]| largest_square(system, &system.parts(&y, v), &weights).sqrt();
         let speed = norm(&rate);
         // In which time some size changes by a hundredth.
         let trial = (0.01 / (self.tolerance.relative * speed)).min(LONGEST_TRIAL);
@@ -263,8 +263,8 @@ impl<const N: usize> Explicit<N> {
 
     /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
     #[inline(always)]
-    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
-        self.sizes.weights(&self.tolerance, &system.roundings(&self.y, h), seen)
+    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares<N>) -> Squares<N> {
+        self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, h), seen)
     }
 }
 
@@ -275,5 +275,5 @@ struct Attempt<const N: usize> {
     /// The norm of its error in units of the tolerance [1], or 0 where it is not asked for.
     error: f64,
     /// The sizes of the motion there.
-    seen: Squares,
+    seen: Squares<N>,
 }

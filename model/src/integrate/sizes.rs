@@ -6,26 +6,29 @@ use super::lanes::{both, nothing, pair, pairs, put, sum};
 use crate::stored::stored;
 use std::ops::Range;
 
-/// A state has at most so many groups, each of which is measured by one norm.
-pub const GROUPS: usize = 9;
-
-/// The square of each group's norm, in the square of its unit.
-pub type Squares = [f64; GROUPS];
+/// The square of each group's norm, in the square of its unit: the first [`System::GROUPS`] count.
+pub type Squares<const N: usize> = [f64; N];
 
 /// How small the error of a step must be.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Tolerance {
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance<const N: usize> {
     /// Relative to the size of each group [1].
     pub relative: f64,
     /// No error below this counts.
-    pub absolute: Squares,
+    pub absolute: Squares<N>,
     /// What a group counts with at least, where nothing is known of its motion yet.
-    pub nominal: Squares,
+    pub nominal: Squares<N>,
 }
 
-stored!(Tolerance { relative, absolute, nominal });
+stored!(Tolerance<const N: usize> { relative, absolute, nominal });
 
-impl Tolerance {
+impl<const N: usize> Default for Tolerance<N> {
+    fn default() -> Self {
+        Self { relative: 0.0, absolute: [0.0; N], nominal: [0.0; N] }
+    }
+}
+
+impl<const N: usize> Tolerance<N> {
     /// So many times as loose.
     pub fn times(self, factor: f64) -> Self {
         let absolute = self.absolute.map(|square| square * factor * factor);
@@ -39,9 +42,9 @@ pub struct Sizes<const N: usize> {
     /// The state from which excursions are counted.
     pub origin: [f64; N],
     /// Of late.
-    recent: Squares,
+    recent: Squares<N>,
     /// Ever.
-    largest: Squares,
+    largest: Squares<N>,
 }
 
 stored!(Sizes<const N: usize> { origin, recent, largest });
@@ -57,17 +60,17 @@ const ROUNDING: f64 = 3e-16;
 
 impl<const N: usize> Sizes<N> {
     /// Of a motion that begins at `y`, where its rate is `rate`.
-    pub fn at_start(tolerance: &Tolerance, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Self {
+    pub fn at_start(tolerance: &Tolerance<N>, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Self {
         let largest = larger_of(&tolerance.nominal, &system.sizes(y, rate, y));
         let recent = largest.map(|square| LEAST * LEAST * square);
         let mut sizes = Self { origin: *y, recent, largest };
-        sizes.take(&system.sizes(y, rate, y), 0.0);
+        sizes.take(system, &system.sizes(y, rate, y), 0.0);
         sizes
     }
 
     /// Nothing yet: a place for what was stored.
     pub fn blank() -> Self {
-        Self { origin: [0.0; N], recent: [0.0; GROUPS], largest: [0.0; GROUPS] }
+        Self { origin: [0.0; N], recent: [0.0; N], largest: [0.0; N] }
     }
 
     /// From now on excursions of these components count from 0.
@@ -77,16 +80,16 @@ impl<const N: usize> Sizes<N> {
 
     /// The sizes of the motion at `y`.
     #[inline(always)]
-    pub fn seen(&self, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Squares {
+    pub fn seen(&self, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Squares<N> {
         system.sizes(y, rate, &self.origin)
     }
 
     /// Goes on to where the motion has the sizes `seen`, over this `share` of a whole step [1].
     #[inline(always)]
-    pub fn take(&mut self, seen: &Squares, share: f64) {
+    pub fn take<F: System<N>>(&mut self, _system: &F, seen: &Squares<N>, share: f64) {
         // eq. 80, KEPT^share to first order
         let kept = 1.0 - (1.0 - KEPT * KEPT) * share;
-        for p in 0..pairs(GROUPS) {
+        for p in 0..pairs(F::GROUPS) {
             let now = pair(seen, p);
             let largest = pair(&self.largest, p).max(now);
             let least = largest * both(LEAST * LEAST);
@@ -99,13 +102,23 @@ impl<const N: usize> Sizes<N> {
     /// What the square of one unit of each group's error counts in a step to where the sizes are `seen` that rounds numbers as large as
     /// `rounded`.
     #[inline(always)]
-    pub fn weights(&self, tolerance: &Tolerance, rounded: &Squares, seen: &Squares) -> Squares {
-        let mut weights = [0.0; GROUPS];
-        for p in 0..pairs(GROUPS) {
+    pub fn weights<F: System<N>>(
+        &self,
+        _system: &F,
+        tolerance: &Tolerance<N>,
+        rounded: &Squares<N>,
+        seen: &Squares<N>,
+    ) -> Squares<N> {
+        let mut weights = [0.0; N];
+        for p in 0..pairs(F::GROUPS) {
             // eq. 22: sc = max(rtol·S, atol·n, ε·R)
             let size = pair(&self.recent, p).max(pair(seen, p)) * both(tolerance.relative * tolerance.relative);
             let rounded = pair(rounded, p) * both(ROUNDING * ROUNDING);
             put(&mut weights, p, both(1.0) / size.max(pair(&tolerance.absolute, p)).max(rounded));
+        }
+        // The last pair may reach beyond the groups.
+        if F::GROUPS < N {
+            weights[F::GROUPS] = 0.0;
         }
         weights
     }
@@ -113,9 +126,9 @@ impl<const N: usize> Sizes<N> {
 
 /// The largest of all groups' errors, whose squares are `parts`, squared [1]; not a number where one is not.
 #[inline(always)]
-pub fn largest_square(parts: &Squares, weights: &Squares) -> f64 {
+pub fn largest_square<F: System<N>, const N: usize>(_system: &F, parts: &Squares<N>, weights: &Squares<N>) -> f64 {
     let (mut most, mut all) = (both(0.0), nothing());
-    for p in 0..pairs(GROUPS) {
+    for p in 0..pairs(F::GROUPS) {
         let weighed = pair(parts, p) * pair(weights, p);
         most = most.max(weighed);
         all += weighed;
@@ -127,7 +140,7 @@ pub fn largest_square(parts: &Squares, weights: &Squares) -> f64 {
 }
 
 /// The squares of what rounding takes from numbers whose squares are `rounded`.
-pub fn noise(rounded: &Squares) -> Squares {
+pub fn noise<const N: usize>(rounded: &Squares<N>) -> Squares<N> {
     rounded.map(|square| square * (ROUNDING * ROUNDING))
 }
 
@@ -136,6 +149,6 @@ fn larger(a: f64, b: f64) -> f64 {
 }
 
 /// The larger of two, group by group.
-pub fn larger_of(a: &Squares, b: &Squares) -> Squares {
+pub fn larger_of<const N: usize>(a: &Squares<N>, b: &Squares<N>) -> Squares<N> {
     std::array::from_fn(|group| larger(a[group], b[group]))
 }

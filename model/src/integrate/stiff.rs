@@ -9,7 +9,7 @@ pub mod spectrum;
 use super::answer::Answer;
 use super::control::Controller;
 use super::power::power;
-use super::sizes::{GROUPS, Sizes, Squares, larger_of, largest_square};
+use super::sizes::{Sizes, Squares, larger_of, largest_square};
 use super::{Cost, Fault, LEAST_FIRST, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::stored;
@@ -27,10 +27,10 @@ pub trait Differentiable<const N: usize>: System<N> {
 #[derive(Clone, Debug)]
 pub struct Stiff<const N: usize> {
     /// Of the error estimate, which is of order 3.
-    tolerance: Tolerance,
+    tolerance: Tolerance<N>,
     sizes: Sizes<N>,
     /// Of what Newton's method leaves.
-    newton: Tolerance,
+    newton: Tolerance<N>,
     controller: Controller,
     cost: Cost,
     /// The time reached [s], the state there and its rate.
@@ -94,7 +94,7 @@ const FEW_ITERATIONS: u32 = 4;
 
 impl<const N: usize> Stiff<N> {
     /// Starts at time `t` [s] and state `y`.
-    pub fn start(tolerance: Tolerance, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
+    pub fn start(tolerance: Tolerance<N>, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
         // The estimate falls with h⁴ and the error of a run with h⁵: what the one calls c tol^(4/5) the other keeps to tol.
         let looser = LOOSER / power(tolerance.relative, 0.2);
         let within = tolerance.times(looser);
@@ -111,7 +111,7 @@ impl<const N: usize> Stiff<N> {
         method.segment.sizes = method.sizes;
         // In which some size changes by a hundredth; what is too long is rejected.
         let weights = method.weights(system, f64::INFINITY, &method.sizes.seen(system, &y, &method.rate));
-        let speed = largest_square(&system.parts(&y, &method.rate), &weights).sqrt();
+        let speed = largest_square(system, &system.parts(&y, &method.rate), &weights).sqrt();
         method.h = (0.01 / (within.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t));
         method
     }
@@ -178,7 +178,7 @@ impl<const N: usize> Stiff<N> {
         if is_within {
             // The sizes of what lies ahead are forgotten.
             self.sizes = sizes;
-            self.sizes.take(&sizes.seen(system, &y, &self.rate), (t - start) / h);
+            self.sizes.take(system, &sizes.seen(system, &y, &self.rate), (t - start) / h);
         }
     }
 
@@ -248,7 +248,7 @@ impl<const N: usize> Stiff<N> {
                 Some(Fault::Refused { t: self.t, reason })
             } else {
                 let share = if self.h < 0.999 * wish { self.h / wish } else { 1.0 };
-                self.accept(end, jacobian, Attempt { z, error, rate, seen }, share);
+                self.accept(system, end, jacobian, Attempt { z, error, rate, seen }, share);
                 if share < 1.0 {
                     // What was cut short says little about the step that may follow.
                     self.h = self.h.max(wish);
@@ -266,7 +266,7 @@ impl<const N: usize> Stiff<N> {
         self.h = h;
         let jacobian = self.differentiate(system);
         let attempt = self.attempt(system, self.t + h, &jacobian);
-        self.accept(self.t + h, jacobian, Attempt { error: 0.0, ..attempt }, 1.0);
+        self.accept(system, self.t + h, jacobian, Attempt { error: 0.0, ..attempt }, 1.0);
         self.h = h;
     }
 
@@ -290,7 +290,7 @@ impl<const N: usize> Stiff<N> {
 
     fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {
         self.cost.evaluations += 1.0;
-        system.rates(t, y)
+        system.rates_of_all(t, y)
     }
 
     /// The Jacobian for a step of size h.
@@ -306,7 +306,7 @@ impl<const N: usize> Stiff<N> {
         let collocation = Collocation::new(jacobian, self.h, system.depended_on());
         let guess = self.extrapolated();
         let Some(z) = self.solve(system, self.t, self.y, &collocation, guess) else {
-            return Attempt { z: guess, error: f64::NAN, rate: self.rate, seen: [0.0; GROUPS] };
+            return Attempt { z: guess, error: f64::NAN, rate: self.rate, seen: [0.0; N] };
         };
         let y = self.ended(&z);
         let rate = self.evaluate(system, end, &y);
@@ -316,8 +316,8 @@ impl<const N: usize> Stiff<N> {
     }
 
     /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
-    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
-        self.sizes.weights(&self.tolerance, &system.roundings(&self.y, h), seen)
+    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares<N>) -> Squares<N> {
+        self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, h), seen)
     }
 
     /// The stages that the polynomial of the last step leads to.
@@ -359,7 +359,7 @@ impl<const N: usize> Stiff<N> {
             let [from, to] = [y, end].map(|y| system.roundings(&y, collocation.h));
             let rounded = larger_of(&from, &to).map(|square| square * SUMS * SUMS);
             // As large as the motion was of late: a stage that is still wrong may be of any size.
-            let weights = self.sizes.weights(&self.newton, &rounded, &[0.0; GROUPS]);
+            let weights = self.sizes.weights(system, &self.newton, &rounded, &[0.0; N]);
             let change = collocation.newton(&rates, &w);
             for i in 0..STAGES {
                 for n in 0..N {
@@ -367,7 +367,7 @@ impl<const N: usize> Stiff<N> {
                 }
             }
             z = radau::T.map(|row| combined(&row, &w));
-            let squares = change.map(|change| largest_square(&system.parts(&y, &change), &weights));
+            let squares = change.map(|change| largest_square(system, &system.parts(&y, &change), &weights));
             let now = (squares.iter().sum::<f64>() / STAGES as f64).sqrt();
             // What is left, by the rate at which the changes shrink.
             let rate = if iteration == 0 { 0.5 } else { now / before };
@@ -389,10 +389,10 @@ impl<const N: usize> Stiff<N> {
         system: &impl System<N>,
         collocation: &Collocation<N>,
         z: &[[f64; N]; STAGES],
-        seen: &Squares,
+        seen: &Squares<N>,
     ) -> f64 {
         let (y, weights) = (self.y, self.weights(system, self.h, seen));
-        let norm = |error: &[f64; N]| largest_square(&system.parts(&y, error), &weights).sqrt();
+        let norm = |error: &[f64; N]| largest_square(system, &system.parts(&y, error), &weights).sqrt();
         let estimate = combined(&ERROR, z).map(|sum| sum / self.h);
         // eq. 44: (γ/h I − J) err = f(t, y) + Σ e_i z_i/h
         let error = collocation.filtered(&std::array::from_fn(|n| self.rate[n] + estimate[n]));
@@ -410,12 +410,12 @@ impl<const N: usize> Stiff<N> {
     }
 
     /// Goes on to time `end` [s], over this `share` of a whole step [1].
-    fn accept(&mut self, end: f64, jacobian: [[f64; N]; N], attempt: Attempt<N>, share: f64) {
+    fn accept(&mut self, system: &impl System<N>, end: f64, jacobian: [[f64; N]; N], attempt: Attempt<N>, share: f64) {
         let Attempt { z, error, rate, seen } = attempt;
         let y = self.ended(&z);
         self.segment = Segment { t: self.t, h: self.h, y: self.y, jacobian, sizes: self.sizes, z, ..Segment::blank() };
         (self.t, self.y, self.rate) = (end, y, rate);
-        self.sizes.take(&seen, share);
+        self.sizes.take(system, &seen, share);
         self.smooth = true;
         self.cost.steps += 1.0;
         self.cost.error_estimate += error;
@@ -432,7 +432,7 @@ struct Attempt<const N: usize> {
     error: f64,
     /// The rate of the state at its end, and the sizes of the motion there.
     rate: [f64; N],
-    seen: Squares,
+    seen: Squares<N>,
 }
 
 impl<const N: usize> Segment<N> {

@@ -6,13 +6,26 @@ use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::sizes::Squares;
 use crate::rotation::Tilt;
-use crate::state::{COORDINATES, Coordinates, DISSIPATED, SUPPLIED, WITH_WORK};
+use crate::state::{COORDINATES, Coordinates, own, rigid, work};
 use nalgebra::Vector3;
 
+/// How many there are, beside the own states, which come first, each a group of its own.
+pub const RIGID: usize = 9;
 /// The number of γ among them.
 pub const GAMMA: usize = 6;
 /// The number of φ.
 pub const PHI: usize = 7;
+
+/// The own states' squares and those of the rigid motion.
+#[inline(always)]
+pub(crate) fn squares<const N: usize>(y: &[f64; N], rigid: [f64; RIGID]) -> Squares<N> {
+    let mut squares = [0.0; N];
+    for n in 0..own(N) {
+        squares[n] = y[n] * y[n];
+    }
+    squares[own(N)..][..RIGID].copy_from_slice(&rigid);
+    squares
+}
 
 /// |v|² along e and across it.
 #[inline(always)]
@@ -20,38 +33,40 @@ fn split(v: &Vector3<f64>) -> [f64; 2] {
     [v.x * v.x, v.y * v.y + v.z * v.z]
 }
 
-impl<E: Effects> Rotor<E> {
+impl<E: Effects> Rotor<'_, E> {
     /// [`System::sizes`]: how far c and γ are from where they are counted from, how fast the axis turns, 1 rad for φ, and for work
     /// the kinetic energy, or up to twice as much.
     ///
     /// What happens along e is second order in what happens across it, and counts beside that. Where the mass centre is off the axis,
     /// r and v go round with it; what c does beside that may be far less, and then φ must be known as well.
     #[inline(always)]
-    pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
-        let [at, rate, origin] = [y, rate, origin].map(|y| Coordinates::from_slice(y));
+    pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares<N> {
+        let [at, rate, origin] = [y, rate, origin].map(|y| Coordinates::from_slice(rigid(y)));
         let (mut way, mut speed, mut phi) = (at.r - origin.r, at.v, 1.0);
-        let centre = self.body.asymmetric.map_or_else(Vector3::zeros, |asymmetric| asymmetric.centre);
+        let centre = self.frame.body.asymmetric.map_or_else(Vector3::zeros, |asymmetric| asymmetric.centre);
         let eccentricity = split(&centre)[1];
         if eccentricity > 0.0 {
-            let [now, then] = [at, origin].map(|at| Tilt::new(self.chart, at.gamma).attitude(at.phi));
+            let [now, then] = [at, origin].map(|at| Tilt::new(self.frame.chart, at.gamma).attitude(at.phi));
             // eq. 79: r_c − r_c0 = r − r0 − (R − R0) b, v_c = v − dφ/dt t×R b
             way -= (now - then) * centre;
             speed -= now.column(0).cross(&(now * centre)) * rate.phi;
             phi = (split(&way)[1] / eccentricity).min(1.0);
         }
         let ([x, r], [vx, v]) = (split(&way), split(&speed));
-        let jt = 1.0 / self.body.per_jt;
+        let jt = 1.0 / self.frame.body.per_jt;
         // eq. 84: |K| along K, Jt |dγ/dt| across it
         let across = rate.gamma.norm_squared() * (jt * jt);
         let (k, tilt) = (at.k.norm_squared(), (at.gamma - origin.gamma).norm_squared());
-        let kinetic = 0.5 * (self.body.m * at.v.norm_squared() + k * (self.body.per_jt + larger(self.body.spin, 0.0)));
-        [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic]
+        let kinetic = 0.5
+            * (self.frame.body.m * at.v.norm_squared()
+                + k * (self.frame.body.per_jt + larger(self.frame.body.spin, 0.0)));
+        squares(y, [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic])
     }
 
     /// [`System::parts`].
     #[inline(always)]
-    pub(super) fn parts_of<const N: usize>(&self, y: &[f64; N], change: &[f64; N]) -> Squares {
-        let (k, by) = (Coordinates::from_slice(y).k, Coordinates::from_slice(change));
+    pub(super) fn parts_of<const N: usize>(&self, y: &[f64; N], change: &[f64; N]) -> Squares<N> {
+        let (k, by) = (Coordinates::from_slice(rigid(y)).k, Coordinates::from_slice(rigid(change)));
         let ([x, r], [vx, v]) = (split(&by.r), split(&by.v));
         let square = k.norm_squared();
         let (dot, cross) = (k.dot(&by.k), k.cross(&by.k).norm_squared());
@@ -59,24 +74,24 @@ impl<E: Effects> Rotor<E> {
         let [along, across] =
             if square > 0.0 { [dot * dot / square, cross / square] } else { [0.0, by.k.norm_squared()] };
         // As a quadrature it has no part in the error.
-        let phi = if System::<N>::depended_on(self) == COORDINATES { by.phi * by.phi } else { 0.0 };
-        let [supplied, dissipated] = if N == WITH_WORK { [change[SUPPLIED], change[DISSIPATED]] } else { [0.0, 0.0] };
+        let phi = if System::<N>::depended_on(self) == own(N) + COORDINATES { by.phi * by.phi } else { 0.0 };
+        let [supplied, dissipated] = work(change);
         let work = supplied * supplied + dissipated * dissipated;
-        [x, r, vx, v, along, across, by.gamma.norm_squared(), phi, work]
+        squares(change, [x, r, vx, v, along, across, by.gamma.norm_squared(), phi, work])
     }
 
     /// [`System::roundings`]: a velocity is known no better than the place over the step allows.
     #[inline(always)]
-    pub(super) fn roundings_of<const N: usize>(&self, y: &[f64; N], h: f64) -> Squares {
-        let at = Coordinates::from_slice(y);
+    pub(super) fn roundings_of<const N: usize>(&self, y: &[f64; N], h: f64) -> Squares<N> {
+        let at = Coordinates::from_slice(rigid(y));
         let ([x, r], [vx, v], k) = (split(&at.r), split(&at.v), at.k.norm_squared());
-        let (per_h, jt, gamma) = (1.0 / (h * h), 1.0 / self.body.per_jt, at.gamma.norm_squared());
+        let (per_h, jt, gamma) = (1.0 / (h * h), 1.0 / self.frame.body.per_jt, at.gamma.norm_squared());
         // eq. 85: q² = |r|² + |γ|² Jt/m
-        let q = r + gamma * (jt * self.body.per_m);
-        let turning = k + q * per_h * (jt * self.body.m);
-        let [supplied, dissipated] = if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] };
+        let q = r + gamma * (jt * self.frame.body.per_m);
+        let turning = k + q * per_h * (jt * self.frame.body.m);
+        let [supplied, dissipated] = work(y);
         let work = supplied * supplied + dissipated * dissipated;
-        [x, r, vx + x * per_h, v + q * per_h, turning, turning, gamma, at.phi * at.phi, work]
+        squares(y, [x, r, vx + x * per_h, v + q * per_h, turning, turning, gamma, at.phi * at.phi, work])
     }
 }
 

@@ -7,20 +7,20 @@ use crate::energy::kinetic;
 use crate::integrate::{Cost, Refusal};
 use crate::rotation::Chart;
 use crate::rotation::chart::crossed_exactly;
-use crate::rotor::{LIMIT, Rotor};
-use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK, Whole};
+use crate::rotor::{Frame, LIMIT};
+use crate::state::{Coordinates, GAMMA, PHI, SUPPLIED, rigid, rigid_mut};
 use crate::stored::stored;
-use crate::variables::{LARGEST_PHI, Parameters, Reading};
+use crate::variables::{Instant, LARGEST_PHI, Parameters};
 use nalgebra::Vector2;
 
 /// A rotor whose state a host sets.
 #[derive(Clone)]
-pub struct Exchange<E> {
-    rotor: Rotor<E>,
+pub struct Exchange<const N: usize> {
+    frame: Frame,
     /// [s]
     t: f64,
     /// φ with all its turns but those that it gains beside the chart from −e, which the rotor's `turns` count.
-    state: Whole<f64>,
+    state: [f64; N],
     /// Where the last completed step ended.
     completed: Completed,
     /// The kinetic energy at the event that the host is at [J]; None between events.
@@ -32,7 +32,7 @@ pub struct Exchange<E> {
     watch: Watch,
 }
 
-stored!(Exchange<E: Effects> { rotor, t, state, completed, at_event, total_at_start, tilted, watch });
+stored!(Exchange<const N: usize> { frame, t, state, completed, at_event, total_at_start, tilted, watch });
 
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
@@ -66,26 +66,25 @@ impl Settled {
 /// Into so many pieces the way between two completed steps is cut to count turns.
 const PIECES: u32 = 32;
 
-impl<E: Effects> Exchange<E> {
+impl<const N: usize> Exchange<N> {
     /// From a motion that shows `reading` at its start.
-    pub(super) fn start(start: Motion<E>, reading: &Reading) -> Self {
-        let Motion { rotor, state } = start;
-        let total_at_start = reading.ledger.total_at_start;
-        let t = reading.motion.t;
-        let mut exchange = Self { rotor, t, state, total_at_start, ..Self::blank() };
-        exchange.completed = exchange.here();
-        exchange.at_event = Some(exchange.kinetic());
-        exchange.watch_tilt();
-        exchange.watch.look(&exchange.rotor, t, &state);
+    pub(super) fn start<E: Effects>(effects: &E, start: &Motion<N>, instant: &Instant<N>) -> Self {
+        let Motion { frame, state, .. } = *start;
+        let (total_at_start, t) = (instant.reading.ledger.total_at_start, instant.reading.motion.t);
+        let mut exchange = Self { frame, t, state, total_at_start, ..Self::blank() };
+        exchange.completed = exchange.here(effects);
+        exchange.at_event = Some(exchange.kinetic(effects));
+        exchange.watch_tilt(effects);
+        exchange.watch.look(&frame.under(effects), t, &state);
         exchange
     }
 
     /// Nothing yet: a place for what was stored.
     pub(super) fn blank() -> Self {
         Self {
-            rotor: Rotor::default(),
+            frame: Frame::default(),
             t: 0.0,
-            state: [0.0; WITH_WORK],
+            state: [0.0; N],
             completed: Completed::default(),
             at_event: None,
             total_at_start: 0.0,
@@ -95,8 +94,8 @@ impl<E: Effects> Exchange<E> {
     }
 
     /// Whether a run of these parameters can be this one: what was saved may have been altered.
-    pub(super) fn is_of(&self, parameters: &Parameters<E>) -> bool {
-        self.rotor.body == parameters.shape().inertia()
+    pub(super) fn is_of<E: Effects>(&self, parameters: &Parameters<E>) -> bool {
+        self.frame.is_of(&parameters.shape().inertia(), &parameters.effects)
     }
 
     /// The time [s].
@@ -120,117 +119,114 @@ impl<E: Effects> Exchange<E> {
     }
 
     /// The state.
-    pub fn state(&self) -> Whole<f64> {
-        self.state
+    pub fn state(&self) -> &[f64; N] {
+        &self.state
     }
 
-    /// The host's state: its first numbers, or all.
-    pub fn set_state(&mut self, state: &[f64]) {
-        self.state[..state.len()].copy_from_slice(state);
-    }
-
-    /// Takes the inputs of these effects.
-    pub fn hear(&mut self, effects: &E) {
-        self.rotor.effects.hear(effects);
+    /// The state, to be set by the host.
+    pub fn state_mut(&mut self) -> &mut [f64; N] {
+        &mut self.state
     }
 
     /// Whether anything can be calculated of the present state.
-    pub fn admits(&self) -> Result<(), Refusal> {
+    pub(super) fn admits<E: Effects>(&self, effects: &E) -> Result<(), Refusal> {
         if !self.state.iter().all(|number| number.is_finite()) {
             return Err(Refusal("a state is infinite or not a number"));
         }
-        if self.state[PHI].abs() > LARGEST_PHI {
+        if rigid(&self.state)[PHI].abs() > LARGEST_PHI {
             return Err(Refusal("phi of the continuous states is so large that its whole turns cannot be counted"));
         }
-        self.rotor.reaches(gamma(&self.state), LIMIT)
+        self.frame.under(effects).reaches(gamma(&self.state), LIMIT)
     }
 
     /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
-    pub fn complete_step(&mut self) -> bool {
-        self.rotor.turns = self.turns();
-        self.completed = self.here();
-        self.watch_tilt();
-        self.watch.look(&self.rotor, self.t, &self.state);
-        self.rotor.chart.is_left_at(self.completed.gamma)
+    pub(super) fn complete_step<E: Effects>(&mut self, effects: &E) -> bool {
+        self.frame.turns = self.turns(effects);
+        self.completed = self.here(effects);
+        self.watch_tilt(effects);
+        self.watch.look(&self.frame.under(effects), self.t, &self.state);
+        self.frame.chart.is_left_at(self.completed.gamma)
     }
 
     /// An event begins.
-    pub fn enter_event(&mut self) {
-        self.at_event = Some(self.kinetic());
+    pub(super) fn enter_event<E: Effects>(&mut self, effects: &E) {
+        self.at_event = Some(self.kinetic(effects));
     }
 
     /// The event is over.
-    pub fn leave_event(&mut self) {
+    pub(super) fn leave_event(&mut self) {
         self.at_event = None;
     }
 
     /// At an event: goes on in the other chart where this one is left, and books the work of a jump. What of the state
     /// that changed.
-    pub fn settle(&mut self) -> Settled {
-        let settled = Settled { work: self.book_jump(), chart: self.settle_chart() };
+    pub(super) fn settle<E: Effects>(&mut self, effects: &E) -> Settled {
+        let settled = Settled { work: self.book_jump(effects), chart: self.settle_chart(effects) };
         if self.at_event.is_some() {
-            self.enter_event();
+            self.enter_event(effects);
         }
         settled
     }
 
     /// A jump of an imposed speed supplies the jump of kinetic energy. Between events it could not be told from a host's
     /// trials, so only those at events are booked. Whether there was one.
-    fn book_jump(&mut self) -> bool {
+    fn book_jump<E: Effects>(&mut self, effects: &E) -> bool {
         let Some(before) = self.at_event else { return false };
-        let jump = self.kinetic() - before;
-        if !E::IMPOSES || jump == 0.0 {
+        let jump = self.kinetic(effects) - before;
+        if !E::FACTS.imposes || jump == 0.0 {
             return false;
         }
-        self.state[SUPPLIED] += jump;
+        rigid_mut(&mut self.state)[SUPPLIED] += jump;
         true
     }
 
     /// [J]
-    fn kinetic(&self) -> f64 {
-        kinetic(&self.rotor.motion(self.t, &self.state))
+    fn kinetic<E: Effects>(&self, effects: &E) -> f64 {
+        kinetic(&self.frame.under(effects).motion(self.t, &self.state))
     }
 
     /// Goes on in the other chart where this one is left, which changes the state. Whether it did.
-    fn settle_chart(&mut self) -> bool {
-        let chart = self.rotor.chart;
+    fn settle_chart<E: Effects>(&mut self, effects: &E) -> bool {
+        let chart = self.frame.chart;
         let now = gamma(&self.state);
         if !chart.is_left_at(now) {
             return false;
         }
-        let phi = chart.axial_angle(self.turns(), self.state[PHI], now);
+        let turns = self.turns(effects);
+        let rigid = rigid_mut(&mut self.state);
+        let phi = chart.axial_angle(turns, rigid[PHI], now);
         let crossed = crossed_exactly(now);
-        self.rotor.chart = chart.other();
-        self.state[PHI] = self.rotor.chart.own_angle(phi, crossed).radians();
-        self.state[GAMMA].copy_from_slice(crossed.as_slice());
-        self.rotor.turns = 0.0;
-        self.completed = self.here();
+        self.frame.chart = chart.other();
+        rigid[PHI] = self.frame.chart.own_angle(phi, crossed).radians();
+        rigid[GAMMA].copy_from_slice(crossed.as_slice());
+        self.frame.turns = 0.0;
+        self.completed = self.here(effects);
         true
     }
 
     /// What the present state shows.
-    pub(super) fn read(&self) -> Reading {
-        let motion = self.rotor.motion(self.t, &self.state).when(self.t, self.turns());
-        let work = [self.state[SUPPLIED], self.state[DISSIPATED]];
-        Reading::new(motion, &self.rotor.effects, work, self.total_at_start, Cost::default())
+    pub(super) fn read<E: Effects>(&self, effects: &E) -> Instant<N> {
+        let motion = self.frame.under(effects).motion(self.t, &self.state).when(self.t, self.turns(effects));
+        Instant::new(motion, self.state, effects, self.total_at_start, Cost::default())
     }
 
     /// The turns that go with the present γ: those that it gained since the last completed step. A host that completes no
     /// step while γ goes around the origin loses count.
-    fn turns(&self) -> f64 {
+    fn turns<E: Effects>(&self, effects: &E) -> f64 {
         let mut last = self.completed.gamma;
-        let gained = self.path().map(|gamma| self.rotor.chart.turns_gained(std::mem::replace(&mut last, gamma), gamma));
+        let gained =
+            self.path(effects).map(|gamma| self.frame.chart.turns_gained(std::mem::replace(&mut last, gamma), gamma));
         let gained = gained.sum::<f64>();
         // Near −e a rate may have no limit; a host's state there is refused, and counts no turn.
-        self.rotor.turns + if gained.is_finite() { gained } else { 0.0 }
+        self.frame.turns + if gained.is_finite() { gained } else { 0.0 }
     }
 
     /// The way of γ [rad] since the last completed step, in pieces.
-    fn path(&self) -> impl Iterator<Item = Vector2<f64>> {
-        let (start, end) = (self.completed, self.here());
+    fn path<E: Effects>(&self, effects: &E) -> impl Iterator<Item = Vector2<f64>> {
+        let (start, end) = (self.completed, self.here(effects));
         let h = end.t - start.t;
         // From e nothing happens on the way.
-        let pieces = if self.rotor.chart == Chart::FromE { 1 } else { PIECES };
+        let pieces = if self.frame.chart == Chart::FromE { 1 } else { PIECES };
         (1..=pieces).map(move |piece| {
             let s = f64::from(piece) / f64::from(pieces);
             let r = 1.0 - s;
@@ -241,17 +237,16 @@ impl<E: Effects> Exchange<E> {
     }
 
     /// Where the motion is now.
-    fn here(&self) -> Completed {
-        let motion = self.rotor.motion(self.t, &self.state);
+    fn here<E: Effects>(&self, effects: &E) -> Completed {
+        let motion = self.frame.under(effects).motion(self.t, &self.state);
         Completed { t: self.t, gamma: motion.at.gamma, rate: motion.gamma_rate() }
     }
 
-    fn watch_tilt(&mut self) {
-        let gamma = Coordinates::from_slice(&self.state).gamma;
-        self.tilted |= self.rotor.chart.is_tilted_back(gamma) && self.rotor.effects.needs_gamma();
+    fn watch_tilt<E: Effects>(&mut self, effects: &E) {
+        self.tilted |= self.frame.chart.is_tilted_back(gamma(&self.state)) && effects.needs_gamma();
     }
 }
 
-fn gamma(state: &Whole<f64>) -> Vector2<f64> {
-    Coordinates::from_slice(state).gamma
+fn gamma<const N: usize>(state: &[f64; N]) -> Vector2<f64> {
+    Coordinates::from_slice(rigid(state)).gamma
 }

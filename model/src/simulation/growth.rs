@@ -2,8 +2,8 @@
 
 use crate::effects::Effects;
 use crate::integrate::stiff::Differentiable;
-use crate::rotor::Rotor;
-use crate::state::{Coordinates, PHI};
+use crate::rotor::{Frame, Rotor};
+use crate::state::{Coordinates, PHI, own, rigid};
 use crate::stored::stored;
 use nalgebra::linalg::Schur;
 use nalgebra::{Complex, Normed, SMatrix, SVector};
@@ -19,7 +19,8 @@ pub(super) struct Watch {
 
 stored!(Watch { known, found });
 
-/// The equations without φ and the work.
+/// The equations without φ, the work and the own states, which hold on their own: a motor does not make a whirl grow at a
+/// steady speed.
 const LINEAR: usize = PHI;
 
 /// |K| has changed much by this part of itself, and of what nutates as fast as the fastest motion [1].
@@ -43,30 +44,32 @@ impl Watch {
     }
 
     /// Looks at the rotor at time `t` [s] and state `y`, if that is due.
-    pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<E>, t: f64, y: &[f64; N]) {
-        let momentum = Coordinates::from_slice(y).k.norm();
+    pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
+        let momentum = Coordinates::from_slice(rigid(y)).k.norm();
         let [low, high] = self.known;
         if self.found.is_some() || (low..high).contains(&momentum) {
             return;
         }
         let (fastest, growth) = Self::growth(rotor, t, y);
-        let much = MUCH * (momentum + fastest / rotor.body.per_jt);
+        let much = MUCH * (momentum + fastest / rotor.frame.body.per_jt);
         self.known = [momentum - much, momentum + much];
         self.found = growth.map(|rate| (rate, t));
     }
 
     /// The fastest rate of the linear equations [rad/s], and how fast a motion grows [1/s], if one does.
-    fn growth<E: Effects, const N: usize>(rotor: &Rotor<E>, t: f64, y: &[f64; N]) -> (f64, Option<f64>) {
+    fn growth<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> (f64, Option<f64>) {
         const ITERATIONS: usize = 1000;
-        let excess = rotor.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
+        let excess = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
         // The balanced rotor: what an unbalance adds turns with it.
-        let balanced = Rotor::new(rotor.body.symmetric(), rotor.effects.clone(), rotor.chart, rotor.turns);
+        let Frame { body, chart, turns, .. } = rotor.frame;
+        let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
         let jacobian = balanced.jacobian(t, y);
         let tilting = balanced.motion(t, y).gamma_rate().norm();
-        let matrix = SMatrix::<f64, LINEAR, LINEAR>::from_fn(|i, j| jacobian[i][j]);
+        let first = own(N);
+        let matrix = SMatrix::<f64, LINEAR, LINEAR>::from_fn(|i, j| jacobian[first + i][first + j]);
         let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS);
         let rates: SVector<Complex<f64>, LINEAR> = match schur {
-            Some(schur) if excess <= ASYMMETRIC * rotor.body.per_jt => schur.complex_eigenvalues(),
+            Some(schur) if excess <= ASYMMETRIC * rotor.frame.body.per_jt => schur.complex_eigenvalues(),
             _ => return (f64::INFINITY, None),
         };
         let fastest = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);

@@ -10,22 +10,22 @@ use crate::energy::{Ledger, kinetic};
 use crate::integrate::{Cost, Fault, Refusal, Tolerance};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart};
-use crate::rotor::{self, Rotor, imposed};
-use crate::state::{Coordinates, DISSIPATED, GAMMA, PHI, SUPPLIED, WITH_WORK};
+use crate::rotor::{self, Frame, Rotor};
+use crate::state::{Coordinates, GAMMA, Kinematics, PHI, SUPPLIED, own, rigid, rigid_mut, work};
 use crate::stored::{Damaged, Stored, Walk, stored, whole};
-use crate::variables::{Parameters, Reading, Setup};
+use crate::variables::{Instant, Parameters, Setup};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
 /// A rotor with N equations, its method, and how far its answers are wanted.
 #[derive(Clone)]
-pub(super) struct Integration<E, const N: usize> {
-    /// The rotor, in the chart and with the whole turns of the time that the method has reached.
-    rotor: Rotor<E>,
+pub(super) struct Integration<const N: usize> {
+    /// The chart and the whole turns of the time that the method has reached.
+    frame: Frame,
     method: Method<N>,
     /// Where it is that of `auto`.
     auto: Option<Auto>,
-    tolerance: Tolerance,
+    tolerance: Tolerance<N>,
     /// So many evaluations a communication step may take.
     most: f64,
     last: LastStep,
@@ -37,11 +37,31 @@ pub(super) struct Integration<E, const N: usize> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
     watch: Watch,
+    /// Where an input was set since the last communication step.
+    held: Option<Held<N>>,
 }
 
-stored!(Integration<E: Effects, const N: usize> {
-    rotor, method, auto, tolerance, most, last, t, stop, total_at_start, tilted, watch
+stored!(Integration<const N: usize> {
+    frame, method, auto, tolerance, most, last, t, stop, total_at_start, tilted, watch, held
 });
+
+/// The communication point as it was before an input was set there.
+#[derive(Clone, Copy)]
+struct Held<const N: usize> {
+    y: [f64; N],
+    chart: Chart,
+    turns: f64,
+    /// Kinetic energy [J], which a jump of an imposed speed changes.
+    kinetic: f64,
+}
+
+stored!(Held<const N: usize> { y, chart, turns, kinetic });
+
+impl<const N: usize> Default for Held<N> {
+    fn default() -> Self {
+        Self { y: [0.0; N], chart: Chart::default(), turns: 0.0, kinetic: 0.0 }
+    }
+}
 
 /// What must be known of the last step to read it.
 #[derive(Clone, Copy, Default)]
@@ -96,18 +116,23 @@ const TOO_LONG: Refusal = Refusal(
              solver.step_size, or where it is 0, tighten solver.relative_tolerance or take another solver.method",
 );
 
-impl<E: Effects, const N: usize> Integration<E, N> {
+impl<const N: usize> Integration<N> {
     /// A integration from time `t` [s] of a motion that shows `reading` at its start, for `span` [s], where that is known.
-    pub(super) fn start(start: Motion<E>, reading: &Reading, setup: &Setup, t: f64, span: Option<f64>) -> Self {
-        let tolerance = tolerance(setup, &start, t);
-        let Motion { rotor, state } = start;
-        let mut y = [0.0; N];
-        y.copy_from_slice(&state[..N]);
-        let plan = Plan::new(&setup.solver, &rotor.effects);
-        let method = Method::start(plan, tolerance, &rotor, t, y);
-        let last = LastStep { chart: rotor.chart, turns: rotor.turns, gamma: gamma(&y), closest: None };
+    pub(super) fn start<E: Effects>(
+        effects: &E,
+        start: &Motion<N>,
+        instant: &Instant<N>,
+        setup: &Setup,
+        span: Option<f64>,
+    ) -> Self {
+        let t = instant.reading.motion.t;
+        let tolerance = tolerance(setup, effects, start, t);
+        let Motion { frame, state: y, .. } = *start;
+        let plan = Plan::new(&setup.solver, effects);
+        let method = Method::start(plan, tolerance, &frame.under(effects), t, y);
+        let last = LastStep { chart: frame.chart, turns: frame.turns, gamma: gamma(&y), closest: None };
         let mut integration = Self {
-            rotor,
+            frame,
             method,
             auto: matches!(plan, Plan::Auto).then(Auto::default),
             tolerance,
@@ -115,18 +140,18 @@ impl<E: Effects, const N: usize> Integration<E, N> {
             last,
             t,
             stop: span.map_or(f64::INFINITY, |span| t + span),
-            total_at_start: reading.ledger.total_at_start,
+            total_at_start: instant.reading.ledger.total_at_start,
             ..Self::blank()
         };
-        integration.watch_tilt(last.gamma);
-        integration.watch.look(&integration.rotor, t, &y);
+        integration.watch_tilt(effects, last.gamma);
+        integration.watch.look(&frame.under(effects), t, &y);
         integration
     }
 
     /// Nothing yet: a place for what was stored.
     pub(super) fn blank() -> Self {
         Self {
-            rotor: Rotor::default(),
+            frame: Frame::default(),
             method: Method::blank(),
             auto: None,
             tolerance: Tolerance::default(),
@@ -137,14 +162,14 @@ impl<E: Effects, const N: usize> Integration<E, N> {
             total_at_start: 0.0,
             tilted: false,
             watch: Watch::default(),
+            held: None,
         }
     }
 
     /// Whether a run of these parameters can be this one: what was saved may have been altered.
-    pub(super) fn is_of(&self, parameters: &Parameters<E>) -> bool {
+    pub(super) fn is_of<E: Effects>(&self, parameters: &Parameters<E>) -> bool {
         let most = parameters.setup.solver.max_evaluations;
-        let works = N == WITH_WORK;
-        self.rotor.body == parameters.shape().inertia() && self.most == most && self.rotor.effects.works() == works
+        self.most == most && self.frame.is_of(&parameters.shape().inertia(), &parameters.effects)
     }
 
     /// The communication point [s].
@@ -162,33 +187,39 @@ impl<E: Effects, const N: usize> Integration<E, N> {
         self.watch.found()
     }
 
-    fn watch_tilt(&mut self, gamma: Vector2<f64>) {
-        self.tilted |= self.rotor.chart.is_tilted_back(gamma) && self.rotor.effects.needs_gamma();
+    fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {
+        self.tilted |= self.frame.chart.is_tilted_back(gamma) && effects.needs_gamma();
     }
 
-    /// Moves the communication point to time `t` [s], `news` being the effects whose inputs were set. On a fault it stands
-    /// at the last time reached.
-    pub(super) fn advance(&mut self, t: f64, news: Option<&E>) -> Result<(), Fault> {
-        assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
-        if let Some(effects) = news {
-            self.hear(effects)?;
+    /// An input will be set at the communication point, under these effects so far: what is there stays.
+    pub(super) fn hold<E: Effects>(&mut self, effects: &E) {
+        if self.held.is_none() {
+            let (y, chart, turns) = self.shown(effects);
+            let kinetic = if E::FACTS.imposes { kinetic(&self.motion_in(effects, chart, &y)) } else { 0.0 };
+            self.held = Some(Held { y, chart, turns, kinetic });
         }
+    }
+
+    /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
+    pub(super) fn advance<E: Effects>(&mut self, effects: &E, t: f64) -> Result<(), Fault> {
+        assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
-        let until = if news.is_some() { t } else { self.stop.max(t) };
+        let until = if self.held.is_some() { t } else { self.stop.max(t) };
+        self.go_back(effects)?;
         if self.method.time() >= t {
             self.t = t;
             return Ok(());
         }
         if !matches!(self.method, Method::Composed(_)) {
-            return self.run_to(t, until);
+            return self.run_to(effects, t, until);
         }
-        let before = (self.t, self.method.clone(), self.last, self.rotor.chart, self.rotor.turns);
-        let outcome = self.run_to(t, until);
+        let before = (self.t, self.method.clone(), self.last, self.frame);
+        let outcome = self.run_to(effects, t, until);
         // Where the motion is lost, what stands in its way has another cause.
-        if self.keeps_energy() {
+        if self.keeps_energy(effects) {
             return outcome;
         }
-        (self.t, self.method, self.last, self.rotor.chart, self.rotor.turns) = before;
+        (self.t, self.method, self.last, self.frame) = before;
         Err(Fault::Refused { t: self.t, reason: TOO_LONG })
     }
 
@@ -216,59 +247,63 @@ impl<E: Effects, const N: usize> Integration<E, N> {
 
     /// Steps up to time `t` [s] or past it, but not past `until` [s]; the communication point is then there, or where steps
     /// came to.
-    fn run_to(&mut self, t: f64, until: f64) -> Result<(), Fault> {
+    fn run_to<E: Effects>(&mut self, effects: &E, t: f64, until: f64) -> Result<(), Fault> {
         let most = self.method.cost().evaluations + self.most;
         self.method.limit_step(AHEAD * (t - self.t));
         while self.method.time() < t {
             if let Some(auto) = &mut self.auto
                 && auto.is_due()
             {
-                self.method.adapt(auto, self.tolerance, &self.rotor);
+                self.method.adapt(auto, self.tolerance, &self.frame.under(effects));
             }
-            if let Err(fault) = self.step(most, until) {
+            if let Err(fault) = self.step(effects, most, until) {
                 self.t = self.method.time();
                 return Err(fault);
             }
-            self.settle(t);
+            self.settle(effects, t);
         }
-        self.watch.look(&self.rotor, self.method.time(), self.method.state());
+        self.watch.look(&self.frame.under(effects), self.method.time(), self.method.state());
         self.t = t;
         Ok(())
     }
 
     /// Whether the motion reached has anything to do with the one asked for: steps of a given size estimate no error.
-    fn keeps_energy(&self) -> bool {
-        let ledger = self.ledger();
+    fn keeps_energy<E: Effects>(&self, effects: &E) -> bool {
+        let ledger = self.ledger(effects);
         let all = ledger.kinetic + ledger.potential.abs() + ledger.supplied.abs() + ledger.dissipated;
         ledger.residual().abs() <= LOST * (all + ledger.total_at_start.abs())
     }
 
     /// The ledger of the state that the method has reached.
-    fn ledger(&self) -> Ledger<f64> {
+    fn ledger<E: Effects>(&self, effects: &E) -> Ledger<f64> {
         let y = self.method.state();
-        let motion = self.rotor.motion(self.method.time(), y);
-        Ledger::new(&motion, &self.rotor.effects, work(y), self.total_at_start)
+        let motion = self.frame.under(effects).motion(self.method.time(), y);
+        Ledger::new(&motion, &y[..own(N)], effects, work(y), self.total_at_start)
     }
 
-    /// Goes on from the communication point with the inputs of these effects.
-    fn hear(&mut self, effects: &E) -> Result<(), Fault> {
-        let (mut y, chart, turns) = self.shown();
-        self.jump(effects, chart, &mut y);
-        self.rotor.effects.hear(effects);
-        (self.rotor.chart, self.rotor.turns) = (chart, turns);
-        self.method.go_back(&self.rotor, self.t, y);
-        self.watch_tilt(gamma(&y));
-        let reached = self.rotor.reaches(gamma(&y), Chart::REACH);
+    /// Where inputs were set, goes on from the communication point under these effects.
+    fn go_back<E: Effects>(&mut self, effects: &E) -> Result<(), Fault> {
+        let Some(held) = self.held.take() else { return Ok(()) };
+        let y = self.jumped(effects, &held);
+        (self.frame.chart, self.frame.turns) = (held.chart, held.turns);
+        self.method.go_back(&self.frame.under(effects), self.t, y);
+        self.watch_tilt(effects, gamma(&y));
+        let reached = self.frame.under(effects).reaches(gamma(&y), Chart::REACH);
         reached.map_err(|reason| Fault::Refused { t: self.t, reason })
     }
 
-    /// A jump of the imposed speed to that of these effects supplies the jump of kinetic energy.
-    fn jump(&self, effects: &E, chart: Chart, y: &mut [f64; N]) {
-        if E::IMPOSES && N == WITH_WORK {
-            let free = self.rotor.free_motion_in(chart, self.t, y);
-            let kinetic = |effects| kinetic(&imposed(effects, free));
-            y[SUPPLIED] += kinetic(effects) - kinetic(&self.rotor.effects);
+    /// The state that was held: a jump of the imposed speed to that of these effects supplies the jump of kinetic energy.
+    fn jumped<E: Effects>(&self, effects: &E, held: &Held<N>) -> [f64; N] {
+        let mut y = held.y;
+        if E::FACTS.imposes && self.frame.works() {
+            let now = kinetic(&self.motion_in(effects, held.chart, &y));
+            rigid_mut(&mut y)[SUPPLIED] += now - held.kinetic;
         }
+        y
+    }
+
+    fn motion_in<E: Effects>(&self, effects: &E, chart: Chart, y: &[f64; N]) -> Kinematics<f64> {
+        self.frame.under(effects).motion_in(chart, self.t, y)
     }
 
     /// A step that keeps to what the chart and the counting of turns allow.
@@ -276,14 +311,14 @@ impl<E: Effects, const N: usize> Integration<E, N> {
         let Some(rates) = self.method.rate() else { return };
         let (at, rate) = (gamma(self.method.state()), gamma(rates));
         // Mostly nothing limits the step, and products tell: divisions and roots would hold up the next step.
-        let (h, turning) = (self.method.next_step(), rates[PHI].abs());
+        let (h, turning) = (self.method.next_step(), rigid(rates)[PHI].abs());
         if h * turning > LONGEST_TURN {
             self.method.limit_step(LONGEST_TURN / turning);
         }
         // A nutation that nothing damps would grow out of rounding, unseen until it is as large as what moves the axis.
-        let nutation = Coordinates::from_slice(self.method.state()).k.norm_squared()
-            * self.rotor.body.per_jt
-            * self.rotor.body.per_jt;
+        let nutation = Coordinates::from_slice(rigid(self.method.state())).k.norm_squared()
+            * self.frame.body.per_jt
+            * self.frame.body.per_jt;
         if let Some(most) = self.method.swings()
             && nutation * h * h > most * most
         {
@@ -294,27 +329,28 @@ impl<E: Effects, const N: usize> Integration<E, N> {
         if !far || rate.norm_squared() * h * h >= LONGEST_TILT * LONGEST_TILT {
             self.method.limit_step((Chart::REACH - at.norm()).min(LONGEST_TILT) / rate.norm());
         }
-        if self.rotor.chart == Chart::FromMinusE {
+        if self.frame.chart == Chart::FromMinusE {
             // dβ/dt = e·(γ×dγ/dt)/|γ|²
             self.method.limit_step(LONGEST_WHIRL * at.norm_squared() / at.perp(&rate).abs());
         }
     }
 
-    fn step(&mut self, most: f64, until: f64) -> Result<(), Fault> {
+    fn step<E: Effects>(&mut self, effects: &E, most: f64, until: f64) -> Result<(), Fault> {
         self.limit_step();
+        let rotor = self.frame.under(effects);
         // Near −e a step can pass where it may not end; then it is taken back.
         let counts_turns = self.method.counts_turns();
-        let before = (self.rotor.chart == Chart::FromMinusE && self.rotor.effects.needs_gamma() && !counts_turns)
+        let before = (self.frame.chart == Chart::FromMinusE && effects.needs_gamma() && !counts_turns)
             .then(|| (self.method.clone(), self.last));
         let mut limit = f64::INFINITY;
         loop {
-            self.method.step(&self.rotor, most, until)?;
+            self.method.step(&rotor, most, until)?;
             let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
-            self.last = LastStep { chart: self.rotor.chart, turns: self.rotor.turns, gamma: from, closest: None };
+            self.last = LastStep { chart: self.frame.chart, turns: self.frame.turns, gamma: from, closest: None };
             let near = before.is_some() && from.norm().min(to.norm()) < NEAR;
             let turned = || !counts_turns && azimuth_change(from, to).abs() > MUCH;
-            if self.rotor.chart == Chart::FromMinusE && (near || turned()) {
-                self.last.closest = Some(self.closest_to_origin());
+            if self.frame.chart == Chart::FromMinusE && (near || turned()) {
+                self.last.closest = Some(self.closest_to_origin(&rotor));
             }
             match (&before, self.last.closest) {
                 (Some((method, last)), Some((_, closest))) if closest.norm() < rotor::FORBIDDEN => {
@@ -329,31 +365,32 @@ impl<E: Effects, const N: usize> Integration<E, N> {
     }
 
     /// After a step on the way to time `t` [s]: counts whole turns, and goes on in the other chart where this one is left.
-    fn settle(&mut self, t: f64) {
+    fn settle<E: Effects>(&mut self, effects: &E, t: f64) {
         let y = *self.method.state();
         let gamma = gamma(&y);
-        self.watch_tilt(gamma);
+        self.watch_tilt(effects, gamma);
         let turns = self.turns_at(self.method.time(), gamma);
-        let chart = self.rotor.chart;
+        let chart = self.frame.chart;
         if chart.is_left_at(gamma) {
             if t < self.method.time() {
                 // The last step is still to be read, in its own chart.
-                self.method.prepare_dense(&self.rotor);
+                self.method.prepare_dense(&self.frame.under(effects));
             }
-            let phi = chart.axial_angle(turns, y[PHI], gamma);
+            let phi = chart.axial_angle(turns, rigid(&y)[PHI], gamma);
             let crossed = crossed_exactly(gamma);
-            self.rotor.chart = chart.other();
-            let phi = self.rotor.chart.own_angle(phi, crossed);
-            self.rotor.turns = phi.turns;
+            self.frame.chart = chart.other();
+            let phi = self.frame.chart.own_angle(phi, crossed);
+            self.frame.turns = phi.turns;
             let mut y = y;
-            y[GAMMA].copy_from_slice(crossed.as_slice());
-            y[PHI] = phi.remainder;
-            self.method.go_on_from(&self.rotor, y);
-            self.method.recount(GAMMA);
+            let coordinates = rigid_mut(&mut y);
+            coordinates[GAMMA].copy_from_slice(crossed.as_slice());
+            coordinates[PHI] = phi.remainder;
+            self.method.go_on_from(&self.frame.under(effects), y);
+            self.method.recount(own(N) + GAMMA.start..own(N) + GAMMA.end);
         } else {
-            let phi = Angle { turns, remainder: y[PHI] }.wrapped();
-            self.rotor.turns = phi.turns;
-            self.method.replace(PHI, phi.remainder);
+            let phi = Angle { turns, remainder: rigid(&y)[PHI] }.wrapped();
+            self.frame.turns = phi.turns;
+            self.method.replace(own(N) + PHI, phi.remainder);
         }
     }
 
@@ -372,12 +409,12 @@ impl<E: Effects, const N: usize> Integration<E, N> {
     }
 
     /// When [s] and where [rad] γ came closest to the origin in the last step, by golden sections of its dense output.
-    fn closest_to_origin(&mut self) -> (f64, Vector2<f64>) {
+    fn closest_to_origin<E: Effects>(&mut self, rotor: &Rotor<'_, E>) -> (f64, Vector2<f64>) {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         const SECTIONS: u32 = 40;
         let (mut low, mut high) = (self.method.start_time(), self.method.time());
         let mut at = |t: f64| {
-            let gamma = gamma(&self.method.dense(&self.rotor, t));
+            let gamma = gamma(&self.method.dense(rotor, t));
             // Where kicks on the way there have no limit, the origin is near.
             (t, if gamma.norm().is_nan() { Vector2::zeros() } else { gamma })
         };
@@ -395,37 +432,31 @@ impl<E: Effects, const N: usize> Integration<E, N> {
         if a.1.norm_squared() < b.1.norm_squared() { a } else { b }
     }
 
-    /// The state at the communication point, its chart, and the whole turns of φ.
-    fn shown(&mut self) -> ([f64; N], Chart, f64) {
+    /// The state at the communication point, its chart, and the whole turns of φ, under the effects of the last step.
+    fn shown<E: Effects>(&mut self, effects: &E) -> ([f64; N], Chart, f64) {
         if self.t == self.method.time() {
-            return (*self.method.state(), self.rotor.chart, self.rotor.turns);
+            return (*self.method.state(), self.frame.chart, self.frame.turns);
         }
         // The rotor may have gone on in the other chart.
-        let chart = std::mem::replace(&mut self.rotor.chart, self.last.chart);
-        let y = self.method.dense(&self.rotor, self.t);
-        self.rotor.chart = chart;
+        let mut frame = self.frame;
+        frame.chart = self.last.chart;
+        let y = self.method.dense(&frame.under(effects), self.t);
         (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
     }
 
-    /// What the communication point shows, `news` being the effects whose inputs were set there.
-    pub(super) fn read(&mut self, news: Option<&E>) -> Reading {
-        let (mut y, chart, turns) = self.shown();
-        if let Some(effects) = news {
-            self.jump(effects, chart, &mut y);
-        }
-        let free = self.rotor.free_motion_in(chart, self.t, &y).when(self.t, turns);
-        let motion = imposed(news.unwrap_or(&self.rotor.effects), free);
+    /// What the communication point shows under these effects.
+    pub(super) fn read<E: Effects>(&mut self, effects: &E) -> Instant<N> {
+        let (y, chart, turns) = match &self.held {
+            Some(held) => (self.jumped(effects, held), held.chart, held.turns),
+            None => self.shown(effects),
+        };
+        let motion = self.motion_in(effects, chart, &y).when(self.t, turns);
         let spent = self.method.cost();
         let cost = Cost { error_estimate: spent.error_estimate * self.tolerance.relative, ..spent };
-        Reading::new(motion, &self.rotor.effects, work(&y), self.total_at_start, cost)
+        Instant::new(motion, y, effects, self.total_at_start, cost)
     }
 }
 
-fn gamma(y: &[f64]) -> Vector2<f64> {
-    Coordinates::from_slice(y).gamma
-}
-
-/// The work supplied and lost [J], where it is solved.
-fn work<const N: usize>(y: &[f64; N]) -> [f64; 2] {
-    if N == WITH_WORK { [y[SUPPLIED], y[DISSIPATED]] } else { [0.0, 0.0] }
+fn gamma<const N: usize>(y: &[f64; N]) -> Vector2<f64> {
+    Coordinates::from_slice(rigid(y)).gamma
 }

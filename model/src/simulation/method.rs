@@ -36,7 +36,7 @@ macro_rules! each {
 
 impl<const N: usize> Method<N> {
     /// The method of the plan, at time `t` [s] and state `y`.
-    pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance, rotor: &Rotor<E>, t: f64, y: [f64; N]) -> Self {
+    pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) -> Self {
         match plan {
             Plan::Explicit(tableau) => OfPair(Explicit::start(tableau, tolerance, rotor, t, y)),
             Plan::Auto => OfPair(Explicit::start(&DOP853, tolerance, rotor, t, y)),
@@ -49,7 +49,7 @@ impl<const N: usize> Method<N> {
     }
 
     /// Looks whether the other adaptive method would now do better, and goes on with it. The last step can then no more be read.
-    pub fn adapt<E: Effects>(&mut self, auto: &mut Auto, tolerance: Tolerance, rotor: &Rotor<E>) {
+    pub fn adapt<E: Effects>(&mut self, auto: &mut Auto, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>) {
         let (t, y, size) = (self.time(), *self.state(), System::<N>::depended_on(rotor));
         let jacobian = rotor.jacobian(t, &y);
         match self {
@@ -124,7 +124,7 @@ impl<const N: usize> Method<N> {
     }
 
     /// Goes back to a time `t` [s] within the last step, where the state is `y`.
-    pub fn go_back<E: Effects>(&mut self, rotor: &Rotor<E>, t: f64, y: [f64; N]) {
+    pub fn go_back<E: Effects>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) {
         match self {
             OfPair(method) => method.go_back(rotor, t, y),
             OfComposition(method) => method.go_back(t, y),
@@ -134,7 +134,7 @@ impl<const N: usize> Method<N> {
 
     /// Goes on from another description `y` of the state reached. What the last step's dense output needs of the old one
     /// must have been prepared.
-    pub fn go_on_from<E: Effects>(&mut self, rotor: &Rotor<E>, y: [f64; N]) {
+    pub fn go_on_from<E: Effects>(&mut self, rotor: &Rotor<'_, E>, y: [f64; N]) {
         match self {
             OfPair(method) => method.go_on_from(rotor, y),
             OfComposition(method) => method.go_on_from(y),
@@ -154,7 +154,7 @@ impl<const N: usize> Method<N> {
 
     /// One step forward of the method's own choice, but not past time `until` [s], while the run has taken at most `most`
     /// evaluations. Where none is possible, the method stands as before.
-    pub fn step<E: Effects>(&mut self, rotor: &Rotor<E>, most: f64, until: f64) -> Result<(), Fault> {
+    pub fn step<E: Effects>(&mut self, rotor: &Rotor<'_, E>, most: f64, until: f64) -> Result<(), Fault> {
         each!(self, method => method.step(rotor, most, until))
     }
 
@@ -164,14 +164,14 @@ impl<const N: usize> Method<N> {
     }
 
     /// Prepares the last step for [`Method::dense`] where the rotor will be written in another chart.
-    pub fn prepare_dense<E: Effects>(&mut self, rotor: &Rotor<E>) {
+    pub fn prepare_dense<E: Effects>(&mut self, rotor: &Rotor<'_, E>) {
         if let OfPair(method) = self {
             method.prepare_dense(rotor);
         }
     }
 
     /// The state at a time `t` [s] within the last step, of the rotor in the chart of that step.
-    pub fn dense<E: Effects>(&mut self, rotor: &Rotor<E>, t: f64) -> [f64; N] {
+    pub fn dense<E: Effects>(&mut self, rotor: &Rotor<'_, E>, t: f64) -> [f64; N] {
         each!(self, method => method.dense(rotor, t))
     }
 }

@@ -6,11 +6,12 @@ use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
-use crate::state::{Coordinates, GAMMA, WITH_WORK, Whole};
+use crate::rotor::groups::squares;
+use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
 
 /// One length [m] and one rate [rad/s], and what goes with them.
 #[derive(Clone, Copy, Debug)]
-pub struct Nominals {
+pub struct Nominals<const N: usize> {
     /// Of r [m].
     pub place: f64,
     /// Of v [m/s].
@@ -21,17 +22,21 @@ pub struct Nominals {
     pub tilt: f64,
     /// Of work [J].
     pub work: f64,
+    /// Of the own states, which come first.
+    pub own: [f64; N],
 }
 
 /// Of its radius of gyration a rotor moves so much where nothing else is known [1].
 const UNKNOWN: f64 = 1e-6;
 
-impl Nominals {
+impl<const N: usize> Nominals<N> {
     /// Of a motion that starts at time `t` [s].
-    pub(super) fn of<E: Effects>(Motion { rotor, state }: &Motion<E>, t: f64) -> Self {
-        let rates: Whole<f64> = rotor.rates(t, state);
-        let slopes: [[f64; WITH_WORK]; WITH_WORK] = rotor.jacobian(t, state);
-        let body = &rotor.body;
+    pub(super) fn of<E: Effects>(effects: &E, Motion { frame, state, own_nominal }: &Motion<N>, t: f64) -> Self {
+        let rotor = frame.under(effects);
+        let (rates, slopes) = (rotor.rates_of_all(t, state), rotor.jacobian(t, state));
+        let (rates, slopes) = (rigid(&rates), slopes.map(|slopes| rotated(slopes, own(N))));
+        let slopes = rigid(&slopes);
+        let body = &frame.body;
         let (jt, omega) = (1.0 / body.per_jt, rotor.motion(t, state).omega.norm());
         let radius = (jt * body.per_m).sqrt();
         // Across e, by number: the rate of v or K, and the place or tilt that a spring answers; in metres.
@@ -43,7 +48,7 @@ impl Nominals {
         // How far springs give way to what pushes at the start.
         let gives = springs.map(|(rate, at, _, length)| (rates[rate] / slopes[rate][at]).abs() * length);
         let eccentricity = body.asymmetric.map_or(0.0, |asymmetric| asymmetric.centre.yz().norm());
-        let at = Coordinates::from_slice(state);
+        let at = Coordinates::from_slice(rigid(state));
         let (offset, tilt, speed) = (at.r.yz().norm(), at.gamma.norm(), at.v.yz().norm() / rate);
         let known = gives.into_iter().chain([eccentricity, offset, tilt * radius, speed]);
         // What is smallest must still be seen.
@@ -52,26 +57,41 @@ impl Nominals {
         let place = if least.is_finite() { larger(least, unknown) } else { unknown };
         let tilt = place / radius;
         let velocity = rate * place;
-        Self { place, velocity, momentum: jt * rate * tilt, tilt, work: body.m * velocity * velocity }
+        Self {
+            place,
+            velocity,
+            momentum: jt * rate * tilt,
+            tilt,
+            work: body.m * velocity * velocity,
+            own: *own_nominal,
+        }
     }
 
     /// In the groups of [`crate::rotor::groups`], squared.
-    pub(super) fn squares(&self) -> Squares {
-        let Self { place, velocity, momentum, tilt, work } = *self;
-        [place, place, velocity, velocity, momentum, momentum, tilt, 1.0, work].map(|size| size * size)
+    pub(super) fn squares(&self) -> Squares<N> {
+        let Self { place, velocity, momentum, tilt, work, .. } = *self;
+        let groups = [place, place, velocity, velocity, momentum, momentum, tilt, 1.0, work];
+        squares(&self.own, groups.map(|size| size * size))
     }
 
     /// Of each number of the state.
-    pub(super) fn each(&self) -> Whole<f64> {
-        let Self { place, velocity, momentum, tilt, .. } = *self;
-        let mut nominals = [1.0; WITH_WORK];
-        for (n, nominal) in nominals[..GAMMA.end].iter_mut().enumerate() {
+    pub(super) fn each(&self) -> [f64; N] {
+        let Self { place, velocity, momentum, tilt, own: mut nominals, .. } = *self;
+        let rigid = rigid_mut(&mut nominals);
+        rigid.fill(1.0);
+        for (n, nominal) in rigid[..GAMMA.end].iter_mut().enumerate() {
             let size = [place, velocity, momentum, tilt][n / 3];
             // Of absurd parameters no size may come of it that a host cannot take.
             *nominal = if size > 0.0 && size.is_finite() { size } else { 1.0 };
         }
         nominals
     }
+}
+
+/// The derivatives along the own states last.
+fn rotated<const N: usize>(mut slopes: [f64; N], own: usize) -> [f64; N] {
+    slopes.rotate_left(own);
+    slopes
 }
 
 fn larger(a: f64, b: f64) -> f64 {

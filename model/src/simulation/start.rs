@@ -2,23 +2,25 @@
 
 use super::nominals::Nominals;
 use crate::effects::Effects;
-use crate::integrate::Tolerance;
+use crate::integrate::{Cost, Tolerance};
 use crate::rotation::{Angle, Chart, Tilt};
-use crate::rotor::Rotor;
-use crate::state::{Coordinates, PHI, WITH_WORK, Whole};
-use crate::variables::{Parameters, Setup, Solver};
+use crate::rotor::Frame;
+use crate::state::{Coordinates, PHI, own, rigid_mut};
+use crate::variables::{Instant, Parameters, Setup, Solver};
 
-/// A rotor and where it is.
-pub(super) struct Motion<E> {
+/// Where a rotor is, and how that is written.
+pub(super) struct Motion<const N: usize> {
     /// With the chart of the state and the whole turns of φ.
-    pub rotor: Rotor<E>,
+    pub frame: Frame,
     /// φ wrapped, no work done yet.
-    pub state: Whole<f64>,
+    pub state: [f64; N],
+    /// What the own states count with until they have been larger.
+    pub own_nominal: [f64; N],
 }
 
-impl<E: Effects> Motion<E> {
-    /// The motion at the start, at time `t` [s]; the parameters were checked.
-    pub(super) fn at_start(parameters: &Parameters<E>, t: f64) -> Self {
+impl<const N: usize> Motion<N> {
+    /// The motion at the start, at time `t` [s], of which the effects hear; the parameters were checked.
+    pub(super) fn at_start<E: Effects>(parameters: &mut Parameters<E>, t: f64) -> Self {
         let (shape, start) = (parameters.shape(), &parameters.setup.start);
         let body = shape.inertia();
         let (chart, gamma) = Chart::best(start.gamma);
@@ -40,21 +42,31 @@ impl<E: Effects> Motion<E> {
             coordinates.v += omega.cross(&to_centre);
             coordinates.k = attitude * (shape.tensor() * attitude.tr_mul(&omega));
         }
-        let mut state = [0.0; WITH_WORK];
-        coordinates.write(&mut state);
-        let mut rotor = Rotor::new(body, parameters.effects.clone(), chart, phi.turns);
+        let mut state = [0.0; N];
+        coordinates.write(rigid_mut(&mut state));
+        let frame = Frame::new(body, &parameters.effects, chart, phi.turns);
         // An imposed speed strikes along n, as at every jump, and λ counts from there (eq. 75).
-        coordinates.k = rotor.motion(t, &state).momentum();
-        coordinates.write(&mut state);
-        let motion = rotor.motion(t, &state);
-        rotor.effects.begin(&motion);
-        Self { rotor, state }
+        coordinates.k = frame.under(&parameters.effects).motion(t, &state).momentum();
+        coordinates.write(rigid_mut(&mut state));
+        let motion = frame.under(&parameters.effects).motion(t, &state);
+        let mut own_nominal = [0.0; N];
+        let count = own(N);
+        parameters.effects.begin(&motion, &mut state[..count], &mut own_nominal[..count]);
+        Self { frame, state, own_nominal }
+    }
+
+    /// What it shows at time `t` [s], under the effects that heard of it.
+    pub(super) fn shows<E: Effects>(&self, effects: &E, t: f64) -> Instant<N> {
+        let motion = self.frame.under(effects).motion(t, &self.state);
+        let shows = |total| Instant::new(motion, self.state, effects, total, Cost::default());
+        shows(shows(0.0).reading.ledger.total())
     }
 
     /// φ with all its turns in the state, as a host integrates it.
     pub(super) fn unwrap_turns(&mut self) {
-        let turns = std::mem::take(&mut self.rotor.turns);
-        self.state[PHI] = Angle { turns, remainder: self.state[PHI] }.radians();
+        let turns = std::mem::take(&mut self.frame.turns);
+        let phi = &mut rigid_mut(&mut self.state)[PHI];
+        *phi = Angle { turns, remainder: *phi }.radians();
     }
 }
 
@@ -63,9 +75,14 @@ impl<E: Effects> Motion<E> {
 pub(super) const BESIDE: f64 = 1e-4;
 
 /// How small the error of a step must be (INTERFACE.md).
-pub(super) fn tolerance<E: Effects>(setup: &Setup, motion: &Motion<E>, t: f64) -> Tolerance {
+pub(super) fn tolerance<E: Effects, const N: usize>(
+    setup: &Setup,
+    effects: &E,
+    motion: &Motion<N>,
+    t: f64,
+) -> Tolerance<N> {
     let Solver { relative_tolerance: relative, absolute_tolerance, .. } = setup.solver;
-    let squares = Nominals::of(motion, t).squares();
+    let squares = Nominals::of(effects, motion, t).squares();
     let part = |of: f64| squares.map(|square| of * of * square);
     Tolerance { relative, absolute: part(absolute_tolerance), nominal: part(BESIDE) }
 }

@@ -2,43 +2,43 @@
 
 use crate::dual::Tangent;
 use crate::effects::Effects;
-use crate::state::{WITH_WORK, Whole};
+use crate::state::WITH_WORK;
 use crate::variable::Place;
-use crate::variables::{Parameters, Reading, state_number};
+use crate::variables::{Instant, Parameters};
 
 /// An instant that moves in one direction.
-pub struct Tangents<E> {
+pub struct Tangents<E, const N: usize = WITH_WORK> {
     parameters: Parameters<E>,
-    reading: Reading<Tangent>,
+    instant: Instant<N, Tangent>,
 }
 
-impl<E: Effects> Tangents<E> {
+impl<E: Effects, const N: usize> Tangents<E, N> {
     /// Where states and inputs move by the seeds at their places.
     pub(super) fn new(
         parameters: &Parameters<E>,
-        reading: &Reading,
+        instant: &Instant<N>,
         seeds: impl Iterator<Item = (Place, f64)>,
     ) -> Self {
         let mut parameters = parameters.clone();
-        let mut moved = [0.0; WITH_WORK];
+        let mut moved = [0.0; N];
         for (place, seed) in seeds {
-            if let Some(n) = state_number(place) {
+            if let Some(n) = parameters.number_in_state::<N>(place) {
                 moved[n] += seed;
             } else if let Some(signal) = parameters.effects.signal_mut(place) {
                 signal.ask(seed);
             }
         }
-        Self { reading: reading.moving(&moved, 0.0, &parameters.effects), parameters }
+        Self { instant: instant.moving(&moved, 0.0, &parameters.effects), parameters }
     }
 
     /// Where everything moves with time, the state at these rates.
-    pub(super) fn along_motion(parameters: &Parameters<E>, reading: &Reading, rates: &Whole<f64>) -> Self {
+    pub(super) fn along_motion(parameters: &Parameters<E>, instant: &Instant<N>, rates: &[f64; N]) -> Self {
         let parameters = parameters.clone();
-        Self { reading: reading.moving(rates, 1.0, &parameters.effects), parameters }
+        Self { instant: instant.moving(rates, 1.0, &parameters.effects), parameters }
     }
 
     /// The derivative of the calculated variable at this place; None where there is none.
     pub fn of(&self, place: Place) -> Option<f64> {
-        self.parameters.calculated(place, &self.reading).map(|tangent| tangent.eps[0])
+        self.parameters.tangent(place, &self.instant).map(|tangent| tangent.eps[0])
     }
 }

@@ -13,7 +13,6 @@ use split_rotor_model::effects::drive::Drive;
 use split_rotor_model::effects::gravity::Gravity;
 use split_rotor_model::effects::support::Support;
 use split_rotor_model::effects::{Called, Effects, Entry, Info, named};
-use split_rotor_model::integrate::sizes::GROUPS;
 use split_rotor_model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use split_rotor_model::integrate::{Tolerance, explicit::Explicit};
 use split_rotor_model::rotation::Chart;
@@ -185,7 +184,7 @@ impl Scene {
     }
 
     /// Its equations of motion with gravity and the support.
-    pub fn rotor(&self) -> Rotor<Supported> {
+    pub fn rotor(&self) -> Rotor<'static, Supported> {
         let mut effects = Supported::default();
         let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
         for (name, value) in
@@ -194,13 +193,13 @@ impl Scene {
             let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
             assert!(effects.set_parameter(variable.place, *value));
         }
-        Rotor::new(self.body.into(), effects, Chart::FromE, 0.0)
+        Rotor::new(self.body.into(), kept(effects), Chart::FromE, 0.0)
     }
 
     /// The rates of these coordinates.
     pub fn rates<S: Scalar>(&self, y: &[S; COORDINATES]) -> [S; COORDINATES] {
         let rotor = self.rotor();
-        std::array::from_fn(|n| whole_rates(&rotor.effects, &rotor.motion(0.0, y))[n])
+        whole_rates(rotor.effects, &rotor.motion(0.0, y), y)
     }
 
     /// Its state at the start, in the order of the coordinates.
@@ -219,9 +218,14 @@ impl Scene {
     }
 }
 
+/// Effects that a rotor borrows for as long as the test runs.
+pub fn kept<E>(effects: E) -> &'static E {
+    Box::leak(Box::new(effects))
+}
+
 /// This relative tolerance [1], of a motion that is of size 1 in each group.
-pub fn tolerance(relative: f64) -> Tolerance {
-    Tolerance { relative, absolute: [0.0; GROUPS], nominal: [1.0; GROUPS] }
+pub fn tolerance<const N: usize>(relative: f64) -> Tolerance<N> {
+    Tolerance { relative, absolute: [0.0; N], nominal: [1.0; N] }
 }
 
 /// What the simulation shows at time `t` [s].

@@ -1,8 +1,7 @@
 //! The project's own scenes, as their files have them, over the list of all effects.
 
-use split_rotor_model::effects::All;
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::{Integrator, Simulation};
+use split_rotor_model::simulation::{Any, Integrator, Simulation};
 use split_rotor_model::variable::Place;
 use split_rotor_model::variables::Variable;
 use std::path::Path;
@@ -12,7 +11,7 @@ pub struct Named {
     /// What its file says.
     pub scene: Scene,
     /// Over the list of all effects.
-    pub simulation: Simulation<All>,
+    pub simulation: Any,
 }
 
 /// The names of all scenes.

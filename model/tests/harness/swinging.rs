@@ -24,7 +24,7 @@ pub fn swinging() -> Scene {
 }
 
 /// The same with dampers d1 [N·s/m] and d2 [N·m·s/rad] and a torque that changes with time, and its state.
-pub fn driven(d1: f64, d2: f64) -> (Rotor<Driven>, [f64; WITH_WORK]) {
+pub fn driven(d1: f64, d2: f64) -> (Rotor<'static, Driven>, [f64; WITH_WORK]) {
     let scene = Scene { d1, d2, ..swinging() };
     let mut effects = Driven::default();
     let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
@@ -40,7 +40,7 @@ pub fn driven(d1: f64, d2: f64) -> (Rotor<Driven>, [f64; WITH_WORK]) {
     });
     let mut y = [0.0; WITH_WORK];
     y[..12].copy_from_slice(&scene.state());
-    (Rotor::new(scene.body.into(), effects, Chart::FromE, 0.0), y)
+    (Rotor::new(scene.body.into(), super::kept(effects), Chart::FromE, 0.0), y)
 }
 
 /// Error of the whole state, each component by its nominal size [1].

@@ -43,25 +43,25 @@ impl Host {
     fn advance(&mut self, h: f64) {
         let rates = |t: f64, y: &[f64; WITH_WORK]| {
             let mut named = self.named.borrow_mut();
-            let exchange = named.simulation.exchange().expect("for a host");
+            let mut exchange = named.simulation.exchange().expect("for a host");
             exchange.set_time(t);
             exchange.set_state(y);
             named.simulation.admits().expect("a possible state");
             named.simulation.rates().expect("possible parameters")
         };
-        let state = self.named.borrow_mut().simulation.read().expect("possible parameters").state();
+        let state = self.named.borrow_mut().simulation.state().expect("possible parameters");
         let state = step(rates, self.t, &state, h);
         self.t += h;
         let named = self.named.get_mut();
-        let exchange = named.simulation.exchange().expect("for a host");
+        let mut exchange = named.simulation.exchange().expect("for a host");
         exchange.set_time(self.t);
         exchange.set_state(&state);
         let phi = named.get("phi");
-        let exchange = named.simulation.exchange().expect("for a host");
+        let mut exchange = named.simulation.exchange().expect("for a host");
         let wants_event = exchange.complete_step();
         assert_eq!(named.get("phi"), phi, "to complete a step changes nothing that is shown");
         if wants_event {
-            let exchange = named.simulation.exchange().expect("for a host");
+            let mut exchange = named.simulation.exchange().expect("for a host");
             assert!(exchange.settle().chart, "an event that was asked for changes the chart");
             assert!(!exchange.settle().any(), "once");
             self.events += 1;

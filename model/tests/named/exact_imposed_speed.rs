@@ -185,7 +185,7 @@ fn exact_run_up_by_a_host_that_sets_both_inputs_at_every_time() {
     let exact = case.body.run(0.0, &case.body.jumped(&case.start(), 30.0), 1.0, 800);
     named.simulation.exchange().expect("for a host").leave_event();
     let tell = |named: &mut Named, t: f64, state: &[f64]| {
-        let exchange = named.simulation.exchange().expect("for a host");
+        let mut exchange = named.simulation.exchange().expect("for a host");
         exchange.set_time(t);
         exchange.set_state(state);
         named.set("imposed_speed.w", 30.0 + t * (20.0 + t * (-15.0 + t * 40.0 / 3.0)));
@@ -306,7 +306,7 @@ fn exact_jump_at_an_event_is_supplied() {
         named.set("imposed_speed.w", w);
         let settled = named.simulation.exchange().expect("for a host").settle();
         assert!(settled.work && !settled.chart, "{settled:?}");
-        let exchange = named.simulation.exchange().expect("for a host");
+        let mut exchange = named.simulation.exchange().expect("for a host");
         assert!(!exchange.settle().any(), "once");
         exchange.leave_event();
         let jump = named.get("energy.kinetic") - before;

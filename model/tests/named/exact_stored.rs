@@ -1,8 +1,7 @@
 //! A run that is walked out and in goes on with the same bits: every kind of run, in both charts, at any moment.
 
 use crate::harness::named::Named;
-use split_rotor_model::effects::All;
-use split_rotor_model::simulation::{Integrator, Simulation};
+use split_rotor_model::simulation::{Any, Integrator, Simulation};
 use split_rotor_model::stored::{Damaged, from_bytes, to_bytes};
 use split_rotor_model::variables::Parameters;
 
@@ -45,9 +44,9 @@ fn go_on(named: &mut Named, span: f64) -> Vec<Vec<u64>> {
             named.simulation.advance(t).expect("a possible motion");
         } else {
             let rates = named.simulation.rates().expect("possible parameters");
-            let mut state = named.simulation.read().expect("possible parameters").state();
+            let mut state = named.simulation.state().expect("possible parameters");
             state.iter_mut().zip(rates).for_each(|(x, rate)| *x += 1e-4 * rate);
-            let exchange = named.simulation.exchange().expect("for a host");
+            let mut exchange = named.simulation.exchange().expect("for a host");
             exchange.set_time(t);
             exchange.set_state(&state);
             if exchange.complete_step() {
@@ -60,7 +59,7 @@ fn go_on(named: &mut Named, span: f64) -> Vec<Vec<u64>> {
 }
 
 /// The same simulation, from its bytes, in the place of `place`.
-fn restored(of: &mut Named, place: Simulation<All>) -> Named {
+fn restored(of: &mut Named, place: Any) -> Named {
     let bytes = to_bytes(&mut of.simulation);
     let mut copy = Named::new(&of.scene.name, of.simulation.integrator());
     copy.simulation = place;
@@ -69,7 +68,7 @@ fn restored(of: &mut Named, place: Simulation<All>) -> Named {
     copy
 }
 
-fn nothing(integrator: Integrator) -> Simulation<All> {
+fn nothing(integrator: Integrator) -> Any {
     Simulation::with(integrator, Parameters::default())
 }
 

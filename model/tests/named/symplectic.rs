@@ -23,14 +23,14 @@ fn gamma(y: &[f64; 12]) -> Vector2<f64> {
     Vector2::new(y[GAMMA.start], y[GAMMA.start + 1])
 }
 
-fn axis(rotor: &Rotor<Supported>, y: &[f64; 12]) -> Vector3<f64> {
-    Tilt::new(rotor.chart, gamma(y)).axis
+fn axis(rotor: &Rotor<'_, Supported>, y: &[f64; 12]) -> Vector3<f64> {
+    Tilt::new(rotor.frame.chart, gamma(y)).axis
 }
 
 /// Keeps the whole turns of φ apart from the state.
-fn keep_turns(rotor: &mut Rotor<Supported>, method: &mut Composed<12>) {
-    let phi = Angle { turns: rotor.turns, remainder: method.state()[PHI] }.wrapped();
-    rotor.turns = phi.turns;
+fn keep_turns(rotor: &mut Rotor<'_, Supported>, method: &mut Composed<12>) {
+    let phi = Angle { turns: rotor.frame.turns, remainder: method.state()[PHI] }.wrapped();
+    rotor.frame.turns = phi.turns;
     method.replace(PHI, phi.remainder);
 }
 
@@ -60,17 +60,17 @@ fn exact_free_rotor_in_one_step_of_any_length() {
         let (mut rotor, mut y, h) = (scene.rotor(), scene.state(), within(-3.0, 3.0));
         if case % 2 == 1 {
             let crossed = crossed_exactly(scene.gamma);
-            rotor.chart = Chart::FromMinusE;
-            let phi = rotor.chart.own_angle(Angle { turns: 0.0, remainder: scene.phi }, crossed);
-            (rotor.turns, y[PHI]) = (phi.turns, phi.remainder);
+            rotor.frame.chart = Chart::FromMinusE;
+            let phi = rotor.frame.chart.own_angle(Angle { turns: 0.0, remainder: scene.phi }, crossed);
+            (rotor.frame.turns, y[PHI]) = (phi.turns, phi.remainder);
             y[GAMMA].copy_from_slice(crossed.as_slice());
         }
         let mut method = Composed::start(composition(2), h, 0.0, y);
         method.fixed_step(&rotor, h);
         keep_turns(&mut rotor, &mut method);
         let y = method.state();
-        let phi = rotor.chart.axial_angle(rotor.turns, y[PHI], gamma(y));
-        let attitude = rotation::attitude(phi.remainder, &Tilt::new(rotor.chart, gamma(y)).gamma());
+        let phi = rotor.frame.chart.axial_angle(rotor.frame.turns, y[PHI], gamma(y));
+        let attitude = rotation::attitude(phi.remainder, &Tilt::new(rotor.frame.chart, gamma(y)).gamma());
         let turned = 1.0 + (exact.axial_spin().abs() + exact.momentum().norm() / exact.Jt) * h.abs();
         worst[0] = largest([worst[0], (attitude - exact.attitude(h)).norm() / turned]);
         worst[1] = largest([worst[1], (phi.radians() - exact.phi(h, 20_000)).abs()]);
@@ -97,12 +97,12 @@ fn exact_remainder_after_a_million_turns() {
                 keep_turns(&mut rotor, &mut method);
             }
             // 64 t less 2π·turns, with 2π in two parts and what a double of it lacks.
-            let (t, turns) = (98.0 * f64::from(i), rotor.turns);
+            let (t, turns) = (98.0 * f64::from(i), rotor.frame.turns);
             let high = f64::from_bits(TAU.to_bits() & (u64::MAX << 27));
             let exact = ((64.0 * t - turns * high) - turns * (TAU - high)) - turns * 2.449_293_598_294_706_4e-16;
             worst = largest([worst, (method.state()[PHI] - exact).abs()]);
         }
-        assert!(rotor.turns > 998_000.0 && (method.time() - 98_000.0).abs() < 1e-6);
+        assert!(rotor.frame.turns > 998_000.0 && (method.time() - 98_000.0).abs() < 1e-6);
         within(&format!("steps of {h} s"), worst, REMAINDER);
     }
 }
@@ -150,8 +150,8 @@ fn exact_very_high_spin_whatever_the_step() {
 /// largest.
 fn energy_errors(scene: &Scene, order: u32, h: f64, steps: u32) -> (Vec<f64>, f64) {
     let mut rotor = scene.rotor();
-    let total = |rotor: &Rotor<Supported>, y: &[f64; 12]| {
-        Ledger::new(&rotor.motion(0.0, y), &rotor.effects, [0.0; 2], 0.0).total()
+    let total = |rotor: &Rotor<'_, Supported>, y: &[f64; 12]| {
+        Ledger::new(&rotor.motion(0.0, y), &[], rotor.effects, [0.0; 2], 0.0).total()
     };
     let start = total(&rotor, &scene.state());
     let mut method = Composed::start(composition(order), h, 0.0, scene.state());

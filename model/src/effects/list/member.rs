@@ -1,8 +1,14 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Effect, Entry, Row, block_name, switch_name};
+use super::super::{Act, Effect, Entry, InputSet, MOST_OWN, Motion, Row, Wrench};
+use super::{Block, Kind, Tangent};
+use crate::body::Shape;
+use crate::error::Invalid;
+use crate::scalar::Scalar;
+use crate::signal::Signal;
+use crate::state::{Kinematics, Rates};
 use crate::stored::{Damaged, Stored, Walk};
-use crate::variable::{Access, Place};
+use crate::variable::{Access, Place, Role};
 
 /// An effect that a scene calls for; `INDEX` counts from 1 where there are several of its kind.
 #[derive(Clone, Default)]
@@ -16,7 +22,7 @@ pub struct Switched<E, const INDEX: u32> {
 }
 
 /// An entry of a list of effects.
-pub trait Member: Clone + Default + Send + Stored + 'static {
+pub trait Member: Block + Clone + Default + Send + Stored + 'static {
     /// Its law.
     type Effect: Entry;
     /// Counts from 1 where there are several of its kind.
@@ -30,7 +36,22 @@ pub trait Member: Clone + Default + Send + Stored + 'static {
     /// Its law and parameters.
     fn effect_mut(&mut self) -> &mut Self::Effect;
     /// Switches it, where it has a switch.
-    fn switch(&mut self, on: bool);
+    fn switch_to(&mut self, on: bool);
+    /// What it is.
+    const KIND: Kind = Kind {
+        name: Self::Effect::NAME,
+        several: Self::Effect::SEVERAL,
+        index: Self::INDEX,
+        block: Place::effect_block(Self::Effect::NUMBER, Self::INDEX),
+        switched: Self::SWITCHED,
+        own: Self::Effect::OWN,
+        pushes: Self::Effect::PUSHES,
+        follows_phi: Self::Effect::FOLLOWS_PHI,
+        extrapolates: Self::Effect::EXTRAPOLATES,
+        tells_rates: Self::Effect::TELLS_RATES,
+        excludes: Self::Effect::EXCLUDES,
+        meta: |row| Self::Effect::ROWS.get(row).map(|row| &row.meta),
+    };
 }
 
 impl<E: Entry, const INDEX: u32> Member for Called<E, INDEX> {
@@ -51,7 +72,7 @@ impl<E: Entry, const INDEX: u32> Member for Called<E, INDEX> {
         &mut self.0
     }
 
-    fn switch(&mut self, _on: bool) {}
+    fn switch_to(&mut self, _on: bool) {}
 }
 
 impl<E: Entry, const INDEX: u32> Member for Switched<E, INDEX> {
@@ -72,7 +93,7 @@ impl<E: Entry, const INDEX: u32> Member for Switched<E, INDEX> {
         &mut self.effect
     }
 
-    fn switch(&mut self, on: bool) {
+    fn switch_to(&mut self, on: bool) {
         self.on = on;
     }
 }
@@ -106,29 +127,168 @@ fn walk_rows<E: Effect>(effect: &mut E, walk: &mut impl Walk) -> Result<(), Dama
     if effect.remembers_rightly() { Ok(()) } else { Err(Damaged) }
 }
 
-pub(super) fn full_name<M: Member>(name: &str) -> String {
-    format!("{}.{name}", block_name(M::Effect::NAME, M::Effect::SEVERAL, M::INDEX))
+/// How many inputs of an effect may be extrapolated.
+pub(super) const fn inputs_extrapolated<E: Effect>() -> usize {
+    let (mut row, mut inputs) = (0, 0);
+    while row < E::ROWS.len() && !E::TELLS_RATES {
+        inputs += matches!(E::ROWS[row].access, Access::Input { .. }) as usize;
+        row += 1;
+    }
+    inputs
 }
 
-/// The full name of its switch.
-pub(super) fn switch_of<M: Member>() -> String {
-    switch_name(M::Effect::NAME, M::Effect::SEVERAL, M::INDEX)
+fn access<E: Effect>(row: usize) -> Option<&'static Access<E, super::super::Seen>> {
+    E::ROWS.get(row).map(|row: &'static Row<E>| &row.access)
 }
 
-/// Whether the place is that of its switch.
-#[inline(always)]
-pub(super) fn is_switch<M: Member>(place: Place) -> bool {
-    M::SWITCHED && place == Place::switch(block_of::<M>())
+/// An effect of which an input was changed, and whether that changes how anything goes on.
+fn changed<E: Effect>(before: &E, set: InputSet, change: &dyn Fn(&mut Signal)) -> Option<(E, bool)> {
+    let Access::Input { get, get_mut } = access::<E>(set.row)? else { return None };
+    let mut effect = before.clone();
+    change(get_mut(&mut effect));
+    let was = *get(before);
+    let changes = effect.input_set(before, InputSet { goes_on: get(&effect).goes_on_like(&was), ..set });
+    if !changes {
+        *get_mut(&mut effect) = get(&effect).going_on(was);
+    }
+    Some((effect, changes))
 }
 
-/// The block of value references of a member.
-pub(super) const fn block_of<M: Member>() -> u32 {
-    Place::effect_block(M::Effect::NUMBER, M::INDEX)
-}
+impl<M: Member> Block for M {
+    fn kind(&self) -> &'static Kind {
+        const { &M::KIND }
+    }
 
-/// The row at a place: None where the place is another member's, Some(None) where it is this one's, but holds nothing.
-#[allow(clippy::option_option, reason = "two different absences")]
-#[inline(always)]
-pub(super) fn row<M: Member>(place: Place) -> Option<Option<&'static Row<M::Effect>>> {
-    (place.block == block_of::<M>()).then(|| M::Effect::ROWS.get(place.row))
+    fn is_active(&self) -> bool {
+        self.active().is_some()
+    }
+
+    fn switch(&mut self, on: bool) {
+        self.switch_to(on);
+    }
+
+    fn act(&self, motion: &Kinematics<f64>, own: &[f64]) -> Act<f64> {
+        self.effect().act(&Motion::new(motion, own))
+    }
+
+    fn load(&self, motion: &Kinematics<f64>, own: &[f64]) -> Wrench<f64> {
+        self.effect().act(&Motion::new(motion, own)).load
+    }
+
+    fn shape(&self, body: &mut Shape) {
+        self.effect().shape(body);
+    }
+
+    fn needs_gamma(&self) -> bool {
+        self.effect().needs_gamma()
+    }
+
+    fn works(&self) -> bool {
+        self.effect().works()
+    }
+
+    fn follows_speed(&self) -> bool {
+        self.effect().follows_speed()
+    }
+
+    fn check(&self) -> Result<(), Invalid> {
+        let effect = self.effect();
+        for row in M::Effect::ROWS {
+            if let Access::Parameter { get, .. } = row.access {
+                row.meta.check(|| M::KIND.full_name(row.meta.name), get(effect))?;
+            }
+        }
+        let within = |invalid: Invalid| Invalid { variable: M::KIND.full_name(&invalid.variable), ..invalid };
+        effect.check().map_err(within)
+    }
+
+    fn begin(&mut self, start: &Motion<f64>) {
+        self.effect_mut().begin(start);
+    }
+
+    fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN] {
+        self.effect().own_at_start(start)
+    }
+
+    fn own_nominal(&self) -> [f64; MOST_OWN] {
+        self.effect().own_nominal()
+    }
+
+    fn step_from(&mut self, t: f64) {
+        self.effect_mut().step_from(t);
+    }
+
+    fn step_to(&mut self, end: &Motion<f64>) {
+        self.effect_mut().step_to(end);
+    }
+
+    fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
+        self.effect_mut().extrapolate(number, signal);
+    }
+
+    fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal)) {
+        for row in M::Effect::ROWS {
+            if let Access::Input { get_mut, .. } = row.access {
+                act(get_mut(self.effect_mut()));
+            }
+        }
+    }
+
+    fn asks_rates(&self, row: usize) -> bool {
+        matches!(access::<M::Effect>(row), Some(Access::Rate(_)))
+    }
+
+    fn value(&self, row: usize, t: f64, motion: Option<&Motion<f64>>, rates: Option<&Rates<f64>>) -> Option<f64> {
+        if M::SWITCHED && row == Place::SWITCH {
+            return Some(f64::from(self.is_active()));
+        }
+        let access = access::<M::Effect>(row)?;
+        if !self.is_active() && access.is_calculated() {
+            return Some(0.0);
+        }
+        access.value(self.effect(), t, motion, rates)
+    }
+
+    fn tangent(&self, row: usize, motion: &Motion<Tangent>, rates: Option<&Rates<Tangent>>) -> Option<Tangent> {
+        let access = access::<M::Effect>(row)?;
+        match self.active() {
+            Some(effect) => access.tangent(effect, motion, rates),
+            None => access.is_calculated().then(|| Tangent::constant(0.0)),
+        }
+    }
+
+    fn own_state(&self, row: usize) -> Option<usize> {
+        let is_state = |row: &&Row<M::Effect>| matches!((row.meta.role, &row.access), (Role::State, Access::Output(_)));
+        M::Effect::ROWS.get(row).filter(is_state).map(|_| M::Effect::ROWS[..row].iter().filter(is_state).count())
+    }
+
+    fn set_parameter(&mut self, row: usize, value: f64) -> bool {
+        if M::SWITCHED && row == Place::SWITCH {
+            self.switch_to(value != 0.0);
+            return true;
+        }
+        let Some(Access::Parameter { set, .. }) = access::<M::Effect>(row) else { return false };
+        set(self.effect_mut(), value);
+        true
+    }
+
+    fn signal(&self, row: usize) -> Option<&Signal> {
+        let Access::Input { get, .. } = access::<M::Effect>(row)? else { return None };
+        Some(get(self.effect()))
+    }
+
+    fn signal_mut(&mut self, row: usize) -> Option<&mut Signal> {
+        let Access::Input { get_mut, .. } = access::<M::Effect>(row)? else { return None };
+        Some(get_mut(self.effect_mut()))
+    }
+
+    fn change_input(&mut self, set: InputSet, change: &dyn Fn(&mut Signal)) -> Option<bool> {
+        let (effect, changes) = changed(self.effect(), set, change)?;
+        *self.effect_mut() = effect;
+        Some(changes)
+    }
+
+    fn would_change(&self, set: InputSet, change: &dyn Fn(&mut Signal)) -> Option<bool> {
+        changed(self.effect(), set, change).map(|(_, changes)| changes)
+    }
 }

@@ -3,7 +3,7 @@
 use super::Explicit;
 use crate::integrate::System;
 use crate::integrate::segment::Segment;
-use crate::integrate::sizes::{GROUPS, largest_square};
+use crate::integrate::sizes::largest_square;
 use crate::integrate::tableau::{Dop853, Dopri5, Pair};
 
 /// A step whose polynomial ends in a term of so many tolerances is of no use between its ends: one that spans many turns of a
@@ -49,10 +49,11 @@ impl<const N: usize> Explicit<N> {
         if self.segment.dense {
             return;
         }
-        if self.tableau == Dop853::TABLEAU {
-            self.prepare_dense_with::<Dop853, _>(system);
-        } else {
-            self.prepare_dense_with::<Dopri5, _>(system);
+        match (self.tableau == Dop853::TABLEAU, system.solves_all()) {
+            (true, true) => self.prepare_dense_with::<Dop853, _, true>(system),
+            (true, false) => self.prepare_dense_with::<Dop853, _, false>(system),
+            (false, true) => self.prepare_dense_with::<Dopri5, _, true>(system),
+            (false, false) => self.prepare_dense_with::<Dopri5, _, false>(system),
         }
         self.segment.dense = true;
         self.segment.rough = self.roughness(system) > ROUGH;
@@ -62,9 +63,9 @@ impl<const N: usize> Explicit<N> {
     fn roughness(&self, system: &impl System<N>) -> f64 {
         let Segment { h, y, r, .. } = &self.segment;
         let terms = self.terms();
-        let weights = self.sizes.weights(&self.tolerance, &system.roundings(y, *h), &[0.0; GROUPS]);
+        let weights = self.sizes.weights(system, &self.tolerance, &system.roundings(y, *h), &[0.0; N]);
         // eq. 24: σ and 1 − σ are 1/2 in each of its factors
-        largest_square(&system.parts(y, &r[terms - 1]), &weights).sqrt() / f64::from(1_u32 << terms)
+        largest_square(system, &system.parts(y, &r[terms - 1]), &weights).sqrt() / f64::from(1_u32 << terms)
     }
 
     /// How many terms the polynomial of eq. 24 has after y.
@@ -74,13 +75,13 @@ impl<const N: usize> Explicit<N> {
 
     /// [`Explicit::prepare_dense`] with the coefficients as constants.
     #[inline(never)]
-    fn prepare_dense_with<P: Pair, F: System<N>>(&mut self, system: &F) {
+    fn prepare_dense_with<P: Pair, F: System<N>, const ALL: bool>(&mut self, system: &F) {
         let (t, h, start) = (self.segment.t, self.segment.h, self.segment.y);
         let mut newest = self.k[P::TABLEAU.last];
         macro_rules! stages {
             ($($i:literal)*) => {$(
                 if P::TABLEAU.last < $i && $i < const { P::TABLEAU.count() } {
-                    newest = self.stage(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
+                    newest = self.stage::<_, ALL>(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
                     self.k[$i] = newest;
                 }
             )*};
@@ -94,7 +95,7 @@ impl<const N: usize> Explicit<N> {
         macro_rules! rows {
             ($($i:literal)*) => {$(
                 if $i < P::TABLEAU.dense.len() {
-                    self.segment.r[3 + $i] = self.combined(const { P::TABLEAU.row($i) }).map(|sum| h * sum);
+                    self.segment.r[3 + $i] = self.combined::<F, ALL>(const { P::TABLEAU.row($i) }).map(|sum| h * sum);
                 }
             )*};
         }

@@ -9,47 +9,48 @@ use crate::integrate::tableau::{Combination, Dop853, Dopri5, ErrorRule, Pair, St
 impl<const N: usize> Explicit<N> {
     /// All stages of a step of size h from (t, y), and the error where it is asked for.
     pub(super) fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> Attempt<N> {
-        if self.tableau == Dop853::TABLEAU {
-            self.attempt_with::<Dop853, _, ERROR>(system)
-        } else {
-            self.attempt_with::<Dopri5, _, ERROR>(system)
+        match (self.tableau == Dop853::TABLEAU, system.solves_all()) {
+            (true, true) => self.attempt_with::<Dop853, _, ERROR, true>(system),
+            (true, false) => self.attempt_with::<Dop853, _, ERROR, false>(system),
+            (false, true) => self.attempt_with::<Dopri5, _, ERROR, true>(system),
+            (false, false) => self.attempt_with::<Dopri5, _, ERROR, false>(system),
         }
     }
 
     /// [`Explicit::attempt`] with the coefficients as constants: every sum is written out by the compiler.
     #[inline(never)]
-    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> Attempt<N> {
+    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool, const ALL: bool>(&mut self, system: &F) -> Attempt<N> {
         let (t, h, start) = (self.t, self.h, self.y);
         let mut newest = self.k[0];
         macro_rules! stages {
             ($($i:literal)*) => {$(
                 if $i < P::TABLEAU.last {
-                    newest = self.stage(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
+                    newest = self.stage::<_, ALL>(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
                     self.k[$i] = newest;
                 }
             )*};
         }
         stages! { 1 2 3 4 5 6 7 8 9 10 11 12 }
         // The last stage stands at the end of the step.
-        let y = self.ended(&start, h, const { P::TABLEAU.stage(P::TABLEAU.last) }.a);
+        let y = self.ended::<F, ALL>(&start, h, const { P::TABLEAU.stage(P::TABLEAU.last) }.a);
         // Where the error does not need that stage, it is begun before it: the next step's size waits for it. The sizes of the
         // motion are then those of the stage before, which stands at the end of the step too.
         let mut attempt = Attempt { y, error: 0.0, seen: self.sizes.seen(system, &y, &newest) };
         let (early, late) =
             const { if P::TABLEAU.error.needs(P::TABLEAU.last) { (false, ERROR) } else { (ERROR, false) } };
         if early {
-            attempt.error = self.error_norm::<P, F>(system, &attempt.seen);
+            attempt.error = self.error_norm::<P, F, ALL>(system, &attempt.seen);
         }
-        self.k[P::TABLEAU.last] = self.evaluate(system, t + h, &y);
+        self.k[P::TABLEAU.last] = self.known(system.rates::<ALL>(t + h, &y));
         if late {
-            attempt.error = self.error_norm::<P, F>(system, &attempt.seen);
+            attempt.error = self.error_norm::<P, F, ALL>(system, &attempt.seen);
         }
         attempt
     }
 
     /// A stage of a step of size h from (t, y), of those before it; `newest` is the last of them.
     #[inline(always)]
-    pub(super) fn stage<F: System<N>>(
+    pub(super) fn stage<F: System<N>, const ALL: bool>(
         &mut self,
         system: &F,
         (t, h, y): (f64, f64, &[f64; N]),
@@ -58,15 +59,22 @@ impl<const N: usize> Explicit<N> {
     ) -> [f64; N] {
         let there = self.advanced::<F>(y, h, stage.a, newest);
         // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
-        self.evaluate(system, t + stage.c * h, &there)
+        self.known(system.rates::<ALL>(t + stage.c * h, &there))
+    }
+
+    /// A rate that was evaluated.
+    #[inline(always)]
+    fn known(&mut self, rate: [f64; N]) -> [f64; N] {
+        self.cost.evaluations += 1.0;
+        rate
     }
 
     /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
     /// is not 1: a uniform rotation would run away from its angle by 3e-9 rad in 10⁶ turns.
     #[inline(always)]
-    fn ended(&self, y: &[f64; N], h: f64, b: Combination) -> [f64; N] {
-        let mut end = [0.0; N];
-        for p in 0..pairs(N) {
+    fn ended<F: System<N>, const ALL: bool>(&self, y: &[f64; N], h: f64, b: Combination) -> [f64; N] {
+        let mut end = *y;
+        for p in 0..pairs(solved::<F, N, ALL>()) {
             let first = pair(&self.k[0], p);
             let mut sum = nothing();
             for &(j, coefficient) in &b[1..] {
@@ -95,9 +103,9 @@ impl<const N: usize> Explicit<N> {
 
     /// Σ a_j k_j.
     #[inline(always)]
-    pub(super) fn combined(&self, a: Combination) -> [f64; N] {
+    pub(super) fn combined<F: System<N>, const ALL: bool>(&self, a: Combination) -> [f64; N] {
         let mut combined = [0.0; N];
-        for p in 0..pairs(N) {
+        for p in 0..pairs(solved::<F, N, ALL>()) {
             let mut sum = nothing();
             for &(j, coefficient) in a {
                 sum += both(coefficient) * pair(&self.k[j], p);
@@ -109,13 +117,13 @@ impl<const N: usize> Explicit<N> {
 
     /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance [1].
     #[inline(always)]
-    fn error_norm<P: Pair, F: System<N>>(&self, system: &F, seen: &Squares) -> f64 {
+    fn error_norm<P: Pair, F: System<N>, const ALL: bool>(&self, system: &F, seen: &Squares<N>) -> f64 {
         let weights = self.weights(system, self.h, seen);
         let estimate = match const { &P::TABLEAU.error } {
-            ErrorRule::Single(e) => self.error_square(system, e, &weights).sqrt(),
+            ErrorRule::Single(e) => self.error_square::<F, ALL>(system, e, &weights).sqrt(),
             ErrorRule::Blend { fine, coarse } => {
-                let fine = self.error_square(system, fine, &weights);
-                let coarse = self.error_square(system, coarse, &weights);
+                let fine = self.error_square::<F, ALL>(system, fine, &weights);
+                let coarse = self.error_square::<F, ALL>(system, coarse, &weights);
                 if fine == 0.0 { 0.0 } else { fine / (fine + 0.01 * coarse).sqrt() }
             }
         };
@@ -124,7 +132,13 @@ impl<const N: usize> Explicit<N> {
 
     /// The square of the norm of Σ e_j k_j. Inlined, so that these sums are written out too.
     #[inline(always)]
-    fn error_square<F: System<N>>(&self, system: &F, e: Combination, weights: &Squares) -> f64 {
-        largest_square(&system.parts(&self.y, &self.combined(e)), weights)
+    fn error_square<F: System<N>, const ALL: bool>(&self, system: &F, e: Combination, weights: &Squares<N>) -> f64 {
+        largest_square(system, &system.parts(&self.y, &self.combined::<F, ALL>(e)), weights)
     }
+}
+
+/// How many components are solved.
+#[inline(always)]
+const fn solved<F: System<N>, const N: usize, const ALL: bool>() -> usize {
+    if ALL { N } else { F::ALWAYS }
 }

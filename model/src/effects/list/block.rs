@@ -1,0 +1,108 @@
+//! An effect of a list without its type: what is not asked in every evaluation.
+
+use super::{InputSet, Motion, Tangent, Wrench};
+use crate::body::Shape;
+use crate::effects::{Act, MOST_OWN, block_name, full_name, switch_name};
+use crate::error::Invalid;
+use crate::signal::Signal;
+use crate::state::{Kinematics, Rates};
+use crate::variable::Meta;
+
+/// What an entry of a list is.
+#[derive(Debug)]
+pub struct Kind {
+    /// Its name in scenes and variables.
+    pub name: &'static str,
+    /// Whether a scene may hold several, and which of them it is, from 1.
+    pub several: bool,
+    /// Counts from 1 where there are several of its kind.
+    pub index: u32,
+    /// Its block of value references.
+    pub block: u32,
+    /// Whether it has a switch.
+    pub switched: bool,
+    /// How many states of its own it has.
+    pub own: usize,
+    /// Whether it can act on the rotor.
+    pub pushes: bool,
+    /// Whether what it does follows φ.
+    pub follows_phi: bool,
+    /// Whether it extrapolates inputs.
+    pub extrapolates: bool,
+    /// Whether its own inputs tell one another's rates.
+    pub tells_rates: bool,
+    /// Which effects cannot act beside it.
+    pub excludes: &'static [&'static str],
+    /// What is said of its variable in this row; None where there is none.
+    pub meta: fn(usize) -> Option<&'static Meta>,
+}
+
+impl Kind {
+    /// The full name of its variable that has this name within its block.
+    pub fn full_name(&self, name: &str) -> String {
+        full_name(&block_name(self.name, self.several, self.index), name)
+    }
+
+    /// The full name of its switch.
+    pub fn switch_name(&self) -> String {
+        switch_name(self.name, self.several, self.index)
+    }
+}
+
+/// An effect of a list. Rows are those of its variables.
+pub trait Block {
+    /// What it is.
+    fn kind(&self) -> &'static Kind;
+    /// Whether it is not switched off.
+    fn is_active(&self) -> bool;
+    /// Switches it, where it has a switch.
+    fn switch(&mut self, on: bool);
+    /// What it does.
+    fn act(&self, motion: &Kinematics<f64>, own: &[f64]) -> Act<f64>;
+    /// Of that, the load without what damps.
+    fn load(&self, motion: &Kinematics<f64>, own: &[f64]) -> Wrench<f64>;
+    /// Adds its share to the mass, mass centre and inertia of the body.
+    fn shape(&self, body: &mut Shape);
+    /// Whether its law has no limit where |γ| = π.
+    fn needs_gamma(&self) -> bool;
+    /// Whether it can lose energy or be supplied with it.
+    fn works(&self) -> bool;
+    /// Whether what it applies depends on how fast the rotor moves.
+    fn follows_speed(&self) -> bool;
+    /// The first of its parameters whose value is not possible.
+    fn check(&self) -> Result<(), Invalid>;
+    /// Hears where the motion begins.
+    fn begin(&mut self, start: &Motion<f64>);
+    /// Its own states there.
+    fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN];
+    /// What they count with until they have been larger.
+    fn own_nominal(&self) -> [f64; MOST_OWN];
+    /// Hears that a communication step begins at time `t` [s].
+    fn step_from(&mut self, t: f64);
+    /// Hears where one ended.
+    fn step_to(&mut self, end: &Motion<f64>);
+    /// Extrapolates the input of this number.
+    fn extrapolate(&mut self, number: usize, signal: &mut Signal);
+    /// Shows each of its inputs.
+    fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal));
+    /// Whether a variable is calculated from the rates of the state too.
+    fn asks_rates(&self, row: usize) -> bool;
+    /// The value of a variable, an input's at time `t` [s], a calculated one's of what is switched off zero; None where there is
+    /// none, or nothing is shown.
+    fn value(&self, row: usize, t: f64, motion: Option<&Motion<f64>>, rates: Option<&Rates<f64>>) -> Option<f64>;
+    /// The same of a calculated one with its derivative.
+    fn tangent(&self, row: usize, motion: &Motion<Tangent>, rates: Option<&Rates<Tangent>>) -> Option<Tangent>;
+    /// The number of its own state that this variable is, if it is one.
+    fn own_state(&self, row: usize) -> Option<usize>;
+    /// Sets a parameter; false where there is none.
+    fn set_parameter(&mut self, row: usize, value: f64) -> bool;
+    /// An input; None where there is none.
+    fn signal(&self, row: usize) -> Option<&Signal>;
+    /// An input to set; None where there is none.
+    fn signal_mut(&mut self, row: usize) -> Option<&mut Signal>;
+    /// Changes an input, its value or its derivative of an order, at the communication point `set` says; whether anything goes on
+    /// otherwise, None where there is none.
+    fn change_input(&mut self, set: InputSet, change: &dyn Fn(&mut Signal)) -> Option<bool>;
+    /// Whether that would change anything.
+    fn would_change(&self, set: InputSet, change: &dyn Fn(&mut Signal)) -> Option<bool>;
+}
