@@ -1,66 +1,48 @@
-//! One instance as a safe state machine: what each call means, without a pointer in sight.
+//! One instance as a safe state machine: what each call means in any version of FMI, without a pointer in sight.
 
 mod bytes;
 mod co_simulation;
 mod derivatives;
+mod failure;
+mod logger;
 mod model_exchange;
+mod state;
 mod values;
 
-pub use values::Type;
+pub use failure::{Failure, Reply};
+pub use logger::{Logger, Severity};
+pub use state::{State, kind_name};
+pub use values::{Room, Type, fill};
 
-use crate::abi::{Real, Status};
-use crate::calls::{State, kind_name};
-use crate::logger::Logger;
 use crate::scene::{Effects, STARTS, Simulation};
 use split_rotor_model::error::Invalid;
-use split_rotor_model::integrate::{Cost, Refusal};
+use split_rotor_model::integrate::Cost;
 use split_rotor_model::log::{ALL, Category};
 use split_rotor_model::simulation::Integrator;
 use split_rotor_model::variable::{Kind, Place, Role};
 use split_rotor_model::variables::{Parameters, TOLERANCES};
 
-/// Why a call was refused, and what it returns.
-#[derive(Debug)]
-pub struct Failure {
-    /// What the call returns.
-    pub status: Status,
-    /// Where it is logged.
-    pub category: Category,
-    /// What is wrong, and what would be right.
-    pub message: String,
+/// What a version of FMI calls the functions that messages name.
+pub struct Names {
+    /// What makes an instance.
+    pub instantiate: &'static str,
+    /// What tells the experiment: its tolerance, start and stop.
+    pub experiment: &'static str,
+    /// What ends the initialization.
+    pub end_of_initialization: &'static str,
+    /// What sets the continuous states.
+    pub set_states: &'static str,
+    /// What ends the run.
+    pub terminate: &'static str,
+    /// What makes an instance as good as new.
+    pub reset: &'static str,
 }
-
-impl Failure {
-    /// Bad arguments or a bad sequence; nothing changed.
-    pub fn error(message: impl Into<String>) -> Self {
-        Self { status: Status::Error, category: Category::Error, message: message.into() }
-    }
-
-    /// What cannot be done or calculated here, though the call is right.
-    fn discard(message: impl Into<String>) -> Self {
-        Self { status: Status::Discard, category: Category::Discard, message: message.into() }
-    }
-}
-
-impl From<Invalid> for Failure {
-    fn from(invalid: Invalid) -> Self {
-        Self::error(invalid.to_string())
-    }
-}
-
-impl From<Refusal> for Failure {
-    fn from(refusal: Refusal) -> Self {
-        Self::discard(refusal.0)
-    }
-}
-
-/// What a call returns, or why it was refused.
-pub type Reply = Result<Status, Failure>;
 
 /// An instance of the FMU.
 pub struct Instance {
     /// Where its messages go.
     pub logger: Logger,
+    names: &'static Names,
     /// Everything else.
     pub memory: Memory,
 }
@@ -73,18 +55,18 @@ pub struct Memory {
     pub state: State,
     simulation: Simulation,
     experiment: Experiment,
-    /// What the last fmi2DoStep returned.
-    step_status: Status,
+    /// Whether the last step could not be done.
+    step_failed: bool,
     /// Whether it was said that the tilt is large, that the motion grows, and that all inputs are 0.
     warned: [bool; 3],
 }
 
-/// What fmi2SetupExperiment said, and what the host set itself.
+/// What the host said of the experiment, and what it set itself.
 #[derive(Clone, Copy, Default)]
 struct Experiment {
-    start: Real,
-    stop: Option<Real>,
-    tolerance: Option<Real>,
+    start: f64,
+    stop: Option<f64>,
+    tolerance: Option<f64>,
     /// The host set solver.relative_tolerance: it wins over the experiment's tolerance.
     host_set_tolerance: bool,
 }
@@ -97,7 +79,7 @@ impl Memory {
             state: State::Instantiated,
             simulation: Simulation::with(integrator, parameters),
             experiment: Experiment::default(),
-            step_status: Status::Ok,
+            step_failed: false,
             warned: [false; 3],
         }
     }
@@ -111,48 +93,48 @@ impl Memory {
 
 impl Instance {
     /// A new instance with the scene's start values.
-    pub fn new(logger: Logger, integrator: Integrator) -> Self {
-        let instance = Self { logger, memory: Memory::new(integrator) };
-        instance.tell(Category::Events, || format!("fmi2Instantiate: instantiated for {}", kind_name(integrator)));
+    pub fn new(logger: Logger, names: &'static Names, integrator: Integrator) -> Self {
+        let instance = Self { logger, names, memory: Memory::new(integrator) };
+        let kind = kind_name(integrator);
+        instance.tell(Category::Events, || format!("{}: instantiated for {kind}", names.instantiate));
         instance
     }
 
-    /// fmi2SetDebugLogging
+    /// Enables or disables messages of these categories; without any, of all.
     pub fn set_debug_logging(&mut self, on: bool, categories: &[&str]) -> Reply {
         self.logger.choose(on, categories).map_err(|unknown| {
             let names = Category::EACH.map(|category| category.words().0).join(", ");
-            Failure::error(format!("there is no category {unknown:?}: there are {names} and {ALL}"))
-        })?;
-        Ok(Status::Ok)
+            Failure::Error(format!("there is no category {unknown:?}: there are {names} and {ALL}"))
+        })
     }
 
-    /// fmi2SetupExperiment
-    pub fn setup_experiment(&mut self, tolerance: Option<Real>, start: Real, stop: Option<Real>) -> Reply {
+    /// Takes tolerance, start and stop [s] of the experiment.
+    pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Reply {
         if !start.is_finite() {
-            return Err(Failure::error(format!("startTime = {start:?} must be a finite number of seconds")));
+            return Err(Failure::Error(format!("startTime = {start:?} must be a finite number of seconds")));
         }
         if let Some(stop) = stop.filter(|stop| stop.is_nan() || *stop < start) {
-            return Err(Failure::error(format!("stopTime = {stop:?} must not be before startTime = {start:?}")));
+            return Err(Failure::Error(format!("stopTime = {stop:?} must not be before startTime = {start:?}")));
         }
         if let Some(tolerance) = tolerance.filter(|value| !TOLERANCES.holds(*value)) {
             return Err(Invalid::new("tolerance", tolerance, TOLERANCES.words(Kind::Real)).into());
         }
         self.memory.experiment = Experiment { start, stop, tolerance, ..self.memory.experiment };
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2EnterInitializationMode
+    /// Enters initialization mode.
     pub fn enter_initialization_mode(&mut self) -> Reply {
         self.memory.state = State::Initialization;
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2ExitInitializationMode
+    /// Checks all parameters and starts the motion.
     pub fn exit_initialization_mode(&mut self) -> Reply {
         let Experiment { start, stop, tolerance, host_set_tolerance } = self.memory.experiment;
         let tolerance = tolerance.filter(|_| !host_set_tolerance);
         self.memory.simulation.start_until(start, tolerance, stop)?;
-        self.memory.step_status = Status::Ok;
+        self.memory.step_failed = false;
         self.memory.state = match self.memory.integrator() {
             Integrator::Host => State::EventMode,
             Integrator::Method => {
@@ -162,19 +144,19 @@ impl Instance {
             }
         };
         self.warn();
-        Ok(Status::Ok)
+        Ok(())
     }
 
     /// Says which tolerance is in force: the one given, which is the experiment's, or that of the parameters.
-    fn tell_tolerance(&self, given: Option<Real>) {
+    fn tell_tolerance(&self, given: Option<f64>) {
         self.tell(Category::Solver, || {
             let own = self.memory.simulation.parameters().setup.solver.relative_tolerance;
             let (value, origin) = match given {
-                Some(value) => (value, "of fmi2SetupExperiment"),
+                Some(value) => (value, format!("of {}", self.names.experiment)),
                 None if self.memory.experiment.host_set_tolerance => {
-                    (own, "that the host set as solver.relative_tolerance")
+                    (own, "that the host set as solver.relative_tolerance".into())
                 }
-                None => (own, "of the scene"),
+                None => (own, "of the scene".into()),
             };
             let [place, velocity, momentum, tilt] = self.memory.simulation.least_sizes();
             format!(
@@ -189,14 +171,14 @@ impl Instance {
         if self.logger.hears(Category::Solver)
             && let Some(words) = self.memory.simulation.auto()
         {
-            self.logger.log(Status::Ok, Category::Solver, &words);
+            self.logger.log(Severity::Ok, Category::Solver, &words);
         }
     }
 
-    /// fmi2Terminate
+    /// Ends the run; values can still be read.
     pub fn terminate(&mut self) -> Reply {
         self.memory.state = State::Terminated;
-        self.tell(Category::Events, || "fmi2Terminate: terminated".into());
+        self.tell(Category::Events, || format!("{}: terminated", self.names.terminate));
         if self.memory.integrator() == Integrator::Method
             && self.logger.hears(Category::Solver)
             && let Ok(reading) = self.memory.simulation.read()
@@ -206,21 +188,21 @@ impl Instance {
                 format!("the solver spent {steps} steps, {rejected} rejected ones, {evaluations} evaluations")
             });
         }
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2Reset
+    /// As good as new; what the host set is forgotten.
     pub fn reset(&mut self) -> Reply {
         self.memory = Memory::new(self.memory.integrator());
-        self.tell(Category::Events, || "fmi2Reset: all values are those of the scene again".into());
-        Ok(Status::Ok)
+        self.tell(Category::Events, || format!("{}: all values are those of the scene again", self.names.reset));
+        Ok(())
     }
 
-    /// fmi2SetFMUstate
+    /// Brings back all that was saved.
     pub fn restore(&mut self, saved: &Memory) -> Reply {
         self.check_kind(saved)?;
         self.memory.clone_from(saved);
-        Ok(Status::Ok)
+        Ok(())
     }
 
     /// An FMU state goes back only to the kind of instance from which it came.
@@ -230,7 +212,7 @@ impl Instance {
             return Ok(());
         }
         let (from, to) = (kind_name(from), kind_name(to));
-        Err(Failure::error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
+        Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
     /// Says once each that the tilt is large, where that matters, and that the linear motion grows.
@@ -240,7 +222,7 @@ impl Instance {
             *of_tilt = true;
             let message = "the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit at pi, and \
                            beyond 3.1 rad no step is possible";
-            self.logger.log(Status::Warning, Category::Warning, message);
+            self.logger.log(Severity::Warning, Category::Warning, message);
         }
         if !*of_growth && let Some((rate, t)) = self.memory.simulation.growth() {
             *of_growth = true;
@@ -248,7 +230,7 @@ impl Instance {
                 "the rotor is unstable: small motions about its state at t = {t:?} s grow by a factor of e every {:.3e} s",
                 1.0 / rate
             );
-            self.logger.log(Status::Warning, Category::Warning, &message);
+            self.logger.log(Severity::Warning, Category::Warning, &message);
         }
     }
 
@@ -275,14 +257,14 @@ impl Instance {
                 "all inputs are 0, and the scene begins with {name} = {start:?}: some hosts send 0 to inputs that nobody \
                  connected; connect them, or set them to their start values"
             );
-            self.logger.log(Status::Warning, Category::Warning, &message);
+            self.logger.log(Severity::Warning, Category::Warning, &message);
         }
     }
 
     /// Logs what is not a failure, where somebody listens.
     fn tell(&self, category: Category, message: impl FnOnce() -> String) {
         if self.logger.hears(category) {
-            self.logger.log(Status::Ok, category, &message());
+            self.logger.log(Severity::Ok, category, &message());
         }
     }
 }

@@ -1,12 +1,11 @@
-//! split-rotor as an FMI 2.0 co-simulation FMU: the shell around `model`, which holds the rotor.
+//! split-rotor as an FMU: the shell around `model`, which holds the rotor.
 //!
-//! `abi` names the C types, `exports` the 44 functions, each one line through the door in `guard`; `calls` tells where a
-//! function is legal, `instance` what it means, `logger` speaks to the host, `scene` is what build.rs compiled in.
+//! `instance` is what any version of FMI asks of a rotor; `fmi2` its functions under the names, types and rules of FMI 2.0;
+//! `arguments` reads and writes the arrays of a host; `scene` is what build.rs compiled in.
 
-pub mod abi;
-mod calls;
-pub mod exports;
-mod guard;
+mod arguments;
+mod fmi2;
 mod instance;
-mod logger;
 pub mod scene;
+
+pub use fmi2::{abi, exports};

@@ -1,8 +1,6 @@
 //! An FMU state as bytes, readable in another process: magic, version, scene, length, numbers, checksum.
 
-use super::{Experiment, Failure, Instance, Memory};
-use crate::abi::Status;
-use crate::calls::State;
+use super::{Experiment, Failure, Instance, Memory, State};
 use crate::scene::GUID;
 use split_rotor_model::simulation::Integrator;
 use split_rotor_model::stored::{self, Damaged, Stored, Walk, choice};
@@ -38,8 +36,8 @@ impl Instance {
     /// The state behind these bytes; an error where they are damaged, of another version, scene or kind of instance.
     pub fn memory_of(&self, bytes: &[u8]) -> Result<Memory, Failure> {
         let mut memory = Memory::new(self.memory.integrator());
-        let numbers = numbers(bytes).map_err(Failure::error)?;
-        stored::from_bytes(&mut memory, numbers).map_err(|Damaged| Failure::error(DAMAGED))?;
+        let numbers = numbers(bytes).map_err(Failure::Error)?;
+        stored::from_bytes(&mut memory, numbers).map_err(|Damaged| Failure::Error(DAMAGED.into()))?;
         self.check_kind(&memory)?;
         Ok(memory)
     }
@@ -83,7 +81,7 @@ const STATES: [State; 7] = [
 
 impl Stored for Memory {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { state, simulation, experiment, step_status, warned } = self;
+        let Self { state, simulation, experiment, step_failed, warned } = self;
         choice(state, &STATES, walk)?;
         simulation.walk(walk)?;
         let kinds = match state {
@@ -100,7 +98,7 @@ impl Stored for Memory {
         stop.walk(walk)?;
         tolerance.walk(walk)?;
         host_set_tolerance.walk(walk)?;
-        choice(step_status, &[Status::Ok, Status::Discard], walk)?;
+        step_failed.walk(walk)?;
         warned.walk(walk)
     }
 }

@@ -1,30 +1,21 @@
 //! What a host asks that integrates itself.
 
-use super::{Failure, Instance, Reply};
-use crate::abi::{Real, Status};
-use crate::calls::State;
-use crate::guard::{Room, fill};
+use super::{Failure, Instance, Reply, Room, State, fill};
 use crate::scene::Simulation;
 use split_rotor_model::log::Category;
 
-/// What fmi2NewDiscreteStates found.
-pub struct Events {
-    /// Whether the continuous states are others now.
-    pub states_changed: bool,
-}
-
 impl Instance {
-    /// fmi2EnterEventMode
+    /// Enters event mode.
     pub fn enter_event_mode(&mut self) -> Reply {
         if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.enter_event();
         }
         self.memory.state = State::EventMode;
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2NewDiscreteStates
-    pub fn new_discrete_states(&mut self) -> Result<Events, Failure> {
+    /// Changes the chart of the states, where it should be; whether the continuous states are others now.
+    pub fn new_discrete_states(&mut self) -> Result<bool, Failure> {
         self.memory.simulation.admits()?;
         let settled = self.memory.simulation.exchange().map(|mut exchange| exchange.settle()).unwrap_or_default();
         if settled.chart {
@@ -36,20 +27,20 @@ impl Instance {
         if settled.work {
             self.tell(Category::Events, || "the imposed speed jumped: its work is booked as supplied".into());
         }
-        Ok(Events { states_changed: settled.any() })
+        Ok(settled.any())
     }
 
-    /// fmi2EnterContinuousTimeMode
+    /// Enters continuous-time mode.
     pub fn enter_continuous_time_mode(&mut self) -> Reply {
         self.warn_of_zeros();
         if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.leave_event();
         }
         self.memory.state = State::ContinuousTime;
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2CompletedIntegratorStep; whether event mode should be entered.
+    /// The host completed a step; whether event mode should be entered.
     pub fn completed_integrator_step(&mut self) -> Result<bool, Failure> {
         self.memory.simulation.admits()?;
         let wants_event = self.memory.simulation.exchange().is_some_and(|mut exchange| exchange.complete_step());
@@ -57,65 +48,65 @@ impl Instance {
         Ok(wants_event)
     }
 
-    /// fmi2SetTime
-    pub fn set_time(&mut self, t: Real) -> Reply {
+    /// Sets the time [s].
+    pub fn set_time(&mut self, t: f64) -> Reply {
         if !t.is_finite() {
-            return Err(Failure::error(format!("time = {t:?} must be a finite number of seconds")));
+            return Err(Failure::Error(format!("time = {t:?} must be a finite number of seconds")));
         }
         if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.set_time(t);
         }
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2SetContinuousStates
-    pub fn set_continuous_states(&mut self, states: &[Real]) -> Reply {
+    /// Sets the continuous states.
+    pub fn set_continuous_states(&mut self, states: &[f64]) -> Reply {
         check_number(states.len())?;
         if let Some(n) = states.iter().position(|state| !state.is_finite()) {
             let message = format!("state {} of {} = {:?} must be a finite number", n + 1, states.len(), states[n]);
-            return Err(Failure::discard(message));
+            return Err(Failure::Discard(message));
         }
         if let Some(mut exchange) = self.memory.simulation.exchange() {
             exchange.set_state(states);
         }
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2GetContinuousStates
-    pub fn continuous_states(&mut self, states: Room<Real>) -> Reply {
+    /// Reads the continuous states.
+    pub fn continuous_states(&mut self, states: Room<f64>) -> Reply {
         check_number(states.len())?;
         let state = self.memory.simulation.state()?;
         fill(states, &state[..Simulation::STATES]);
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2GetDerivatives
-    pub fn derivatives(&mut self, derivatives: Room<Real>) -> Reply {
+    /// Reads the rates of the continuous states.
+    pub fn derivatives(&mut self, derivatives: Room<f64>) -> Reply {
         check_number(derivatives.len())?;
         self.memory.simulation.admits()?;
         let rates = self.memory.simulation.rates()?;
         if rates.iter().any(|rate| !rate.is_finite()) {
-            return Err(Failure::discard("a force or a rate is infinite or not a number"));
+            return Err(Failure::Discard("a force or a rate is infinite or not a number".into()));
         }
         fill(derivatives, &rates[..Simulation::STATES]);
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2GetNominalsOfContinuousStates
-    pub fn nominals(&mut self, nominals: Room<Real>) -> Reply {
+    /// Reads what each continuous state counts with.
+    pub fn nominals(&mut self, nominals: Room<f64>) -> Reply {
         check_number(nominals.len())?;
         // Before the start their parameters may be impossible.
         self.memory.simulation.parameters().check()?;
         fill(nominals, &self.memory.simulation.nominals()[..Simulation::STATES]);
-        Ok(Status::Ok)
+        Ok(())
     }
 
-    /// fmi2GetEventIndicators: there is none.
+    /// Reads the event indicators, of which there are none.
     pub fn event_indicators(&self, n: usize) -> Reply {
         if n == 0 {
-            return Ok(Status::Ok);
+            return Ok(());
         }
-        Err(Failure::error(format!("ni = {n} must be 0: there are no event indicators")))
+        Err(Failure::Error(format!("ni = {n} must be 0: there are no event indicators")))
     }
 }
 
@@ -123,5 +114,5 @@ fn check_number(n: usize) -> Result<(), Failure> {
     if n == Simulation::STATES {
         return Ok(());
     }
-    Err(Failure::error(format!("nx = {n} must be {}, the number of continuous states", Simulation::STATES)))
+    Err(Failure::Error(format!("nx = {n} must be {}, the number of continuous states", Simulation::STATES)))
 }

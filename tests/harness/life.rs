@@ -1,5 +1,5 @@
 //! The life of an instance, written down from the standard (FMI 2.0.4, sections 3.2.3 and 4.2.4), apart from what the FMU
-//! has in `src/calls.rs`.
+//! has in `src/fmi2/calls.rs`.
 
 use super::Instance;
 use split_rotor::abi::{CO_SIMULATION, Choice, MODEL_EXCHANGE, Real, Status};
