@@ -320,4 +320,5 @@ catalogue! {
     10 port Port several;
     11 imposed_speed ImposedSpeed one;
     12 extrapolation Extrapolation one;
+    13 motor Motor one;
 }

@@ -374,6 +374,11 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         Self::to_host(self.own_nominals())
     }
 
+    /// Whether a continuous state stands at this place.
+    pub fn is_state(&self, place: Place) -> bool {
+        self.parameters.number_in_state::<N>(place).is_some()
+    }
+
     /// What the continuous state at this place counts with; None where there is none.
     pub fn nominal(&self, place: Place) -> Option<f64> {
         self.parameters.number_in_state::<N>(place).map(|n| self.own_nominals()[n])

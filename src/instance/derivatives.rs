@@ -3,7 +3,6 @@
 use super::values::{Type, finite, shown, typed};
 use super::{Failure, Instance, Reply, Room};
 use split_rotor_model::variable::{Place, Role};
-use split_rotor_model::variables::state_number;
 
 impl Instance {
     /// How the unknown variables change as the known ones change by the seeds.
@@ -22,7 +21,7 @@ impl Instance {
         }
         for (reference, seed) in known.iter().zip(seeds) {
             let is_input = matches!(typed(*reference, Type::Real)?.role, Role::Input { .. });
-            if !is_input && state_number(Place::of(*reference)).is_none() {
+            if !is_input && !self.memory.simulation.is_state(Place::of(*reference)) {
                 return Err(Failure::Error(format!("{} is no known: inputs and states are", shown(*reference))));
             }
             if !seed.is_finite() {

@@ -42,6 +42,8 @@ pub static RADIAN_PER_SECOND_SQUARED: Unit = unit("rad/s2", [0, 0, -2, 1]);
 pub static NEWTON: Unit = unit("N", [1, 1, -2, 0]);
 /// N.m
 pub static NEWTON_METRE: Unit = unit("N.m", [1, 2, -2, 0]);
+/// N.m/s
+pub static NEWTON_METRE_PER_SECOND: Unit = unit("N.m/s", [1, 2, -3, 0]);
 /// N/m
 pub static NEWTON_PER_METRE: Unit = unit("N/m", [1, 0, -2, 0]);
 /// N.m/rad
