@@ -200,6 +200,8 @@ pub struct Info {
     pub could_work: bool,
     /// Whether it can impose a speed.
     pub imposes: bool,
+    /// The effects after it that cannot act beside it.
+    pub excludes: &'static [&'static str],
 }
 
 /// The switch of an effect: whether it acts.
@@ -266,6 +268,7 @@ macro_rules! catalogue {
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,
             imposes: <$module::$type as Effect>::IMPOSES,
+            excludes: <$module::$type as Effect>::EXCLUDES,
         }),*];
 
         /// Every effect, each behind a switch.

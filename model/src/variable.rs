@@ -7,6 +7,8 @@ use crate::error::{Invalid, written};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::state::Whole;
+#[cfg(feature = "scenes")]
+use crate::traced::Traced;
 use units::Unit;
 
 /// One variable of a block that lives on `P` (its parameters and inputs) and is read from `O` (what an instant shows).
@@ -85,12 +87,15 @@ pub enum Access<P: 'static, O: Shown> {
     Rate(Rate<P, O>),
 }
 
-/// One line of calculation, compiled for values and for values with derivatives.
+/// One line of calculation, compiled for values, for values with derivatives, and for what went into them.
 pub struct Output<P: 'static, O: Shown> {
     /// For values.
     pub value: fn(&P, &O::Of<f64>) -> f64,
     /// For derivatives.
     pub tangent: fn(&P, &O::Of<Tangent>) -> Tangent,
+    /// For what it depends on.
+    #[cfg(feature = "scenes")]
+    pub traced: fn(&P, &O::Of<Traced>) -> Traced,
 }
 
 /// As [`Output`], of the rates too.
@@ -99,9 +104,12 @@ pub struct Rate<P: 'static, O: Shown> {
     pub value: fn(&P, &O::Of<f64>, &Whole<f64>) -> f64,
     /// For derivatives.
     pub tangent: fn(&P, &O::Of<Tangent>, &Whole<Tangent>) -> Tangent,
+    /// For what it depends on.
+    #[cfg(feature = "scenes")]
+    pub traced: fn(&P, &O::Of<Traced>, &Whole<Traced>) -> Traced,
 }
 
-/// A scalar over which outputs are compiled: f64 or [`Tangent`].
+/// A scalar over which outputs are compiled: f64, [`Tangent`], or `Traced` where scenes are described.
 pub trait Readable: Scalar {
     /// An output's value.
     fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self;
@@ -127,6 +135,17 @@ impl Readable for Tangent {
 
     fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self {
         (rate.tangent)(of, shown, rates)
+    }
+}
+
+#[cfg(feature = "scenes")]
+impl Readable for Traced {
+    fn output<P, O: Shown>(output: &Output<P, O>, of: &P, shown: &O::Of<Self>) -> Self {
+        (output.traced)(of, shown)
+    }
+
+    fn rate<P, O: Shown>(rate: &Rate<P, O>, of: &P, shown: &O::Of<Self>, rates: &Whole<Self>) -> Self {
+        (rate.traced)(of, shown, rates)
     }
 }
 
@@ -369,7 +388,7 @@ macro_rules! input {
 }
 
 /// A row for an output: `output!("F.x", &NEWTON, "…", |effect, motion| …)`; with a third name, that of the rates of the
-/// state, which are calculated only for it. The expression is compiled for values and for derivatives.
+/// state, which are calculated only for it. The expression is compiled for each scalar.
 macro_rules! output {
     ($name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt $(, $rates:tt)?| $read:expr) => {
         output!(Output, $name, $unit, $description, |$p, $o $(, $rates)?| $read)
@@ -380,6 +399,8 @@ macro_rules! output {
             access: $crate::variable::Access::Output($crate::variable::Output {
                 value: |$p, $o| $read,
                 tangent: |$p, $o| $read,
+                #[cfg(feature = "scenes")]
+                traced: |$p, $o| $read,
             }),
         }
     };
@@ -389,6 +410,8 @@ macro_rules! output {
             access: $crate::variable::Access::Rate($crate::variable::Rate {
                 value: |$p, $o, $rates| $read,
                 tangent: |$p, $o, $rates| $read,
+                #[cfg(feature = "scenes")]
+                traced: |$p, $o, $rates| $read,
             }),
         }
     };

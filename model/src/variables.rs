@@ -180,7 +180,7 @@ const MOTION: &[AlwaysRow] = &[
     output!("v_c.y", &METRE_PER_SECOND, "velocity of the mass centre, y", |_, r| r.v_c().y),
     output!("v_c.z", &METRE_PER_SECOND, "velocity of the mass centre, z", |_, r| r.v_c().z),
     output!("phi", &RADIAN, "axial angle, 2 pi turns + angle", |_, r| r.motion.phi()),
-    output!("turns", &ONE, "whole turns of the axial angle", |_, r| constant(r.motion.angle().turns)),
+    output!("turns", &ONE, "whole turns of the axial angle", |_, r| r.motion.phi().jumping(r.motion.angle().turns)),
     output!("angle", &RADIAN, "axial angle less its whole turns, in [0, 2 pi)", |_, r| r
         .motion
         .phi()
@@ -236,6 +236,8 @@ macro_rules! states {
                 access: Access::Output(Output {
                     value: |_, r| chart_number(r.motion.tilt.chart()),
                     tangent: |_, r| constant(chart_number(r.motion.tilt.chart())),
+                    #[cfg(feature = "scenes")]
+                    traced: |_, r| constant(chart_number(r.motion.tilt.chart())),
                 }),
             },
         ]
@@ -434,7 +436,17 @@ impl<E: Effects> Parameters<E> {
     /// The value of a calculated variable at an instant; None where there is none at this place.
     #[inline(always)]
     pub fn calculated<S: Readable>(&self, place: Place, reading: &Reading<S>) -> Option<S> {
-        let rates = || rotor::whole_rates(&self.effects, &reading.motion);
+        self.calculated_with(place, reading, || rotor::whole_rates(&self.effects, &reading.motion))
+    }
+
+    /// The same where the rates of the state are known, or asked for only where they count.
+    #[inline(always)]
+    pub fn calculated_with<S: Readable>(
+        &self,
+        place: Place,
+        reading: &Reading<S>,
+        rates: impl FnOnce() -> Whole<S>,
+    ) -> Option<S> {
         match always(place, E::COULD_WORK) {
             None => self.effects.calculated(place, &reading.motion, rates),
             Some(row) => row.access.calculated(&self.setup, reading, rates),
