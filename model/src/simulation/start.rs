@@ -9,7 +9,7 @@ use crate::state::{Coordinates, PHI, WITH_WORK, Whole};
 use crate::variables::{Parameters, Setup, Solver};
 
 /// A rotor and where it is.
-pub(super) struct Motion<E> {
+pub(crate) struct Motion<E> {
     /// With the chart of the state and the whole turns of φ.
     pub rotor: Rotor<E>,
     /// φ wrapped, no work done yet.
@@ -18,7 +18,7 @@ pub(super) struct Motion<E> {
 
 impl<E: Effects> Motion<E> {
     /// The motion at the start, at time `t` [s]; the parameters were checked.
-    pub(super) fn at_start(parameters: &Parameters<E>, t: f64) -> Self {
+    pub(crate) fn at_start(parameters: &Parameters<E>, t: f64) -> Self {
         let (shape, start) = (parameters.shape(), &parameters.setup.start);
         let body = shape.inertia();
         let (chart, gamma) = Chart::best(start.gamma);
