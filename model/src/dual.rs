@@ -31,6 +31,11 @@ impl<const D: usize, S: Scalar> Dual<D, S> {
     fn with(re: S, eps: impl FnMut(usize) -> S) -> Self {
         Self { re, eps: std::array::from_fn(eps) }
     }
+
+    /// A function of this value, which has this value and this slope there.
+    fn chained(self, re: S, slope: S) -> Self {
+        Self::with(re, |i| slope * self.eps[i])
+    }
 }
 
 impl<S: Scalar> Dual<1, S> {
@@ -51,8 +56,40 @@ impl<const D: usize, S: Scalar> Scalar for Dual<D, S> {
 
     fn sqrt(self) -> Self {
         let root = self.re.sqrt();
-        let factor = S::constant(0.5) / root;
-        Self::with(root, |i| factor * self.eps[i])
+        self.chained(root, S::constant(0.5) / root)
+    }
+
+    fn sin_cos(self) -> [Self; 2] {
+        let [sine, cosine] = self.re.sin_cos();
+        [self.chained(sine, cosine), self.chained(cosine, -sine)]
+    }
+
+    fn exp(self) -> Self {
+        let value = self.re.exp();
+        self.chained(value, value)
+    }
+
+    fn tanh(self) -> Self {
+        let value = self.re.tanh();
+        // d tanh x = 1 − tanh² x
+        self.chained(value, (S::one() - value) * (S::one() + value))
+    }
+
+    fn atan2(self, x: Self) -> Self {
+        let square = x.re * x.re + self.re * self.re;
+        let angle = self.re.atan2(x.re);
+        if square.re() == 0.0 {
+            return Self::constant(angle.re());
+        }
+        // dβ = (x dy − y dx)/(x² + y²)
+        let (per_y, per_x) = (x.re / square, self.re / square);
+        Self::with(angle, |i| per_y * self.eps[i] - per_x * x.eps[i])
+    }
+
+    fn powf(self, power: f64) -> Self {
+        let is_flat = self.re() == 0.0 && power < 1.0;
+        let slope = if is_flat { S::zero() } else { S::constant(power) * self.re.powf(power - 1.0) };
+        self.chained(self.re.powf(power), slope)
     }
 
     fn with_value(self, value: f64) -> Self {

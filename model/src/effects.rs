@@ -196,8 +196,8 @@ pub struct Info {
     pub could_work: bool,
     /// Whether it can impose a speed.
     pub imposes: bool,
-    /// How many states of its own it has.
-    pub own: usize,
+    /// The effects after it that cannot act beside it.
+    pub excludes: &'static [&'static str],
 }
 
 /// The switch of an effect: whether it acts.
@@ -275,7 +275,7 @@ macro_rules! catalogue {
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,
             imposes: <$module::$type as Effect>::IMPOSES,
-            own: <$module::$type as Effect>::OWN,
+            excludes: <$module::$type as Effect>::EXCLUDES,
         }),*];
 
         /// Every effect, each behind a switch.

@@ -14,6 +14,8 @@ pub mod rotation;
 pub mod scalar;
 pub mod signal;
 pub mod stored;
+#[cfg(feature = "scenes")]
+pub mod traced;
 
 // Floor 1: kinematics, and the record of a variable, which may be read from them.
 pub mod body;

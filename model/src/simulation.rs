@@ -8,7 +8,7 @@ mod integration;
 mod method;
 mod nominals;
 mod plan;
-mod start;
+pub(crate) mod start;
 mod tangents;
 
 use exchange::Exchange;

@@ -7,6 +7,8 @@ use crate::error::{Invalid, written};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::state::Rates;
+#[cfg(feature = "scenes")]
+use crate::traced::Traced;
 use units::Unit;
 
 /// One variable of a block that lives on `P` (its parameters and inputs) and is read from `O` (what an instant shows).
@@ -85,12 +87,15 @@ pub enum Access<P: 'static, O: Shown> {
     Rate(Rate<P, O>),
 }
 
-/// One line of calculation, compiled for values and for values with derivatives.
+/// One line of calculation, compiled for values, for values with derivatives, and for what went into them.
 pub struct Output<P: 'static, O: Shown> {
     /// For values.
     pub value: for<'m> fn(&P, &O::Of<'m, f64>) -> f64,
     /// For derivatives.
     pub tangent: for<'m> fn(&P, &O::Of<'m, Tangent>) -> Tangent,
+    /// For what it depends on.
+    #[cfg(feature = "scenes")]
+    pub traced: for<'m> fn(&P, &O::Of<'m, Traced>) -> Traced,
 }
 
 /// As [`Output`], of the rates too.
@@ -99,6 +104,9 @@ pub struct Rate<P: 'static, O: Shown> {
     pub value: for<'m> fn(&P, &O::Of<'m, f64>, &Rates<'m, f64>) -> f64,
     /// For derivatives.
     pub tangent: for<'m> fn(&P, &O::Of<'m, Tangent>, &Rates<'m, Tangent>) -> Tangent,
+    /// For what it depends on.
+    #[cfg(feature = "scenes")]
+    pub traced: for<'m> fn(&P, &O::Of<'m, Traced>, &Rates<'m, Traced>) -> Traced,
 }
 
 impl<P, O: Shown> Access<P, O> {
@@ -135,6 +143,16 @@ impl<P, O: Shown> Access<P, O> {
         match self {
             Access::Output(output) => Some((output.tangent)(of, shown)),
             Access::Rate(rate) => Some((rate.tangent)(of, shown, rates?)),
+            Access::Parameter { .. } | Access::Input { .. } => None,
+        }
+    }
+
+    /// What a calculated variable depends on; None of others.
+    #[cfg(feature = "scenes")]
+    pub fn traced<'m>(&self, of: &P, shown: &O::Of<'m, Traced>, rates: &Rates<'m, Traced>) -> Option<Traced> {
+        match self {
+            Access::Output(output) => Some((output.traced)(of, shown)),
+            Access::Rate(rate) => Some((rate.traced)(of, shown, rates)),
             Access::Parameter { .. } | Access::Input { .. } => None,
         }
     }
@@ -350,7 +368,7 @@ macro_rules! input {
 }
 
 /// A row for an output: `output!("F.x", &NEWTON, "…", |effect, motion| …)`; with a third name, that of the rates of the
-/// state, which are calculated only for it. The expression is compiled for values and for derivatives.
+/// state, which are calculated only for it. The expression is compiled for each scalar.
 macro_rules! output {
     ($name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt $(, $rates:tt)?| $read:expr) => {
         output!(Output, $name, $unit, $description, |$p, $o $(, $rates)?| $read)
@@ -361,6 +379,8 @@ macro_rules! output {
             access: $crate::variable::Access::Output($crate::variable::Output {
                 value: |$p, $o| $read,
                 tangent: |$p, $o| $read,
+                #[cfg(feature = "scenes")]
+                traced: |$p, $o| $read,
             }),
         }
     };
@@ -370,6 +390,8 @@ macro_rules! output {
             access: $crate::variable::Access::Rate($crate::variable::Rate {
                 value: |$p, $o, $rates| $read,
                 tangent: |$p, $o, $rates| $read,
+                #[cfg(feature = "scenes")]
+                traced: |$p, $o, $rates| $read,
             }),
         }
     };

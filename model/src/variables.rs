@@ -16,6 +16,8 @@ use crate::rotor;
 use crate::scalar::Scalar;
 use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, Rates, SUPPLIED, WITH_WORK, own, rigid, work};
 use crate::stored::{Damaged, Stored, Walk};
+#[cfg(feature = "scenes")]
+use crate::traced::Traced;
 use crate::variable::units::*;
 use crate::variable::{Access, Bound, Kind, Meta, Output, Place, Role, Row, Shown, output, parameter};
 use nalgebra::{Vector2, Vector3};
@@ -121,7 +123,7 @@ impl<const N: usize, S: Scalar> Instant<N, S> {
     }
 
     /// The rates of all of it under these effects.
-    fn rates<E: Effects>(&self, effects: &E) -> [S; N] {
+    pub fn rates<E: Effects>(&self, effects: &E) -> [S; N] {
         rotor::whole_rates(effects, &self.reading.motion, &self.state)
     }
 }
@@ -205,7 +207,7 @@ const MOTION: &[AlwaysRow] = &[
     output!("v_c.y", &METRE_PER_SECOND, "velocity of the mass centre, y", |_, r| r.v_c().y),
     output!("v_c.z", &METRE_PER_SECOND, "velocity of the mass centre, z", |_, r| r.v_c().z),
     output!("phi", &RADIAN, "axial angle, 2 pi turns + angle", |_, r| r.motion.phi()),
-    output!("turns", &ONE, "whole turns of the axial angle", |_, r| constant(r.motion.angle().turns)),
+    output!("turns", &ONE, "whole turns of the axial angle", |_, r| r.motion.phi().jumping(r.motion.angle().turns)),
     output!("angle", &RADIAN, "axial angle less its whole turns, in [0, 2 pi)", |_, r| r
         .motion
         .phi()
@@ -261,6 +263,8 @@ macro_rules! states {
                 access: Access::Output(Output {
                     value: |_, r| chart_number(r.motion.tilt.chart()),
                     tangent: |_, r| constant(chart_number(r.motion.tilt.chart())),
+                    #[cfg(feature = "scenes")]
+                    traced: |_, r| constant(chart_number(r.motion.tilt.chart())),
                 }),
             },
         ]
@@ -476,6 +480,23 @@ impl<E: Effects> Parameters<E> {
         let rates = matches!(row.access, Access::Rate(_)).then(|| instant.rates(&self.effects));
         let rates = rates.as_ref().map(|rates| seen(rates, 0, 0));
         row.access.tangent(&self.setup, &instant.reading, rates.as_ref())
+    }
+
+    /// What a calculated variable depends on, where these are the rates; None where there is none at this place.
+    #[cfg(feature = "scenes")]
+    pub fn traced<const N: usize>(
+        &self,
+        place: Place,
+        instant: &Instant<N, Traced>,
+        rates: &[Traced; N],
+    ) -> Option<Traced> {
+        let Some(row) = always(place, E::FACTS.could_work) else {
+            let (block, from) = self.effects.at(place)?;
+            let count = block.kind().own;
+            let motion = Motion::new(&instant.reading.motion, &instant.own()[from..][..count]);
+            return block.traced(place.row, &motion, &seen(rates, from, count));
+        };
+        row.access.traced(&self.setup, &instant.reading, &seen(rates, 0, 0))
     }
 
     /// The number of the state at this place in a state of N numbers, if it is one.

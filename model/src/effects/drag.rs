@@ -20,8 +20,7 @@ impl Drag {
     /// The torque over the spin [N·m·s/rad].
     #[inline(always)]
     fn per_speed<S: Scalar>(&self, speed: S) -> S {
-        let size = if speed.re() < 0.0 { -speed } else { speed };
-        S::constant(self.linear) + S::constant(self.quadratic) * size
+        S::constant(self.linear) + S::constant(self.quadratic) * speed.abs()
     }
 
     /// ω_a, the spin about t [rad/s], and the torque on the rotor [N·m].

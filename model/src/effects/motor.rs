@@ -37,17 +37,15 @@ impl Motor {
     /// The torque on the rotor [N·m].
     #[inline(always)]
     fn torque<S: Scalar>(&self, motion: &Motion<S>) -> S {
-        if self.time_constant == 0.0 { self.steady(motion) } else { motion.own(0) }
+        S::zero().where_less(S::constant(self.time_constant), motion.own(0), self.steady(motion))
     }
 
     /// The rate of its state [N·m/s].
     #[inline(always)]
     fn rate<S: Scalar>(&self, motion: &Motion<S>) -> S {
-        if self.time_constant == 0.0 {
-            return S::zero();
-        }
+        let time = S::constant(self.time_constant);
         // eq. 96: T dτ/dt = τ∞ − τ
-        (self.steady(motion) - motion.own(0)) * S::constant(1.0 / self.time_constant)
+        S::zero().where_less(time, (self.steady(motion) - motion.own(0)) / time, S::zero())
     }
 }
 

@@ -20,7 +20,7 @@ impl<S: Scalar> Wrench<S> {
     /// it.)
     #[inline(always)]
     pub fn zero() -> Self {
-        let none = Vector3::repeat(S::constant(-0.0));
+        let none = Vector3::repeat(-S::zero());
         Self { force: none, moment: none }
     }
 

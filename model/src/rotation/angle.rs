@@ -35,7 +35,7 @@ impl Angle {
     }
 
     fn below_a_turn(self) -> Self {
-        if self.remainder < TAU { self } else { Self { turns: self.turns + 1.0, remainder: 0.0 } }
+        if self.remainder >= TAU { Self { turns: self.turns + 1.0, remainder: 0.0 } } else { self }
     }
 
     /// The angle as one number [rad].

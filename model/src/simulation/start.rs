@@ -9,7 +9,7 @@ use crate::state::{Coordinates, PHI, own, rigid_mut};
 use crate::variables::{Instant, Parameters, Setup, Solver};
 
 /// Where a rotor is, and how that is written.
-pub(super) struct Motion<const N: usize> {
+pub(crate) struct Motion<const N: usize> {
     /// With the chart of the state and the whole turns of φ.
     pub frame: Frame,
     /// φ wrapped, no work done yet.
@@ -20,7 +20,7 @@ pub(super) struct Motion<const N: usize> {
 
 impl<const N: usize> Motion<N> {
     /// The motion at the start, at time `t` [s], of which the effects hear; the parameters were checked.
-    pub(super) fn at_start<E: Effects>(parameters: &mut Parameters<E>, t: f64) -> Self {
+    pub(crate) fn at_start<E: Effects>(parameters: &mut Parameters<E>, t: f64) -> Self {
         let (shape, start) = (parameters.shape(), &parameters.setup.start);
         let body = shape.inertia();
         let (chart, gamma) = Chart::best(start.gamma);

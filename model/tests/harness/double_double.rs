@@ -39,6 +39,26 @@ impl Scalar for DoubleDouble {
         self.high
     }
 
+    fn sin_cos(self) -> [Self; 2] {
+        unimplemented!("in twice the precision")
+    }
+
+    fn exp(self) -> Self {
+        unimplemented!("in twice the precision")
+    }
+
+    fn tanh(self) -> Self {
+        unimplemented!("in twice the precision")
+    }
+
+    fn atan2(self, _x: Self) -> Self {
+        unimplemented!("in twice the precision")
+    }
+
+    fn powf(self, _power: f64) -> Self {
+        unimplemented!("in twice the precision")
+    }
+
     fn sqrt(self) -> Self {
         let root = Self::constant(self.high.sqrt());
         root + (self - root * root) / (root + root)

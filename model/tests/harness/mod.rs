@@ -229,7 +229,7 @@ pub fn tolerance<const N: usize>(relative: f64) -> Tolerance<N> {
 }
 
 /// What the simulation shows at time `t` [s].
-pub fn at<E: Effects>(simulation: &mut Simulation<E>, t: f64) -> Reading {
+pub fn at<E: Effects, const N: usize>(simulation: &mut Simulation<E, N>, t: f64) -> Reading {
     simulation.advance(t).expect("a possible motion");
     *simulation.read().expect("possible parameters")
 }

@@ -7,7 +7,7 @@ use crate::oracles::extrapolation::step;
 use crate::oracles::motion::FreeRotor;
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::simulation::Integrator;
-use split_rotor_model::state::WITH_WORK;
+use split_rotor_model::simulation::Any;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
@@ -41,7 +41,7 @@ impl Host {
     }
 
     fn advance(&mut self, h: f64) {
-        let rates = |t: f64, y: &[f64; WITH_WORK]| {
+        let rates = |t: f64, y: &[f64; Any::STATES]| {
             let mut named = self.named.borrow_mut();
             let mut exchange = named.simulation.exchange().expect("for a host");
             exchange.set_time(t);

@@ -194,7 +194,7 @@ fn exact_run_up_by_a_host_that_sets_both_inputs_at_every_time() {
     let state = named.simulation.state().expect("a state");
     let end = {
         let named = std::cell::RefCell::new(&mut named);
-        let rates = |t: f64, y: &split_rotor_model::state::Whole<f64>| {
+        let rates = |t: f64, y: &[f64; split_rotor_model::simulation::Any::STATES]| {
             let named = &mut *named.borrow_mut();
             tell(named, t, y);
             named.simulation.rates().expect("possible parameters")

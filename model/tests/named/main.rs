@@ -7,6 +7,7 @@ mod oracles;
 
 mod auto;
 mod between_steps;
+mod dependencies_of_draws;
 mod endless;
 mod exact_asymmetric;
 mod exact_bearing;

@@ -6,6 +6,8 @@ use crate::effects::{Act, MOST_OWN, block_name, full_name, switch_name};
 use crate::error::Invalid;
 use crate::signal::Signal;
 use crate::state::{Kinematics, Rates};
+#[cfg(feature = "scenes")]
+use crate::traced::Traced;
 use crate::variable::Meta;
 
 /// What an entry of a list is.
@@ -92,6 +94,9 @@ pub trait Block {
     fn value(&self, row: usize, t: f64, motion: Option<&Motion<f64>>, rates: Option<&Rates<f64>>) -> Option<f64>;
     /// The same of a calculated one with its derivative.
     fn tangent(&self, row: usize, motion: &Motion<Tangent>, rates: Option<&Rates<Tangent>>) -> Option<Tangent>;
+    /// What a calculated one depends on.
+    #[cfg(feature = "scenes")]
+    fn traced(&self, row: usize, motion: &Motion<Traced>, rates: &Rates<Traced>) -> Option<Traced>;
     /// The number of its own state that this variable is, if it is one.
     fn own_state(&self, row: usize) -> Option<usize>;
     /// Sets a parameter; false where there is none.

@@ -8,6 +8,8 @@ use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::state::{Kinematics, Rates};
 use crate::stored::{Damaged, Stored, Walk};
+#[cfg(feature = "scenes")]
+use crate::traced::Traced;
 use crate::variable::{Access, Place, Role};
 
 /// An effect that a scene calls for; `INDEX` counts from 1 where there are several of its kind.
@@ -254,6 +256,15 @@ impl<M: Member> Block for M {
         match self.active() {
             Some(effect) => access.tangent(effect, motion, rates),
             None => access.is_calculated().then(|| Tangent::constant(0.0)),
+        }
+    }
+
+    #[cfg(feature = "scenes")]
+    fn traced(&self, row: usize, motion: &Motion<Traced>, rates: &Rates<Traced>) -> Option<Traced> {
+        let access = access::<M::Effect>(row)?;
+        match self.active() {
+            Some(effect) => access.traced(effect, motion, rates),
+            None => access.is_calculated().then(|| Traced::constant(0.0)),
         }
     }
 
