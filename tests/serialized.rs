@@ -183,6 +183,13 @@ fn fmi_every_flipped_bit_and_every_cut_is_refused() {
         for more in [1, 7, 8, 4096] {
             refused(&instance, &own, &[&own[..], &vec![0; more]].concat(), &["damaged"]);
         }
+        refused(&instance, &own, &vec![0; own.len()], &["not a serialized state"]);
+        // Two bytes changed for each other keep sums.
+        for place in (LENGTH..own.len() - 1).filter(|place| own[*place] != own[place + 1]) {
+            let mut bytes = own.clone();
+            bytes.swap(place, place + 1);
+            refused(&instance, &own, &bytes, &["damaged"]);
+        }
         assert_eq!(life.future(instance), life.future(life.instance()), "{life:?}: the way on is the same");
     }
 }

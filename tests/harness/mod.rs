@@ -188,9 +188,6 @@ pub struct Instance {
     pub journal: Box<Journal>,
 }
 
-// SAFETY: FMI lets a host use an instance from any thread, one at a time; the journal has a lock.
-unsafe impl Send for Instance {}
-
 impl Drop for Instance {
     fn drop(&mut self) {
         // SAFETY: it came from fmi2Instantiate and is freed once.

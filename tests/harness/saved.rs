@@ -9,9 +9,6 @@ use std::ptr::null_mut;
 #[derive(Debug)]
 pub struct Saved(FmuState);
 
-// SAFETY: a saved state is plain memory of the FMU's, without ties to a thread; it is used by one at a time.
-unsafe impl Send for Saved {}
-
 impl Saved {
     /// The state of an instance.
     pub fn of(instance: &Instance) -> Self {
