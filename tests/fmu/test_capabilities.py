@@ -26,9 +26,12 @@ def saves_and_restores(host):
     saved = host.slave.getFMUstate()
     before = host.outputs()
     go_on(host)
-    assert host.outputs() != before
+    after = host.outputs()
+    assert after != before
     host.slave.setFMUstate(saved)
     assert host.outputs() == before
+    go_on(host)
+    assert host.outputs() == after
     host.slave.freeFMUstate(saved)
 
 
