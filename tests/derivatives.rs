@@ -84,7 +84,7 @@ fn exact_directional_derivatives_in_both_charts() {
         let mut here: Vec<Real> = (1_u32..).map(|n| (7.3 * Real::from(n)).sin()).take(STATES).collect();
         (here[9], here[10]) = (0.5, -0.4);
         here.extend(inputs().iter().map(|_| 0.75));
-        let mut show = |instance: &mut Instance, at: &[Real]| {
+        let show = |instance: &mut Instance, at: &[Real]| {
             assert_eq!(instance.set_states(&at[..STATES]), Status::Ok);
             assert_eq!(instance.write(&known[STATES..], &at[STATES..]), Status::Ok);
             values(instance, &unknown)

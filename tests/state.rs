@@ -31,7 +31,7 @@ proptest! {
         let object = saved.pointer();
         prop_assert_eq!(saved.again(&instance), Status::Ok);
         prop_assert_eq!(saved.pointer(), object);
-        prop_assert_eq!(saved.bytes(&instance), bytes);
+        prop_assert_eq!(saved.bytes(&instance), bytes.clone());
         prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
         // After the end, and after a reset.
         assert_eq!(instance.terminate(), Status::Ok);
@@ -40,12 +40,19 @@ proptest! {
         assert_eq!(instance.reset(), Status::Ok);
         saved.restore(&instance);
         prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
+        // From bytes.
+        Saved::unpack(&instance, &bytes);
+        prop_assert_eq!(instance.serialized(), bytes.clone());
+        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
         // In another instance, after the first is gone.
-        let mut other = journey.stranger();
+        let (mut other, mut third) = (journey.stranger(), journey.stranger());
         drop(instance);
         saved.restore(&other);
-        prop_assert_eq!(journey.way_on(&mut other, now), expected);
+        prop_assert_eq!(journey.way_on(&mut other, now), expected.clone());
         saved.free(&other);
+        Saved::unpack(&third, &bytes);
+        prop_assert_eq!(third.serialized(), bytes);
+        prop_assert_eq!(journey.way_on(&mut third, now), expected);
     }
 }
 
@@ -82,18 +89,17 @@ fn exact_a_state_of_model_exchange_brings_back_its_chart() {
     let before = (chart(&mut instance), Saved::of(&instance));
     // Through the event at 2 rad.
     let expected = instance.integrate(0.0, 1e-3, 30);
-    let after = (chart(&mut instance), Saved::of(&instance));
-    assert_ne!(before.0, after.0);
-    let bytes = before.1.bytes(&instance);
+    let after = chart(&mut instance);
+    assert_ne!(before.0, after);
     let mut other = Instance::of(MODEL_EXCHANGE);
-    let read = Saved::read(&other, &bytes).expect("the bytes are whole");
-    for (instance, saved) in [(&mut instance, &before.1), (&mut other, &read)] {
-        saved.restore(instance);
+    Saved::unpack(&other, &before.1.bytes(&instance));
+    before.1.restore(&instance);
+    for instance in [&mut instance, &mut other] {
         assert_eq!(chart(instance), before.0);
         assert_eq!(instance.integrate(0.0, 1e-3, 30), expected);
-        assert_eq!(chart(instance), after.0);
+        assert_eq!(chart(instance), after);
     }
-    [before.1, after.1, read].into_iter().for_each(|saved| saved.free(&instance));
+    before.1.free(&instance);
 }
 
 #[test]

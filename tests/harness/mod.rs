@@ -38,11 +38,6 @@ pub fn scene() -> &'static Scene {
     })
 }
 
-/// Whether the compiled-in scene is the paper's, whose numbers some tests know.
-pub fn is_paper() -> bool {
-    scene().name == "paper"
-}
-
 /// Whether the scene has variables of these names.
 pub fn has(names: &[&str]) -> bool {
     names.iter().all(|name| scene().variables.iter().any(|variable| variable.name == *name))

@@ -64,6 +64,14 @@ impl Saved {
         Err(status)
     }
 
+    /// Brings an instance to where the bytes were written.
+    #[track_caller]
+    pub fn unpack(instance: &Instance, bytes: &[u8]) {
+        let saved = Self::read(instance, bytes).unwrap_or_else(|_| panic!("{:?}", instance.journal.take()));
+        saved.restore(instance);
+        saved.free(instance);
+    }
+
     /// fmi2FreeFMUstate.
     pub fn free(mut self, instance: &Instance) {
         // SAFETY: a live instance and a state of this FMU's, which nobody uses any more.
