@@ -28,16 +28,22 @@ fn fmi_instantiate_refuses_bad_arguments_and_says_why() {
     }] {
         let record = not_instantiated(Request { guid: Some(wrong.clone()), ..right() });
         let wrong = wrong.to_str().expect("ASCII");
-        assert!(record.message.contains(&guid) && record.message.contains(wrong), "{record:?}");
+        let differ = "the binary and the modelDescription.xml differ";
+        assert!([&guid, wrong, differ].iter().all(|word| record.message.contains(word)), "{record:?}");
         assert_eq!(record.instance, "rotor");
     }
     assert!(not_instantiated(Request { guid: None, ..right() }).message.contains("fmuGUID is a null pointer"));
     let record = not_instantiated(Request { name: None, ..right() });
     assert!(record.message.contains("instanceName is a null pointer"));
     assert_eq!(record.instance, "", "no name, but a string all the same");
+    for empty in [c"", c" \t"] {
+        let record = not_instantiated(Request { name: Some(empty.into()), ..right() });
+        assert!(record.message.contains("instanceName"), "{record:?}");
+    }
     for kind in [2, -1, Choice::MAX] {
         let record = not_instantiated(Request { kind, ..right() });
-        assert!(record.message.contains("fmuType") && record.message.contains("fmi2CoSimulation"), "{record:?}");
+        let words = format!("fmuType = {kind} must be fmi2ModelExchange (0) or fmi2CoSimulation (1)");
+        assert!(record.message.ends_with(&words), "{record:?}");
     }
     // The same without a logger: null, and nobody is told.
     let silent = Request { has_logger: false, guid: None, ..right() };
@@ -75,11 +81,11 @@ fn fmi_the_struct_of_callbacks_may_go_after_instantiate() {
 fn fmi_messages_go_to_the_environment_and_under_the_name_of_their_instance() {
     let named = |name: &CStr| Request { name: Some(name.into()), ..Request::default() }.instantiate().expect("right");
     // The name is no format either; it is handed back as it came.
-    let (mut one, mut other) = (named(c"one 100% of it"), named(c"the other"));
+    let (mut one, mut other) = (named(c"rotor № 1, 100% of it"), named(c"the other"));
     assert_eq!(one.terminate(), Status::Error);
     let (mine, theirs) = (one.journal.take(), other.journal.take());
     assert_eq!((mine.len(), theirs.len()), (1, 0));
-    assert_eq!(mine[0].instance, "one 100% of it");
+    assert_eq!(mine[0].instance, "rotor № 1, 100% of it");
     assert_eq!(other.reset(), Status::Ok);
     assert_eq!(other.terminate(), Status::Error);
     let (mine, theirs) = (one.journal.take(), other.journal.take());
@@ -124,6 +130,24 @@ fn fmi_logging_on_says_everything_and_off_what_goes_wrong() {
     let unasked = ["logStatusDiscard", "logStatusError", "logStatusWarning"];
     assert_eq!(heard(&mut Instance::talkative()), everything);
     assert_eq!(heard(&mut Instance::quiet()), unasked);
+}
+
+#[test]
+fn fmi_a_run_that_goes_well_says_what_was_asked_for() {
+    for (mut instance, asked, expected) in [
+        (Instance::quiet(), &[][..], &[][..]),
+        // The tolerance in force, and what was spent.
+        (Instance::quiet(), &[c"logSolver"][..], &["logSolver", "logSolver"][..]),
+    ] {
+        if !asked.is_empty() {
+            assert_eq!(instance.debug_logging(true, asked), Status::Ok);
+        }
+        let mut instance = instance.started(&[]);
+        instance.run(0.0, 0.1, 1);
+        assert_eq!(instance.terminate(), Status::Ok);
+        let records = instance.journal.take();
+        assert_eq!(records.iter().map(|record| record.category.as_str()).collect::<Vec<_>>(), expected, "{records:?}");
+    }
 }
 
 #[test]

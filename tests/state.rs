@@ -8,7 +8,7 @@ mod journey;
 use harness::{Instance, Life, Saved, reference, refused, scene, tumbling};
 use journey::journey;
 use proptest::prelude::*;
-use split_rotor::abi::Status;
+use split_rotor::abi::{MODEL_EXCHANGE, Status};
 use split_rotor::exports::{fmi2FreeFMUstate, fmi2SetFMUstate};
 use std::ptr::null_mut;
 
@@ -28,8 +28,10 @@ proptest! {
         // Another way, and back; saved once more into the same object.
         journey.detour(&mut instance, now);
         saved.restore(&instance);
+        let object = saved.pointer();
         prop_assert_eq!(saved.again(&instance), Status::Ok);
-        prop_assert_eq!(saved.bytes(&instance), bytes);
+        prop_assert_eq!(saved.pointer(), object);
+        prop_assert_eq!(saved.bytes(&instance), bytes.clone());
         prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
         // After the end, and after a reset.
         assert_eq!(instance.terminate(), Status::Ok);
@@ -38,12 +40,19 @@ proptest! {
         assert_eq!(instance.reset(), Status::Ok);
         saved.restore(&instance);
         prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
+        // From bytes.
+        Saved::unpack(&instance, &bytes);
+        prop_assert_eq!(instance.serialized(), bytes.clone());
+        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
         // In another instance, after the first is gone.
-        let mut other = journey.stranger();
+        let (mut other, mut third) = (journey.stranger(), journey.stranger());
         drop(instance);
         saved.restore(&other);
-        prop_assert_eq!(journey.way_on(&mut other, now), expected);
+        prop_assert_eq!(journey.way_on(&mut other, now), expected.clone());
         saved.free(&other);
+        Saved::unpack(&third, &bytes);
+        prop_assert_eq!(third.serialized(), bytes);
+        prop_assert_eq!(journey.way_on(&mut third, now), expected);
     }
 }
 
@@ -69,6 +78,28 @@ fn exact_a_state_brings_back_a_failed_step_and_settings() {
     assert_eq!(instance.get("support.c1"), scene().starts[&reference("support.c1")]);
     let expected = Instance::quiet().started(&[]).run(0.0, 0.01, 20);
     assert_eq!(instance.started(&[]).run(0.0, 0.01, 20), expected);
+}
+
+#[test]
+fn exact_a_state_of_model_exchange_brings_back_its_chart() {
+    let start = [("start.gamma.y", 1.9), ("start.omega.x", 1.0), ("start.omega.y", 20.0)];
+    let mut instance = Instance::of(MODEL_EXCHANGE).started(&start);
+    instance.settled();
+    let chart = |instance: &mut Instance| instance.get_integer(reference("state.chart"));
+    let before = (chart(&mut instance), Saved::of(&instance));
+    // Through the event at 2 rad.
+    let expected = instance.integrate(0.0, 1e-3, 30);
+    let after = chart(&mut instance);
+    assert_ne!(before.0, after);
+    let mut other = Instance::of(MODEL_EXCHANGE);
+    Saved::unpack(&other, &before.1.bytes(&instance));
+    before.1.restore(&instance);
+    for instance in [&mut instance, &mut other] {
+        assert_eq!(chart(instance), before.0);
+        assert_eq!(instance.integrate(0.0, 1e-3, 30), expected);
+        assert_eq!(chart(instance), after);
+    }
+    before.1.free(&instance);
 }
 
 #[test]

@@ -1,8 +1,9 @@
 /* A host in plain C that does with the FMU whatever a host can do, well or badly.
 
-       host SHEET LIBRARY FOLDER [--cycles N] [--steps N] [--no-memory] [--without PART]... [--resume FILE]
+       host SHEET LIBRARY [--cycles N] [--steps N] [--no-memory] [--without PART]...
 
-   FOLDER is one to write to. Each check that fails prints one line; then the program ends with 1. */
+   Each check that fails prints one line; then the program ends with 1. What a call must do is asked of it in Rust
+   (`cargo test`); here each is made from C, with checkers looking on. */
 #include "check.h"
 #include "library.h"
 #include "parts.h"
@@ -17,8 +18,7 @@ struct options options = {.cycles = 10000, .steps = 1000, .memory = true};
 
 static void usage(void)
 {
-    fprintf(stderr, "usage: host SHEET LIBRARY FOLDER [--cycles N] [--steps N] [--no-memory] [--without PART]... "
-                    "[--resume FILE]\n");
+    fprintf(stderr, "usage: host SHEET LIBRARY [--cycles N] [--steps N] [--no-memory] [--without PART]...\n");
     exit(2);
 }
 
@@ -42,15 +42,10 @@ static void one_part(const char *name, void (*part)(void))
 
 int main(int count, char **arguments)
 {
-    const char *resumed = NULL;
-    if (count < 4) {
+    if (count < 3) {
         usage();
     }
-    options.program = arguments[0];
-    options.sheet = arguments[1];
-    options.library = arguments[2];
-    options.folder = arguments[3];
-    for (int i = 4; i < count; i++) {
+    for (int i = 3; i < count; i++) {
         bool has_value = i + 1 < count;
         if (strcmp(arguments[i], "--cycles") == 0 && has_value) {
             options.cycles = atoi(arguments[++i]);
@@ -61,23 +56,16 @@ int main(int count, char **arguments)
         } else if (strcmp(arguments[i], "--without") == 0 && has_value &&
                    without_count < sizeof without / sizeof *without) {
             without[without_count++] = arguments[++i];
-        } else if (strcmp(arguments[i], "--resume") == 0 && has_value) {
-            resumed = arguments[++i];
         } else {
             usage();
         }
     }
-    read_sheet(options.sheet);
-    load_library(options.library);
+    read_sheet(arguments[1]);
+    load_library(arguments[2]);
     find_reals();
-    if (resumed != NULL) {
-        resume(resumed);
-    } else {
 #define RUN(name) one_part(#name, name);
-        PARTS(RUN)
+    PARTS(RUN)
 #undef RUN
-        printf("%s: %ld checks, %d failed\n", attribute("fmiModelDescription.modelName"), all_checks(),
-               failed_checks());
-    }
+    printf("%s: %ld checks, %d failed\n", attribute("fmiModelDescription.modelName"), all_checks(), failed_checks());
     return failed_checks() == 0 ? 0 : 1;
 }

@@ -1,11 +1,10 @@
-/* What is logged: by category, to the right environment, printable by a logger that formats (the journal's does). */
+/* What is logged can be printed by a logger that formats it, as the journal's does: a % in a message is doubled. */
 #include "parts.h"
 #include "rotor.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-static void percent_signs(void)
+void logs(void)
 {
     const fmi2String names[] = {"100%", "%s%n%d", "50 %% off"};
     struct rotor rotor = new_rotor(fmi2CoSimulation);
@@ -16,74 +15,13 @@ static void percent_signs(void)
         CHECK(strcmp(rotor.journal->instance, "rotor") == 0, "the instance is called %s", rotor.journal->instance);
     }
     free_rotor(&rotor);
-}
 
-/* How many lines a short life writes. */
-static int lines(struct rotor *rotor)
-{
-    int before = rotor->journal->count = 0;
-    fmi.SetupExperiment(rotor->component, fmi2False, 0.0, 0.0, fmi2False, 0.0);
-    fmi.EnterInitializationMode(rotor->component);
-    fmi.ExitInitializationMode(rotor->component);
-    fmi.DoStep(rotor->component, 0.0, 0.01, fmi2True);
-    fmi.Terminate(rotor->component);
-    fmi.Terminate(rotor->component);
-    fmi.Reset(rotor->component);
-    return rotor->journal->count - before;
-}
-
-static void categories(void)
-{
-    const fmi2String all = "logAll", errors = "logStatusError";
-    struct rotor rotor = new_rotor(fmi2CoSimulation);
-    int unasked = lines(&rotor);
-    /* An unstable rotor is warned of besides. */
-    CHECK(unasked == 1 || unasked == 2, "unasked, one error makes %d lines", unasked);
-    DONE(&rotor, SetDebugLogging, fmi2True, 1, &all);
-    CHECK(lines(&rotor) > unasked, "all categories say no more than an error");
-    DONE(&rotor, SetDebugLogging, fmi2False, 0, NULL);
-    CHECK(lines(&rotor) == 0, "switched off, it says something");
-    DONE(&rotor, SetDebugLogging, fmi2True, 1, &errors);
-    CHECK(lines(&rotor) == 1, "errors alone are one line");
-    free_rotor(&rotor);
-}
-
-/* Two instances, two environments. */
-static void environments(void)
-{
-    struct rotor one = new_rotor(fmi2CoSimulation), other = new_rotor(fmi2CoSimulation);
-    other.journal->count = 0;
-    REFUSED_PLAIN(&one, Terminate);
-    CHECK(other.journal->count == 0, "one instance writes into the journal of another");
-    free_rotor(&one);
-    REFUSED_PLAIN(&other, Terminate);
-    free_rotor(&other);
-}
-
-/* A host without a logger, and one that is loud from the start. */
-static void other_callbacks(void)
-{
-    struct journal journal;
-    fmi2CallbackFunctions callbacks = {NULL, NULL, NULL, NULL, NULL};
+    /* Loud from the start, by a host that gives neither memory functions nor the place of the resources. */
+    struct journal journal = {0};
+    const fmi2CallbackFunctions callbacks = {write_journal, NULL, NULL, NULL, &journal};
     const char *guid = attribute("fmiModelDescription.guid");
-    fmi2Component silent = fmi.Instantiate("silent", fmi2CoSimulation, guid, NULL, &callbacks, fmi2False, fmi2True);
-    if (CHECK(silent != NULL, "a logger is not needed")) {
-        CHECK(fmi.Terminate(silent) == fmi2Error, "an error is one without a logger too");
-        fmi.FreeInstance(silent);
-    }
-    memset(&journal, 0, sizeof journal);
-    callbacks.logger = write_journal;
-    callbacks.componentEnvironment = &journal;
     fmi2Component loud = fmi.Instantiate("100% loud", fmi2CoSimulation, guid, NULL, &callbacks, fmi2True, fmi2True);
     CHECK(loud != NULL && journal.count == 1 && strcmp(journal.instance, "100% loud") == 0,
           "with loggingOn fmi2Instantiate writes %d lines for %s", journal.count, journal.instance);
     fmi.FreeInstance(loud);
-}
-
-void logs(void)
-{
-    percent_signs();
-    categories();
-    environments();
-    other_callbacks();
 }

@@ -11,10 +11,6 @@ struct options {
     int steps;
     /* Whether memory is measured: not where a checker's own comes into it. */
     bool memory;
-    /* A folder to write to. */
-    const char *folder;
-    /* This program, the sheet and the library, for the child process. */
-    const char *program, *sheet, *library;
 };
 extern struct options options;
 
@@ -22,24 +18,16 @@ extern struct options options;
 #define PARTS(P) \
     P(cycles)           /* resets and instances by the thousand leave the memory flat */ \
     P(whole_run)        /* the default experiment, again and again with the same bits */ \
-    P(access_variables) /* every variable through every getter and setter, in every state */ \
-    P(order)            /* calls where they are not legal */ \
-    P(nulls)            /* null pointers in every argument of every function */ \
-    P(logs)             /* categories, and messages that a formatting logger prints rightly */ \
-    P(rollback)         /* FMU states saved, used again and brought back */ \
-    P(bytes)            /* FMU states as bytes, read here and in another process */ \
-    P(damage)           /* damaged bytes are refused */ \
-    P(signals)          /* derivatives of inputs and outputs */ \
+    P(access_variables) /* every variable through every getter and setter */ \
+    P(logs)             /* messages that a formatting logger prints rightly */ \
+    P(saved_states)     /* FMU states in memory and as bytes, whole and damaged */ \
+    P(derivatives)      /* of inputs, of outputs and directional ones */ \
     P(model_exchange)   /* with a Runge-Kutta loop of the host's own */ \
-    P(directional)      /* directional derivatives against differences */ \
     P(threads)          /* 64 instances on 8 threads */
 /* clang-format on */
 
 #define PART(name) void name(void);
 PARTS(PART)
 #undef PART
-
-/* In the child process: the bytes in this file go on as the parent noted. */
-void resume(const char *file);
 
 #endif

@@ -156,9 +156,7 @@ impl Actor {
         assert!(self.instance.serialized() == expected, "after a rollback: {:?}", self.mind.memory.life);
 
         let mut other = Self { instance: Instance::of(memory.life.kind), mind: Mind::new(memory.life.kind) };
-        let read = Saved::read(&other.instance, &bytes).expect("the bytes are whole");
-        read.restore(&other.instance);
-        read.free(&other.instance);
+        Saved::unpack(&other.instance, &bytes);
         other.mind.memory = memory;
         other.go_on(&mut again.clone());
         assert!(other.instance.serialized() == expected, "in another instance: {:?}", self.mind.memory.life);

@@ -67,22 +67,10 @@ def fmu(request, fmus):
     return fmus[request.param]
 
 
-@pytest.fixture(params=project.GENTLE)
-def gentle(request, fmus):
-    """Each gentle scene's FMU."""
-    return fmus[request.param]
-
-
 @pytest.fixture(scope="session")
 def paper(fmus):
     """The rotor of Sorokin and Zhang."""
     return fmus["paper"]
-
-
-@pytest.fixture(scope="session")
-def free_top(fmus):
-    """The rotor with nothing acting on it."""
-    return fmus["free_top"]
 
 
 @pytest.fixture(scope="session")

@@ -1,7 +1,6 @@
-"""A host of one instance: like fmpy's FMU2Slave or FMU2Model, but every call returns its status, and every message is kept."""
+"""A host of one instance: like fmpy's FMU2Slave or FMU2Model, but fmi2DoStep returns its status."""
 
 from ctypes import byref, c_double
-from typing import NamedTuple
 
 from fmpy import calloc, free
 from fmpy.fmi1 import FMICallException
@@ -12,51 +11,39 @@ from fmpy.fmi2 import (
     fmi2CallbackFreeMemoryTYPE,
     fmi2CallbackFunctions,
     fmi2CallbackLoggerTYPE,
-    fmi2LastSuccessfulTime,
-    fmi2Terminated,
 )
 
-OK, WARNING, DISCARD, ERROR, FATAL = range(5)
+OK, WARNING, DISCARD = range(3)
 MODEL_EXCHANGE, CO_SIMULATION = range(2)
-
-
-class Message(NamedTuple):
-    """What the FMU logged, byte for byte."""
-
-    status: int
-    category: str
-    text: str
-    instance: str
 
 
 class Host:
     """An instance of a packaged FMU. Used as a context, it frees the instance."""
 
-    def __init__(self, fmu, logging=True, guid=None, name="instance", kind=CO_SIMULATION, memory_functions=True):
-        self.log = []
+    def __init__(self, fmu, kind=CO_SIMULATION, memory_functions=True):
         self.fmu, self.kind = fmu, kind
         self.variables = fmu.variables
-        self.number_of_states = fmu.description.numberOfContinuousStates
         self.slave = (FMU2Slave if kind == CO_SIMULATION else FMU2Model)(
-            instanceName=name,
-            guid=guid or fmu.description.guid,
+            instanceName="instance",
+            guid=fmu.description.guid,
             modelIdentifier=fmu.description.coSimulation.modelIdentifier,
             unzipDirectory=str(fmu.directory),
         )
+        # Callbacks of its own: fmpy's default ones log through what an earlier simulate_fmu left behind.
         callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(self._logger)
+        callbacks.logger = fmi2CallbackLoggerTYPE(lambda *_message: None)
         if memory_functions:
             callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
             callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
         self._callbacks = callbacks
         self.slave.component = self.slave.fmi2Instantiate(
-            name.encode(),
+            b"instance",
             kind,
-            self.slave.guid.encode(),
+            fmu.description.guid.encode(),
             fmu.directory.as_uri().encode(),
             byref(callbacks),
             False,
-            logging,
+            False,
         )
 
     def __enter__(self):
@@ -64,25 +51,6 @@ class Host:
 
     def __exit__(self, *_exception):
         self.slave.freeInstance()
-
-    def _logger(self, _environment, instance, status, category, message):
-        self.log.append(Message(status, category.decode(), message.decode(), instance.decode()))
-
-    def status(self, method, *arguments, **named):
-        """The status of a method of fmpy's, by its name."""
-        try:
-            getattr(self.slave, method)(*arguments, **named)
-        except FMICallException as refused:
-            return refused.status
-        return OK
-
-    def refused(self, method, *arguments, **named):
-        """The one line that the call logs; it must return fmi2Error."""
-        before = len(self.log)
-        assert self.status(method, *arguments, **named) == ERROR
-        (message,) = self.log[before:]
-        assert (message.status, message.category) == (ERROR, "logStatusError")
-        return message.text
 
     def reference(self, name):
         """The value reference of a variable."""
@@ -103,19 +71,8 @@ class Host:
 
     def states(self):
         """fmi2GetContinuousStates"""
-        return self._filled("getContinuousStates")
-
-    def rates(self):
-        """fmi2GetDerivatives"""
-        return self._filled("getDerivatives")
-
-    def nominals(self):
-        """fmi2GetNominalsOfContinuousStates"""
-        return self._filled("getNominalsOfContinuousStates")
-
-    def _filled(self, method):
-        numbers = (c_double * self.number_of_states)()
-        getattr(self.slave, method)(numbers, len(numbers))
+        numbers = (c_double * self.fmu.description.numberOfContinuousStates)()
+        self.slave.getContinuousStates(numbers, len(numbers))
         return list(numbers)
 
     def start(self, values=(), **experiment):
@@ -135,24 +92,10 @@ class Host:
         """All outputs."""
         return self.slave.getReal([v.valueReference for v in self.variables.values() if v.causality == "output"])
 
-    def motion(self):
-        """All outputs that are not of the solver."""
-        return self.read(*(name for name, v in self.variables.items() if v.causality == "output" and "solver" not in name))
-
     def step(self, time, size):
         """The status of fmi2DoStep."""
-        return self.status("doStep", time, size)
-
-    def run(self, times):
-        """Steps from each of the times to the next; all outputs at the last."""
-        for time, following in zip(times, times[1:]):
-            assert self.step(time, following - time) == OK
-        return self.outputs()
-
-    def last_successful_time(self):
-        """What fmi2GetRealStatus says of it [s]."""
-        return self.slave.getRealStatus(fmi2LastSuccessfulTime)
-
-    def terminated(self):
-        """What fmi2GetBooleanStatus says of fmi2Terminated."""
-        return bool(self.slave.getBooleanStatus(fmi2Terminated))
+        try:
+            self.slave.doStep(time, size)
+        except FMICallException as refused:
+            return refused.status
+        return OK

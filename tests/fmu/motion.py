@@ -5,17 +5,10 @@ Rows are instants: a Euler vector is an array of shape (n, 3), an attitude one o
 
 import numpy as np
 
-E = np.array([1.0, 0.0, 0.0])
-
 
 def vectors(result, name, components="xyz"):
     """The components of a vector of fmpy's result, as rows."""
     return np.stack([result[f"{name}.{c}"] for c in components], axis=-1)
-
-
-def gamma(result):
-    """γ with its component along e, which is 0, as rows [rad]."""
-    return np.insert(vectors(result, "gamma", "yz"), 0, 0.0, axis=-1)
 
 
 def attitude(euler):

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -14,6 +15,14 @@ GENTLE = [
 ]
 GENERAL = [scene for scene in SCENES if "\ngeneral = true" in "\n" + (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
 PACKAGES = ROOT / "target" / "fmu"
+
+
+def effects(scene):
+    """The effects of which the scene's FMU has variables: those that it calls for, and all of them in a general one."""
+    if scene in GENERAL:
+        return {text.stem for text in (ROOT / "modelDescription/documentation/effects").glob("*.html")}
+    text = (ROOT / "scenes" / f"{scene}.toml").read_text(encoding="utf-8")
+    return set(re.findall(r"^\[+effects\.(\w+)", text, re.MULTILINE))
 
 
 def build_xtask():

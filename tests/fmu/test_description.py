@@ -9,22 +9,6 @@ from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
 STRUCTURED = re.compile(r"[A-Za-z]\w*(\[[1-4]\])?(\.\w+)*|effects\.\w+\[[1-4]\]|der\(.*\)", re.ASCII)
-COMMON = {
-    "canNotUseMemoryManagementFunctions": "true",
-    "canGetAndSetFMUstate": "true",
-    "canSerializeFMUstate": "true",
-    "providesDirectionalDerivative": "true",
-}
-CAPABILITIES = {
-    "ModelExchange": COMMON,
-    "CoSimulation": COMMON | {
-        "canHandleVariableCommunicationStepSize": "true",
-        "canInterpolateInputs": "true",
-        "maxOutputDerivativeOrder": "1",
-    },
-}
-"""All that INTERFACE.md promises; what is false is the standard's default. test_capabilities.py calls each."""
-
 
 def scalars(fmu):
     """Pairs of each ScalarVariable and the element of its type."""
@@ -80,13 +64,6 @@ def test_exact_attributes_of_the_model(fmu):
     assert experiment.keys() == {"startTime", "stopTime", "tolerance", "stepSize"}
     assert experiment["startTime"] < experiment["stopTime"]
     assert 0.0 < experiment["stepSize"] <= experiment["stopTime"] - experiment["startTime"]
-
-
-@pytest.mark.parametrize("kind", CAPABILITIES)
-def test_exact_capabilities_claim_what_works(fmu, kind):
-    claimed = dict(fmu.xml.find(kind).attrib)
-    assert claimed.pop("modelIdentifier") == fmu.scene
-    assert claimed == CAPABILITIES[kind]
 
 
 KINDS = {
@@ -261,10 +238,5 @@ def test_exact_names_are_unique_and_structured(fmu):
 def test_exact_effects_that_a_scene_does_not_name_are_not_there(fmu):
     blocks = {v.get("name").partition(".")[0] for v, _ in scalars(fmu) if "." in v.get("name")}
     always = {"rotor", "start", "solver", "energy", "r_c", "v_c", "gamma", "omega", "K_c", "axis", "state", "der(state"}
-    text = (project.ROOT / "scenes" / f"{fmu.scene}.toml").read_text(encoding="utf-8")
     found = {re.sub(r"\[\d\]$", "", block) for block in blocks - always}
-    if fmu.scene in project.GENERAL:
-        texts = (project.ROOT / "modelDescription/documentation/effects").glob("*.html")
-        assert found == {text.stem for text in texts} | {"effects"}
-    else:
-        assert found == set(re.findall(r"^\[+effects\.(\w+)", text, re.MULTILINE))
+    assert found == project.effects(fmu.scene) | ({"effects"} if fmu.scene in project.GENERAL else set())

@@ -4,8 +4,6 @@ import motion
 import numpy as np
 import project
 import pytest
-from fmpy.simulation import instantiate_fmu
-from host import DISCARD, WARNING
 
 TIGHT = 1e-11  # relative tolerance
 AXIS = {"paper": 2e-7, "driven": 5e-9, "free_top": 1e-7, "tumbling": 7e-10}  # [rad], measured 5.4e-8, 1.6e-9, 3.3e-8, 2.1e-10
@@ -73,27 +71,3 @@ def test_exact_tumbling_between_rare_communication_points(fmus):
     """fmpy tells of completed steps at communication points only: the axis may turn from 2.0 to 3.1 rad between two."""
     last = [exchange(fmus["tumbling"], output_interval=interval, output=["phi"])["phi"][-1] for interval in (0.01, 0.1)]
     assert abs(last[1] - last[0]) <= PHI["tumbling"]
-
-
-LIMIT = {
-    "start.gamma.y": 3.0,
-    "start.omega.x": 0.0,
-    "start.omega.y": 0.5,
-    "gravity.g.z": 0.0,
-    "support.c1": 0.0,
-    "support.c2": 1e-300,
-}
-"""The paper's rotor turning end over end, held by next to no spring, whose law ends at 3.1 rad."""
-REASON = "the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi"
-
-
-@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
-def test_exact_fmpy_ends_where_a_law_ends(paper):
-    """fmpy cannot tell CVode of fmi2Discard; CVode gives up: an error, not a wrong result."""
-    log = []
-    logger = lambda _environment, _instance, status, _category, message: log.append((status, message.decode()))
-    fmu = instantiate_fmu(str(paper.directory), paper.description, "ModelExchange", logger=logger)
-    with pytest.raises(RuntimeError, match="the right-hand side routine failed"):
-        exchange(paper, fmu_instance=fmu, start_values=LIMIT, stop_time=0.5, output_interval=0.25)
-    assert [status for status, _ in log[:2]] == [WARNING, DISCARD]
-    assert {message for _, message in log[1:]} == {f"fmi2GetDerivatives: {REASON}"}

@@ -147,10 +147,8 @@ def test_exact_bounds_are_those_of_the_xml(fmu, page):
 
 
 def test_exact_only_the_effects_of_the_scene_are_told_of(fmu, page):
-    scene = (project.ROOT / "scenes" / f"{fmu.scene}.toml").read_text(encoding="utf-8")
-    called = set(re.findall(r"^\[+effects\.(\w+)", scene, re.MULTILINE))
     known = {text.stem for text in (project.ROOT / "modelDescription/documentation/effects").glob("*.html")}
-    assert set(page.ids) & known == (known if fmu.scene in project.GENERAL else called)
+    assert set(page.ids) & known == project.effects(fmu.scene)
 
 
 def test_exact_it_tells_of_what_the_xml_claims(fmu, page):

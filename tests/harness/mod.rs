@@ -38,11 +38,6 @@ pub fn scene() -> &'static Scene {
     })
 }
 
-/// Whether the compiled-in scene is the paper's, whose numbers some tests know.
-pub fn is_paper() -> bool {
-    scene().name == "paper"
-}
-
 /// Whether the scene has variables of these names.
 pub fn has(names: &[&str]) -> bool {
     names.iter().all(|name| scene().variables.iter().any(|variable| variable.name == *name))
@@ -187,9 +182,6 @@ pub struct Instance {
     component: Component,
     pub journal: Box<Journal>,
 }
-
-// SAFETY: FMI lets a host use an instance from any thread, one at a time; the journal has a lock.
-unsafe impl Send for Instance {}
 
 impl Drop for Instance {
     fn drop(&mut self) {

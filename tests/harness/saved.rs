@@ -9,9 +9,6 @@ use std::ptr::null_mut;
 #[derive(Debug)]
 pub struct Saved(FmuState);
 
-// SAFETY: a saved state is plain memory of the FMU's, without ties to a thread; it is used by one at a time.
-unsafe impl Send for Saved {}
-
 impl Saved {
     /// The state of an instance.
     pub fn of(instance: &Instance) -> Self {
@@ -65,6 +62,14 @@ impl Saved {
         }
         assert_eq!(state, untouched, "a refusal leaves the pointer alone");
         Err(status)
+    }
+
+    /// Brings an instance to where the bytes were written.
+    #[track_caller]
+    pub fn unpack(instance: &Instance, bytes: &[u8]) {
+        let saved = Self::read(instance, bytes).unwrap_or_else(|_| panic!("{:?}", instance.journal.take()));
+        saved.restore(instance);
+        saved.free(instance);
     }
 
     /// fmi2FreeFMUstate.

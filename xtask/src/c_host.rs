@@ -6,7 +6,7 @@ use crate::run::run;
 use crate::scenes;
 use crate::unpacked::{Unpacked, unpack};
 use anyhow::Result;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
 /// The compiled host.
@@ -14,19 +14,12 @@ pub fn compile(name: &str, flags: &[&str]) -> Result<PathBuf> {
     c::compile(name, &c::sources("tests/c")?, &[&["-g"], flags].concat())
 }
 
-/// The parts in which the host steps or differences by itself: too coarsely where a scene is not gentle.
-const OWN_STEPS: [&str; 3] = ["model_exchange", "directional", "signals"];
-
-/// Adds the host's own arguments: the FMU, where the host may write, and what its scene is not fit for.
+/// Adds the host's own arguments: the FMU, and what its scene is not fit for.
 pub fn arguments<'c>(command: &'c mut Command, fmu: &Unpacked) -> Result<&'c mut Command> {
-    let folder = fmu.sheet.parent().unwrap_or(Path::new("."));
-    command.arg(&fmu.sheet).arg(&fmu.library).arg(folder);
-    let scene = scenes::find(&fmu.name)?;
-    if !scenes::is_gentle(&scene) {
-        command.args(OWN_STEPS.iter().flat_map(|part| ["--without", part]));
-    } else if scene.general {
-        // Its inputs belong to effects that are off.
-        command.args(["--without", "signals"]);
+    command.arg(&fmu.sheet).arg(&fmu.library);
+    if !scenes::is_gentle(&scenes::find(&fmu.name)?) {
+        // There the host steps by itself, too coarsely for such a scene.
+        command.args(["--without", "model_exchange"]);
     }
     Ok(command)
 }

@@ -62,7 +62,7 @@ fn rust_tests() -> Result<()> {
 /// The call rules once more with a scene that has an input.
 fn driven_tests() -> Result<()> {
     // A target directory of its own, or both scenes would be built anew each time.
-    let tests = ["abi", "arguments", "inputs", "many", "random_calls", "serialized", "state"]
+    let tests = ["abi", "arguments", "derivatives", "exchange", "inputs", "random_calls", "serialized", "state"]
         .into_iter()
         .flat_map(|name| ["--test", name]);
     run(cargo()
