@@ -86,19 +86,19 @@ pub trait Effect: Clone + Default + Send + 'static {
         Wrench::zero()
     }
 
-    /// Potential energy [J].
+    /// Potential energy \[J].
     #[inline(always)]
     fn potential<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
         S::zero()
     }
 
-    /// Power that leaves the mechanics [W], ≥ 0; none is −0, as in [`Wrench::zero`].
+    /// Power that leaves the mechanics \[W], ≥ 0; none is −0, as in [`Wrench::zero`].
     #[inline(always)]
     fn loss<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
         S::constant(-0.0)
     }
 
-    /// Power that comes from outside [W]; none is −0.
+    /// Power that comes from outside \[W]; none is −0.
     #[inline(always)]
     fn supply<S: Scalar>(&self, _motion: &Kinematics<S>) -> S {
         S::constant(-0.0)
@@ -124,7 +124,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Hears where the motion begins, before anything is asked.
     fn begin(&mut self, _start: &Kinematics<f64>) {}
 
-    /// Hears that a communication step begins at time `t` [s].
+    /// Hears that a communication step begins at time `t` \[s].
     fn step_from(&mut self, _t: f64) {}
 
     /// Extrapolates the input of this number over the step that begins.
@@ -165,7 +165,7 @@ pub struct InputSet {
     pub row: usize,
     /// 0 for its value, else the order of the derivative.
     pub order: u32,
-    /// At which communication point [s].
+    /// At which communication point \[s].
     pub t: f64,
     /// Whether it still holds what it held.
     pub goes_on: bool,

@@ -30,10 +30,10 @@ pub struct Rotor<E> {
     placeless: bool,
 }
 
-/// |γ| [rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
+/// |γ| \[rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
 pub const LIMIT: f64 = 3.1;
 
-/// In the chart from −e: |γ′| [rad] within which they are refused.
+/// In the chart from −e: |γ′| \[rad] within which they are refused.
 pub const FORBIDDEN: f64 = PI - LIMIT;
 
 const BEYOND_REACH: Refusal = Refusal("the axis turns too far for one chart, however short the step");
@@ -67,7 +67,7 @@ pub fn imposed<S: Scalar, E: Effects>(effects: &E, motion: Kinematics<S>) -> Kin
     }
 }
 
-/// The power of what imposes a speed, under the load of all else [W].
+/// The power of what imposes a speed, under the load of all else \[W].
 #[inline(always)]
 fn imposing<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>, load: Wrench<S>) -> Option<S> {
     motion.impulse?;
@@ -130,7 +130,7 @@ impl<E: Effects> Rotor<E> {
         Self { body, effects, chart, turns, placeless }
     }
 
-    /// The motion at time `t` [s], from a state.
+    /// The motion at time `t` \[s], from a state.
     #[inline(always)]
     pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
         self.motion_in(self.chart, t, y)
@@ -221,7 +221,7 @@ impl<E: Effects> Rotor<E> {
         some
     }
 
-    /// Whether a state may have this γ [rad] in the chart, whose own reach is told, under these effects.
+    /// Whether a state may have this γ \[rad] in the chart, whose own reach is told, under these effects.
     pub fn reaches(&self, gamma: Vector2<f64>, reach: f64) -> Result<(), Refusal> {
         let theta_squared = gamma.norm_squared();
         if theta_squared > reach * reach {

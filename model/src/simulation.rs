@@ -120,7 +120,7 @@ impl<E: Effects> Simulation<E> {
         self.reading = None;
     }
 
-    /// Starts the motion at time `t` [s]; a relative tolerance [1] given here stands in for that of the parameters.
+    /// Starts the motion at time `t` \[s]; a relative tolerance \[1] given here stands in for that of the parameters.
     ///
     /// # Panics
     /// Where `t` is not finite.
@@ -128,7 +128,7 @@ impl<E: Effects> Simulation<E> {
         self.start_until(t, relative_tolerance, None)
     }
 
-    /// [`Simulation::start`] of a run that is known to stop at `stop` [s]: no step runs ahead of that.
+    /// [`Simulation::start`] of a run that is known to stop at `stop` \[s]: no step runs ahead of that.
     pub fn start_until(&mut self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
         let parameters = self.in_force(t, relative_tolerance);
@@ -169,7 +169,7 @@ impl<E: Effects> Simulation<E> {
         }
     }
 
-    /// The parameters with this tolerance [1], the inputs as they are at time `t` [s].
+    /// The parameters with this tolerance \[1], the inputs as they are at time `t` \[s].
     fn in_force(&self, t: f64, relative_tolerance: Option<f64>) -> Parameters<E> {
         let mut parameters = self.parameters.clone();
         parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
@@ -178,7 +178,7 @@ impl<E: Effects> Simulation<E> {
         parameters
     }
 
-    /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
+    /// Moves the communication point to time `t` \[s]. On a fault it stands at the last time reached.
     ///
     /// # Panics
     /// Before [`Simulation::start`], where a host integrates, or where `t` lies before the communication point or is not
@@ -229,7 +229,7 @@ impl<E: Effects> Simulation<E> {
         self.news |= changes;
     }
 
-    /// The communication point [s]; None before the start.
+    /// The communication point \[s]; None before the start.
     #[inline(always)]
     pub fn time(&self) -> Option<f64> {
         match self.run.as_ref()? {
@@ -249,7 +249,7 @@ impl<E: Effects> Simulation<E> {
         }
     }
 
-    /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was [s].
+    /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was \[s].
     pub fn growth(&self) -> Option<(f64, f64)> {
         match self.run.as_ref()? {
             Run::Conservative(integration) => integration.growth(),
@@ -351,14 +351,14 @@ impl<E: Effects> Simulation<E> {
         Nominals::of(&Motion::at_start(&self.parameters, t), t).each()
     }
 
-    /// Below which place [m], velocity [m/s], angular momentum [kg·m²/s] and tilt [rad] errors are not compared with a smaller
+    /// Below which place \[m], velocity [m/s], angular momentum [kg·m²/s] and tilt \[rad] errors are not compared with a smaller
     /// motion.
     pub fn least_sizes(&self) -> [f64; 4] {
         let nominals = self.nominals();
         [0, 3, 6, 9].map(|n| LEAST * BESIDE * nominals[n])
     }
 
-    /// The energy at the start [J].
+    /// The energy at the start \[J].
     fn total_at_start(&self, parameters: &Parameters<E>, t: f64) -> f64 {
         let Motion { rotor, state } = Motion::at_start(parameters, t);
         Ledger::new(&rotor.motion(t, &state), &rotor.effects, [0.0; 2], 0.0).total()

@@ -9,15 +9,15 @@ use nalgebra::{Vector2, Vector3};
 /// The coordinates of the motion, or their rates (units per second). Vectors in the inertial frame O.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S: Scalar> {
-    /// Position of the mass centre G of the whole [m]: of c, where nothing is unbalanced.
+    /// Position of the mass centre G of the whole \[m]: of c, where nothing is unbalanced.
     pub r: Vector3<S>,
     /// Velocity of G [m/s].
     pub v: Vector3<S>,
     /// Angular momentum about G [kg·m²/s].
     pub k: Vector3<S>,
-    /// γ_y and γ_z [rad] in the chart in force.
+    /// γ_y and γ_z \[rad] in the chart in force.
     pub gamma: Vector2<S>,
-    /// φ [rad] in the chart in force, less the whole turns that are counted apart.
+    /// φ \[rad] in the chart in force, less the whole turns that are counted apart.
     pub phi: S,
 }
 
@@ -27,10 +27,10 @@ pub const COORDINATES: usize = 12;
 /// A state with the work integrals, which follow the coordinates.
 pub const WITH_WORK: usize = COORDINATES + 2;
 
-/// Where the work supplied [J] stands in a state with work.
+/// Where the work supplied \[J] stands in a state with work.
 pub const SUPPLIED: usize = COORDINATES;
 
-/// Where the work lost [J] stands in a state with work.
+/// Where the work lost \[J] stands in a state with work.
 pub const DISSIPATED: usize = COORDINATES + 1;
 
 /// A state with work, or its rates.
@@ -70,7 +70,7 @@ impl<S: Scalar> Coordinates<S> {
 pub struct Kinematics<S: Scalar> {
     /// The body that moves.
     pub body: Inertia,
-    /// Time [s].
+    /// Time \[s].
     pub t: S,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
@@ -84,7 +84,7 @@ pub struct Kinematics<S: Scalar> {
     pub spin: S,
     /// Angular velocity ω [rad/s].
     pub omega: Vector3<S>,
-    /// From c to the mass centre G of the whole [m]; None of a body of which both are one.
+    /// From c to the mass centre G of the whole \[m]; None of a body of which both are one.
     pub to_centre: Option<Vector3<S>>,
     /// λ [N·m·s], where ω_φ is imposed: the angular momentum about G is K + λ n.
     pub impulse: Option<S>,
@@ -112,7 +112,7 @@ impl<S: Scalar> Kinematics<S> {
         Self { body, t: S::zero(), turns: 0.0, at, tilt, swing, spin, omega, to_centre, impulse: None }
     }
 
-    /// The same at time `t` [s], with whole turns counted apart.
+    /// The same at time `t` \[s], with whole turns counted apart.
     #[inline(always)]
     pub fn when(self, t: S, turns: f64) -> Self {
         Self { t, turns, ..self }
@@ -183,12 +183,12 @@ impl<S: Scalar> Kinematics<S> {
         self.tilt.chart().axial_angle(self.turns, self.at.phi.re(), gamma)
     }
 
-    /// φ from e [rad].
+    /// φ from e \[rad].
     pub fn phi(&self) -> S {
         self.tilt.chart().phi_from_e(self.at.phi, self.at.gamma).with_value(self.angle().radians())
     }
 
-    /// The axis t [1].
+    /// The axis t \[1].
     #[inline(always)]
     pub fn axis(&self) -> &Vector3<S> {
         &self.tilt.axis
@@ -234,7 +234,7 @@ impl<S: Scalar> Kinematics<S> {
         rate
     }
 
-    /// Position of c, the point on the axis that is the mass centre of the balanced rotor [m].
+    /// Position of c, the point on the axis that is the mass centre of the balanced rotor \[m].
     #[inline(always)]
     pub fn r_c(&self) -> Vector3<S> {
         // eq. 71: r_G = r_c + L b
@@ -248,19 +248,19 @@ impl<S: Scalar> Kinematics<S> {
         self.to_centre.map_or(self.at.v, |to_centre| self.at.v - self.omega.cross(&to_centre))
     }
 
-    /// From c to the station at `p` [m] along t, in O [m].
+    /// From c to the station at `p` \[m] along t, in O \[m].
     #[inline(always)]
     pub fn lever(&self, p: f64) -> Vector3<S> {
         self.axis() * S::constant(p)
     }
 
-    /// Position of the station at `p` [m] along t from c, in O [m].
+    /// Position of the station at `p` \[m] along t from c, in O \[m].
     #[inline(always)]
     pub fn station(&self, p: f64) -> Vector3<S> {
         self.r_c() + self.lever(p)
     }
 
-    /// Velocity of the station at `p` [m] along t from c, in O [m/s].
+    /// Velocity of the station at `p` \[m] along t from c, in O [m/s].
     #[inline(always)]
     pub fn station_velocity(&self, p: f64) -> Vector3<S> {
         self.v_c() + self.axis_rate() * S::constant(p)

@@ -141,7 +141,7 @@ impl<P, O: Shown> Access<P, O> {
         }
     }
 
-    /// The value of a variable at an instant, an input's at time `t` [s]; None of a calculated one where nothing is shown.
+    /// The value of a variable at an instant, an input's at time `t` \[s]; None of a calculated one where nothing is shown.
     #[inline(always)]
     pub fn value(
         &self,

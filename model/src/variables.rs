@@ -34,13 +34,13 @@ pub struct Setup {
 /// The motion at the start, in O.
 #[derive(Clone, Debug, Default)]
 pub struct Start {
-    /// Position of the mass centre [m].
+    /// Position of the mass centre \[m].
     pub r_c: Vector3<f64>,
     /// Velocity of the mass centre [m/s].
     pub v_c: Vector3<f64>,
-    /// Axial angle φ [rad].
+    /// Axial angle φ \[rad].
     pub phi: f64,
-    /// Transverse Euler vector γ, y and z [rad].
+    /// Transverse Euler vector γ, y and z \[rad].
     pub gamma: Vector2<f64>,
     /// Angular velocity ω [rad/s].
     pub omega: Vector3<f64>,
@@ -58,7 +58,7 @@ pub struct Reading<S: Scalar = f64> {
 }
 
 impl<S: Scalar> Reading<S> {
-    /// What a motion shows, with the work supplied and lost [J] since the start, and the total energy there [J].
+    /// What a motion shows, with the work supplied and lost \[J] since the start, and the total energy there \[J].
     pub fn new<E: Effects>(motion: Kinematics<S>, effects: &E, work: [S; 2], total_at_start: f64, cost: Cost) -> Self {
         Self { motion, ledger: Ledger::new(&motion, effects, work, total_at_start), cost }
     }
@@ -84,7 +84,7 @@ impl<S: Scalar> Reading<S> {
         self.motion.momentum()
     }
 
-    /// γ_y and γ_z from e [rad], where rounding gives |γ| > π: π.
+    /// γ_y and γ_z from e \[rad], where rounding gives |γ| > π: π.
     fn gamma(&self) -> Vector2<S> {
         let gamma = self.motion.tilt.gamma();
         let is_crossed = self.motion.tilt.chart() == Chart::FromMinusE;
@@ -105,7 +105,7 @@ impl<S: Scalar> Reading<S> {
 }
 
 impl Reading {
-    /// The same with the derivatives of a state that moves in the direction `seeds` and of time that moves by `time` [s],
+    /// The same with the derivatives of a state that moves in the direction `seeds` and of time that moves by `time` \[s],
     /// under these effects.
     pub fn moving<S: Scalar, E: Effects>(&self, seeds: &Whole<f64>, time: f64, effects: &E) -> Reading<S> {
         let state = self.state();
@@ -325,7 +325,7 @@ pub fn state_number(place: Place) -> Option<usize> {
     (place.block == STATES && place.row < WITH_WORK).then_some(place.row)
 }
 
-/// So many whole turns are counted without a gap: 2⁵³ of them [rad].
+/// So many whole turns are counted without a gap: 2⁵³ of them \[rad].
 pub(crate) const LARGEST_PHI: f64 = TAU * (1_u64 << 53) as f64;
 
 impl Setup {
@@ -381,7 +381,7 @@ impl<E: Effects> Parameters<E> {
         always(place, E::COULD_WORK).map_or_else(|| E::meta(place), |row| Some(&row.meta))
     }
 
-    /// The value of a variable, an input's at time `t` [s]; None where there is none at this place, or where it is
+    /// The value of a variable, an input's at time `t` \[s]; None where there is none at this place, or where it is
     /// calculated and there is no reading.
     #[inline(always)]
     pub fn value(&self, place: Place, t: f64, reading: Option<&Reading>) -> Option<f64> {

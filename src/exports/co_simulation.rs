@@ -70,7 +70,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
     }
 }
 
-/// Moves the communication point from `from` by `step` [s].
+/// Moves the communication point from `from` by `step` \[s].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(
     component: Component,
@@ -96,7 +96,7 @@ pub unsafe extern "C" fn fmi2GetStatus(component: Component, kind: Choice, value
     unsafe { answer(component, &call::GET_STATUS, value, |instance| instance.status(kind)) }
 }
 
-/// The last successful time [s].
+/// The last successful time \[s].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetRealStatus(component: Component, kind: Choice, value: *mut Real) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.

@@ -63,7 +63,7 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     }
 }
 
-/// Sets the time [s].
+/// Sets the time \[s].
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetTime(component: Component, time: Real) -> Status {
     // SAFETY: the host keeps the contract of the standard, which is that of the door.

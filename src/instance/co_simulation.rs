@@ -62,7 +62,7 @@ impl Instance {
         Ok(to)
     }
 
-    /// The communication point [s].
+    /// The communication point \[s].
     fn now(&self) -> Real {
         self.memory.simulation.time().unwrap_or(self.memory.experiment.start)
     }

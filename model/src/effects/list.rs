@@ -28,9 +28,9 @@ pub struct Action<S: Scalar> {
     pub load: Wrench<S>,
     /// Of what damps [N, N·m].
     pub damping: Wrench<S>,
-    /// Power that comes from outside [W].
+    /// Power that comes from outside \[W].
     pub supply: S,
-    /// Power that leaves the mechanics [W].
+    /// Power that leaves the mechanics \[W].
     pub loss: S,
 }
 
@@ -82,7 +82,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn load_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Wrench<S>;
     /// [`Effects::action`] of the same.
     fn action_of<S: Scalar, const PLACE: bool>(&self, motion: &Kinematics<S>) -> Action<S>;
-    /// Potential energy [J].
+    /// Potential energy \[J].
     fn potential<S: Scalar>(&self, motion: &Kinematics<S>) -> S;
     /// Whether any of them follows φ.
     fn follows_phi(&self) -> bool;
@@ -104,7 +104,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn meta(place: Place) -> Option<&'static Meta>;
     /// The full name of the variable at this place; None where there is none.
     fn name(place: Place) -> Option<String>;
-    /// The value of a variable, an input's at time `t` [s], a calculated one's of a switched-off effect zero; None where
+    /// The value of a variable, an input's at time `t` \[s], a calculated one's of a switched-off effect zero; None where
     /// there is none at this place, or nothing is shown. `rates` is asked only where it counts.
     fn value(
         &self,
@@ -127,14 +127,14 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn signal(&self, place: Place) -> Option<&Signal>;
     /// An input to set; None where there is none at this place.
     fn signal_mut(&mut self, place: Place) -> Option<&mut Signal>;
-    /// Changes an input at the communication point `t` [s], its value or its derivative of an order; whether anything goes on
+    /// Changes an input at the communication point `t` \[s], its value or its derivative of an order; whether anything goes on
     /// otherwise, None where there is none at this place.
     fn change_input(&mut self, place: Place, order: u32, t: f64, change: impl FnOnce(&mut Signal)) -> Option<bool>;
     /// Hear where a communication step ended.
     fn step_to(&mut self, end: &Kinematics<f64>);
     /// Whether any of them extrapolates inputs.
     fn extrapolates(&self) -> bool;
-    /// Hear that a communication step begins at time `t` [s].
+    /// Hear that a communication step begins at time `t` \[s].
     fn step_from(&mut self, t: f64);
     /// Extrapolate the input of this number over the step that begins.
     fn extrapolate(&mut self, number: usize, signal: &mut Signal);

@@ -17,15 +17,15 @@ use nalgebra::Vector2;
 #[derive(Clone)]
 pub struct Exchange<E> {
     rotor: Rotor<E>,
-    /// [s]
+    /// \[s]
     t: f64,
     /// φ with all its turns but those that it gains beside the chart from −e, which the rotor's `turns` count.
     state: Whole<f64>,
     /// Where the last completed step ended.
     completed: Completed,
-    /// The kinetic energy at the event that the host is at [J]; None between events.
+    /// The kinetic energy at the event that the host is at \[J]; None between events.
     at_event: Option<f64>,
-    /// Total energy at the start [J].
+    /// Total energy at the start \[J].
     total_at_start: f64,
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
@@ -37,9 +37,9 @@ stored!(Exchange<E: Effects> { rotor, t, state, completed, at_event, total_at_st
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
 struct Completed {
-    /// [s]
+    /// \[s]
     t: f64,
-    /// γ [rad].
+    /// γ \[rad].
     gamma: Vector2<f64>,
     /// dγ/dt [rad/s].
     rate: Vector2<f64>,
@@ -99,7 +99,7 @@ impl<E: Effects> Exchange<E> {
         self.rotor.body == parameters.shape().inertia()
     }
 
-    /// The time [s].
+    /// The time \[s].
     pub fn time(&self) -> f64 {
         self.t
     }
@@ -109,12 +109,12 @@ impl<E: Effects> Exchange<E> {
         self.tilted
     }
 
-    /// How fast a motion grows [1/s], and since when that is known [s].
+    /// How fast a motion grows [1/s], and since when that is known \[s].
     pub(super) fn growth(&self) -> Option<(f64, f64)> {
         self.watch.found()
     }
 
-    /// The host's time [s].
+    /// The host's time \[s].
     pub fn set_time(&mut self, t: f64) {
         self.t = t;
     }
@@ -186,7 +186,7 @@ impl<E: Effects> Exchange<E> {
         true
     }
 
-    /// [J]
+    /// \[J]
     fn kinetic(&self) -> f64 {
         kinetic(&self.rotor.motion(self.t, &self.state))
     }
@@ -225,7 +225,7 @@ impl<E: Effects> Exchange<E> {
         self.rotor.turns + if gained.is_finite() { gained } else { 0.0 }
     }
 
-    /// The way of γ [rad] since the last completed step, in pieces.
+    /// The way of γ \[rad] since the last completed step, in pieces.
     fn path(&self) -> impl Iterator<Item = Vector2<f64>> {
         let (start, end) = (self.completed, self.here());
         let h = end.t - start.t;

@@ -8,26 +8,26 @@ use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
 use crate::state::{Coordinates, GAMMA, WITH_WORK, Whole};
 
-/// One length [m] and one rate [rad/s], and what goes with them.
+/// One length \[m] and one rate [rad/s], and what goes with them.
 #[derive(Clone, Copy, Debug)]
 pub struct Nominals {
-    /// Of r [m].
+    /// Of r \[m].
     pub place: f64,
     /// Of v [m/s].
     pub velocity: f64,
     /// Of K [kg·m²/s].
     pub momentum: f64,
-    /// Of γ [rad].
+    /// Of γ \[rad].
     pub tilt: f64,
-    /// Of work [J].
+    /// Of work \[J].
     pub work: f64,
 }
 
-/// Of its radius of gyration a rotor moves so much where nothing else is known [1].
+/// Of its radius of gyration a rotor moves so much where nothing else is known \[1].
 const UNKNOWN: f64 = 1e-6;
 
 impl Nominals {
-    /// Of a motion that starts at time `t` [s].
+    /// Of a motion that starts at time `t` \[s].
     pub(super) fn of<E: Effects>(Motion { rotor, state }: &Motion<E>, t: f64) -> Self {
         let rates: Whole<f64> = rotor.rates(t, state);
         let slopes: [[f64; WITH_WORK]; WITH_WORK] = rotor.jacobian(t, state);

@@ -17,7 +17,7 @@ pub(super) struct Motion<E> {
 }
 
 impl<E: Effects> Motion<E> {
-    /// The motion at the start, at time `t` [s]; the parameters were checked.
+    /// The motion at the start, at time `t` \[s]; the parameters were checked.
     pub(super) fn at_start(parameters: &Parameters<E>, t: f64) -> Self {
         let (shape, start) = (parameters.shape(), &parameters.setup.start);
         let body = shape.inertia();
@@ -58,7 +58,7 @@ impl<E: Effects> Motion<E> {
     }
 }
 
-/// Errors count beside this part of the nominals [1] until a method has seen a motion that is larger: what a spring gives way to a
+/// Errors count beside this part of the nominals \[1] until a method has seen a motion that is larger: what a spring gives way to a
 /// weight may be far more than what the rotor then does.
 pub(super) const BESIDE: f64 = 1e-4;
 
