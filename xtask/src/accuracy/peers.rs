@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_line_of_a_peer_becomes_a_row() {
+    fn a_line_of_a_peer_becomes_a_row() {
         let phi = std::f64::consts::TAU + 0.5 + 1e-6;
         let line = json!({
             "version": "1.0", "method": "RK", "parameter": "step", "value": 0.01, "cpu_time": 0.2, "repeats": 4,
@@ -225,14 +225,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_failure_of_a_peer_is_a_row_that_says_why() {
+    fn a_failure_of_a_peer_is_a_row_that_says_why() {
         let line = r#"{"version": "1.0", "method": "RK", "parameter": "step", "value": 1.0, "failure": "it fell"}"#;
         assert_eq!(row("peer", line, &reference()).unwrap().outcome.unwrap_err(), "it fell");
         assert!(row("peer", "{}", &reference()).is_err());
     }
 
     #[test]
-    fn exact_peers_know_the_effects_of_the_scenes() {
+    fn peers_know_the_effects_of_the_scenes() {
         for name in ["paper", "tumbling", "driven"] {
             assert_eq!(refusal(&scenes::find(name).unwrap()), None);
         }

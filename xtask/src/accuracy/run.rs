@@ -94,7 +94,7 @@ impl<'s> Subject<'s> {
         self.run_through(setting, &ends, f64::INFINITY)
     }
 
-    /// A run through communication points [s], with whether it is read there.
+    /// A run through communication points \[s], with whether it is read there.
     fn run_through(&self, setting: &Setting, stops: &[(f64, bool)], patience: f64) -> Result<Run> {
         let mut instance = self.started(setting)?;
         let start = point(instance.get_real(&self.outputs)?);
@@ -118,7 +118,7 @@ impl<'s> Subject<'s> {
         Ok(Run { start, points, cpu_time, costs: instance.get_real(&self.costs)?, said: instance.said() })
     }
 
-    /// To which of these times [s] such a run comes, from the first on, with this many evaluations or a few more.
+    /// To which of these times \[s] such a run comes, from the first on, with this many evaluations or a few more.
     pub fn reach(&self, setting: &Setting, times: impl IntoIterator<Item = f64>, affordable: f64) -> Result<f64> {
         let mut instance = self.started(setting)?;
         let mut at = self.experiment.start;
@@ -133,7 +133,7 @@ impl<'s> Subject<'s> {
         Ok(at)
     }
 
-    /// The step that this setting begins with [s].
+    /// The step that this setting begins with \[s].
     pub fn first_step(&self, setting: &Setting) -> Result<f64> {
         let [step] = self.started(setting)?.get_real(&references(self.scene, ["solver.next_step"])?)?;
         Ok(step)

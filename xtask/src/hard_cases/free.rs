@@ -2,9 +2,9 @@
 
 use super::case::{ALL_IT_TAKES, Case, Exact, Phi, body, follow, of_free, start, support, times};
 use super::method::{at, symplectic};
-use crate::oracles::motion::FreeRotor;
-use crate::oracles::rotation;
 use nalgebra::{Vector2, Vector3};
+use oracles::motion::FreeRotor;
+use oracles::rotation;
 use std::f64::consts::TAU;
 
 /// The paper's rotor, nutating: a flattest disk, Ja = 2 Jt.

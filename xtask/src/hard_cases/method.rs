@@ -35,7 +35,7 @@ pub fn at(name: &'static str, tolerance: f64) -> Method {
     Method { name, settings: vec![("solver.relative_tolerance", tolerance)] }
 }
 
-/// The composition of this order in steps of `h` [s].
+/// The composition of this order in steps of `h` \[s].
 pub fn symplectic(order: u32, h: f64) -> Method {
     Method { name: "symplectic", settings: vec![("solver.order", f64::from(order)), ("solver.step_size", h)] }
 }

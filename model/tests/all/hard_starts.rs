@@ -1,0 +1,270 @@
+//! Starts and steps at the edge of what can be done: tiny and huge communication steps, late times, vanishing tilts, a
+//! rotor that reaches the singular point, absurd forces, impossible parameters.
+
+use crate::harness::{Method, Scene, Supported, at, largest, times, within};
+use nalgebra::{Vector2, Vector3};
+use split_rotor_model::body::Body;
+use split_rotor_model::integrate::Fault;
+use split_rotor_model::variables::Reading;
+
+/// Position [m], axis [1] and φ [rad] of two readings: the largest difference.
+fn distance(a: &Reading, b: &Reading) -> f64 {
+    largest([
+        (a.motion.at.r - b.motion.at.r).norm(),
+        (a.motion.axis() - b.motion.axis()).norm(),
+        (a.motion.phi() - b.motion.phi()).abs(),
+    ])
+}
+
+/// Every number that an instant shows is finite.
+fn assert_finite(reading: &Reading) {
+    let motion = &reading.motion;
+    let numbers = motion.at.r.iter().chain(&motion.at.v).chain(&motion.at.k).chain(&motion.at.gamma);
+    assert!(numbers.chain(motion.axis()).chain(&motion.omega).all(|x| x.is_finite()), "{motion:?}");
+    assert!(reading.motion.phi().is_finite() && reading.ledger.total().is_finite());
+}
+
+// ------------------------------------------------------------------------------------------ communication steps
+
+#[test]
+fn communication_step_changes_nothing() {
+    // The solver steps on its own account: where a communication point falls changes no bit of what it answers.
+    for method in Method::PAIRS {
+        for damping in [0.0, 2.0] {
+            let scene = Scene { method, d1: damping, ..Scene::paper() };
+            let direct = scene.run::<Supported>([10.0])[0];
+            for step in [1e-2, 0.1, 1.0, 2.5] {
+                let mut simulation = scene.started::<Supported>();
+                let parts = (10.0 / step) as u32;
+                let readings: Vec<_> = times(10.0, parts).map(|t| at(&mut simulation, t)).collect();
+                let reached = &readings[parts as usize];
+                assert_eq!(reached.motion.at, direct.motion.at, "{method:?}, steps of {step} s");
+                assert_eq!((reached.motion.angle(), reached.ledger), (direct.motion.angle(), direct.ledger));
+                assert_eq!(reached.cost.steps, direct.cost.steps);
+            }
+        }
+    }
+}
+
+#[test]
+fn tiny_communication_steps() {
+    // 1e-9 s, 2000 of them, and each instant asked for by itself.
+    let scene = Scene::paper();
+    let mut simulation = scene.started::<Supported>();
+    at(&mut simulation, 0.3);
+    for i in 1..=2000 {
+        let t = 0.3 + 1e-9 * f64::from(i);
+        let reading = at(&mut simulation, t);
+        if i % 500 == 0 {
+            assert_eq!(reading.motion.at, scene.run::<Supported>([t])[0].motion.at, "t = {t}");
+        }
+    }
+    // Not advancing at all is no step.
+    let (before, t) = (at(&mut simulation, 0.31), 0.31);
+    assert_eq!(at(&mut simulation, t).motion.at, before.motion.at);
+}
+
+/// Difference between answers within steps of 1e-8 tolerance and a much finer run [m, 1, rad] over 1 s, with
+/// dopri5 and dop853: measured 6.9e-8 and 1.1e-8.
+const DENSE: [f64; 2] = [2e-7, 3e-8];
+
+#[test]
+fn answers_between_the_steps() {
+    let fine = Scene { tolerance: 1e-13, ..Scene::paper() }.run::<Supported>(times(1.0, 1000));
+    for method in Method::PAIRS {
+        let coarse = Scene { method, tolerance: 1e-8, ..Scene::paper() }.run::<Supported>(times(1.0, 1000));
+        let worst = largest(coarse.iter().zip(&fine).map(|(a, b)| distance(a, b)));
+        within(&format!("{method:?}"), worst, DENSE[method as usize - 2]);
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------- late times
+
+/// The motion from t = ±1e6 s against that from 0 [m, 1, rad], over 2 s: measured 2.1e-13, because a step
+/// spans what the rounded times span.
+const LATE: f64 = 6e-13;
+
+#[test]
+fn regress_late_start() {
+    let scene = Scene::paper();
+    let early = scene.run::<Supported>(times(2.0, 8));
+    for start in [1e6, -1e6] {
+        let mut simulation = scene.simulation::<Supported>();
+        simulation.start(start, None).unwrap();
+        // Quarters of a second are whole doubles at any of these times.
+        let late: Vec<_> = times(2.0, 8).map(|t| at(&mut simulation, start + t)).collect();
+        let worst = largest(early.iter().zip(&late).map(|(a, b)| distance(a, b)));
+        within(&format!("start at {start:e} s"), worst, LATE);
+    }
+}
+
+/// The same from t = 1e9 s, where a double knows the time to 1.2e-7 s: measured 5.7e-14.
+const VERY_LATE: f64 = 2e-13;
+
+#[test]
+fn regress_very_late_start() {
+    let scene = Scene::paper();
+    let early = scene.run::<Supported>(times(2.0, 8));
+    let mut simulation = scene.simulation::<Supported>();
+    simulation.start(1e9, None).unwrap();
+    let late: Vec<_> = times(2.0, 8).map(|t| at(&mut simulation, 1e9 + t)).collect();
+    late.iter().for_each(assert_finite);
+    within("start at 1e9 s", largest(early.iter().zip(&late).map(|(a, b)| distance(a, b))), VERY_LATE);
+}
+
+// ------------------------------------------------------------------------------------------------ vanishing tilts
+
+/// φ of a rotor that only spins, after 50 rad [rad]: measured 7.1e-15, one ulp.
+const PHI: f64 = 2.2e-14;
+/// The tolerance: what a tilt of 1e-50 rad and less stays below in 1 s [rad].
+const UNSEEN: f64 = 1e-10;
+
+#[test]
+fn vanishing_tilt_is_no_tilt() {
+    let scene = Scene { c1: 0.0, g: Vector3::zeros(), r_c: Vector3::zeros(), ..Scene::paper() };
+    let upright = scene.run::<Supported>([1e-3, 1.0]);
+    assert_eq!(upright[1].motion.at.gamma, Vector2::zeros());
+    assert_eq!(*upright[1].motion.axis(), Vector3::x());
+    within("phi", (upright[1].motion.phi() - 50.0).abs(), PHI);
+    let tilted = |tilt: f64| Scene { gamma: Vector2::new(tilt, -tilt), ..scene.clone() }.run::<Supported>([1e-3, 1.0]);
+    for tilt in [f64::from_bits(1), -f64::from_bits(1), 1e-310, f64::MIN_POSITIVE, 1e-200, -1e-160, 1e-70, 1e-50] {
+        let readings = tilted(tilt);
+        readings.iter().for_each(assert_finite);
+        // The method sees no error in what is so small, takes long steps, and lets it grow; it stays unseen.
+        within("after 1 ms", readings[0].motion.at.gamma.amax(), UNSEEN);
+        within("after 1 s", distance(&upright[1], &readings[1]), UNSEEN);
+    }
+}
+
+#[test]
+fn exact_resting_rotor_rests() {
+    let scene = Scene { omega: Vector3::zeros(), ..Scene::free() };
+    for method in Method::PAIRS {
+        let mut simulation = Scene { method, ..scene.clone() }.started::<()>();
+        let reading = at(&mut simulation, 1e3);
+        assert_eq!(reading.motion.at.r, Vector3::zeros());
+        assert_eq!((reading.motion.angle().turns, reading.motion.angle().remainder), (0.0, 0.0));
+        assert!(reading.cost.steps < 100.0, "{:?}", reading.cost);
+    }
+}
+
+// -------------------------------------------------------------------------------------------- the singular point
+
+/// Time at which the tilt of 10 rad/s is refused, against 0.31 s [s]: measured 3.5e-10, the tolerance's.
+const REFUSED_AT: f64 = 1e-9;
+/// Tilt of a tumbling rotor, 10 t [rad]: measured 3.5e-9.
+const TUMBLE: f64 = 1e-8;
+
+#[test]
+fn regress_tumbling_past_minus_e_is_refused_and_leaves_a_readable_state() {
+    for method in Method::PAIRS {
+        for works in [0.0, 1e-9] {
+            // Tumbles at 10 rad/s towards −e, straight through it.
+            let scene = Scene { method, omega: Vector3::new(0.0, 0.0, 10.0), c2: 1e-300, d1: works, ..Scene::free() };
+            let mut simulation = scene.started::<Supported>();
+            let fault = simulation.advance(1.0).expect_err("|gamma| reaches pi");
+            let Fault::Refused { t, reason } = fault else { panic!("{fault:?}") };
+            assert!(reason.0.contains("3.1 rad") && fault.to_string().contains("t = "), "{fault}");
+            assert_eq!(simulation.time(), Some(t));
+            let reading = *simulation.read().unwrap();
+            assert_finite(&reading);
+            // It stands where the tilt reaches the limit: γ = 10 t.
+            within("time", (t - 0.31).abs(), REFUSED_AT);
+            within("tilt", (reading.motion.tilt.gamma().norm() - 10.0 * t).abs(), TUMBLE);
+            assert!(reading.motion.tilt.gamma().norm() <= 3.1 + 1e-15);
+            // Again: the same fault, and the same state.
+            for _ in 0..3 {
+                assert_eq!(simulation.advance(1.0), Err(fault));
+                assert_eq!(simulation.read().unwrap().motion.at, reading.motion.at);
+            }
+            // Short of the limit the same rotor has nothing to complain of.
+            let mut shorter = scene.started::<Supported>();
+            within("tilt", (at(&mut shorter, 0.3).motion.tilt.gamma().norm() - 3.0).abs(), TUMBLE);
+        }
+    }
+}
+
+#[test]
+fn regress_start_beyond_the_limit() {
+    // |γ| ≤ π may be asked for; under a law that ends at 3.1 rad it cannot be moved, but can be read.
+    let scene = Scene { gamma: Vector2::new(0.0, 3.12), c2: 1e-300, ..Scene::free() };
+    let mut simulation = scene.started::<Supported>();
+    assert!(matches!(simulation.advance(0.1), Err(Fault::Refused { t: 0.0, .. })));
+    assert_finite(simulation.read().unwrap());
+}
+
+// ------------------------------------------------------------------------------------------------- absurd forces
+
+#[test]
+fn regress_absurd_forces_are_faults() {
+    let stretched = Scene { r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
+    for method in Method::PAIRS {
+        for scene in [
+            Scene { c1: 1e300, method, ..stretched.clone() },
+            Scene { c1: f64::MAX, method, ..stretched.clone() },
+            Scene { c2: 1e300, gamma: Vector2::new(0.0, 0.5), method, ..stretched.clone() },
+        ] {
+            let mut simulation = scene.started::<Supported>();
+            let fault = simulation.advance(1.0).expect_err("impossible");
+            assert!(matches!(fault, Fault::NotFinite { .. } | Fault::Underflow { .. }), "{fault:?}");
+            assert_eq!(simulation.advance(1.0), Err(fault), "once more");
+            assert!(simulation.time().unwrap() < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn regress_a_start_whose_energy_overflows_is_invalid() {
+    let aside = Scene { r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
+    for (scene, name) in [
+        (Scene { omega: Vector3::new(1e200, 1e200, 0.0), ..aside.clone() }, "start.omega.x"),
+        (Scene { g: Vector3::new(0.0, -f64::MAX, 0.0), ..aside.clone() }, "gravity.g.y"),
+    ] {
+        let invalid = scene.simulation::<Supported>().start(0.0, None).expect_err("impossible");
+        assert!(invalid.variable.starts_with(name), "{}", invalid.variable);
+    }
+}
+
+#[test]
+fn regress_forces_that_would_take_for_ever_are_faults() {
+    for c1 in [1e20, 1e80, 1e140, 1e160] {
+        let scene = Scene { c1, r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
+        let fault = scene.started::<Supported>().advance(1000.0).expect_err("more than 10¹² steps");
+        assert!(matches!(fault, Fault::Spent { .. } | Fault::Underflow { .. } | Fault::NotFinite { .. }), "{fault:?}");
+    }
+}
+
+// ---------------------------------------------------------------------------------------- impossible parameters
+
+#[test]
+fn regress_impossible_parameters_are_named() {
+    let paper = Scene::paper();
+    let body = paper.body;
+    let with = |body: Body| Scene { body, ..paper.clone() };
+    let cases = [
+        ("rotor.m", with(Body { m: 0.0, ..body })),
+        ("rotor.m", with(Body { m: -1.0, ..body })),
+        ("rotor.m", with(Body { m: f64::NAN, ..body })),
+        ("rotor.Ja", with(Body { Ja: 0.0, ..body })),
+        ("rotor.Ja", with(Body { Ja: 2.001 * body.Jt, ..body })),
+        ("rotor.Jt", with(Body { Jt: f64::INFINITY, ..body })),
+        ("rotor.l", with(Body { l: f64::NAN, ..body })),
+        ("start.r_c.z", Scene { r_c: Vector3::new(0.0, 0.0, f64::INFINITY), ..paper.clone() }),
+        ("start.omega.x", Scene { omega: Vector3::new(f64::NAN, 0.0, 0.0), ..paper.clone() }),
+        ("|start.gamma|", Scene { gamma: Vector2::new(2.5, 2.5), ..paper.clone() }),
+        ("gravity.g.y", Scene { g: Vector3::new(0.0, f64::NAN, 0.0), ..paper.clone() }),
+        ("support.c1", Scene { c1: -1.0, ..paper.clone() }),
+        ("support.d2", Scene { d2: f64::NEG_INFINITY, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: 0.0, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: 1e-15, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: f64::NAN, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: 1.0, ..paper.clone() }),
+    ];
+    for (variable, scene) in cases {
+        let mut simulation = scene.simulation::<Supported>();
+        let invalid = simulation.start(0.0, None).expect_err(variable);
+        assert_eq!(invalid.variable, variable);
+        assert!(invalid.to_string().contains(variable) && invalid.to_string().contains("must be"), "{invalid}");
+        assert!(simulation.read().is_err(), "nothing to read either");
+    }
+}

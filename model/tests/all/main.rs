@@ -1,0 +1,45 @@
+//! The tests of the model in one program: it is linked once, and the list of all effects is compiled once.
+
+mod harness;
+
+mod arc;
+mod asymmetric;
+mod auto;
+mod bearing;
+mod between_steps;
+mod charts;
+mod composition;
+mod crossing;
+mod dependencies;
+mod derivatives;
+mod drive;
+mod each_method;
+mod endless;
+mod exchange;
+mod extrapolation;
+mod free_flow;
+mod general;
+mod hard_starts;
+mod honest_tolerance;
+mod imposed_speed;
+mod invariants;
+mod invariants_asymmetric;
+mod ledger;
+mod long_run;
+mod motion;
+mod order;
+mod ordinary;
+mod paper;
+mod port;
+mod power;
+mod random_scenes;
+mod rotation;
+mod scenes;
+mod series;
+mod signal;
+mod stiff;
+mod stored;
+mod symplectic;
+mod tangents;
+mod turns;
+mod whirl_about_the_antipode;
