@@ -3,10 +3,10 @@
 
 use crate::harness::asymmetric::{Case, at};
 use crate::harness::named::Named;
+use crate::harness::swinging::within_order;
 use crate::harness::{Random, largest, within};
 use nalgebra::{Matrix3, Vector2, Vector3};
 use oracles::asymmetric::Asymmetric;
-use oracles::numerics::log_slope;
 use oracles::rigid_body::Moving;
 use split_rotor_model::rotation::Tilt;
 use split_rotor_model::variables::Reading;
@@ -270,9 +270,7 @@ fn exact_order_of_compositions() {
             let [r, _, attitude, ..] = errors(&case, &exact, &at(&mut named, end));
             (h, r + attitude)
         });
-        let slope = log_slope(&errors);
-        println!("{errors:?}");
-        within(&format!("order {order}: {slope:.2}"), (slope - f64::from(order)).abs(), ORDER);
+        within_order(&format!("{errors:?}"), errors, f64::from(order), ORDER);
     }
 }
 

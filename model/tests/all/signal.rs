@@ -1,8 +1,8 @@
 //! Inputs: polynomials about communication points, their pieces, and the order of what is held or extrapolated.
 
+use crate::harness::swinging::within_order;
 use crate::harness::{Driven, Method, Scene, TORQUE, at, largest, within};
 use nalgebra::{Vector2, Vector3};
-use oracles::numerics::log_slope;
 use split_rotor_model::signal::Signal;
 use split_rotor_model::simulation::Simulation;
 
@@ -202,8 +202,7 @@ fn order_of_what_is_sent() {
             let [one, other] = [&reached, &exact].map(|r| (r.motion.at.k, r.motion.phi()));
             largest([(one.0 - other.0).norm(), (one.1 - other.1).abs()])
         };
-        let errors: Vec<_> = [20, 30, 40, 60, 80].map(|n| (1.0 / f64::from(n), error(n))).into();
-        let slope = log_slope(&errors);
-        within(&format!("order {slope:.3}"), (slope - (derivatives + 1) as f64).abs(), ORDER);
+        let errors = [20, 30, 40, 60, 80].map(|n| (1.0 / f64::from(n), error(n)));
+        within_order("sent", errors, (derivatives + 1) as f64, ORDER);
     }
 }

@@ -1,20 +1,19 @@
 //! `stiff`: its order conditions, the order observed on rotors that tilt far, and supports so stiff that explicit methods
 //! creep.
 
-use crate::harness::swinging::{distance, driven, reference};
+use crate::harness::swinging::{dense_errors, distance, driven, reference, within_order};
 use crate::harness::{Method, Random, Scene, Supported, largest, tolerance, within};
 use nalgebra::{Complex, ComplexField, Matrix3, Vector3};
 use oracles::motion::Oscillator;
-use oracles::numerics::{derivative, log_slope};
+use oracles::numerics::derivative;
 use oracles::trees::{Tree, trees};
+use split_rotor_model::integrate::System;
 use split_rotor_model::integrate::explicit::Explicit;
 use split_rotor_model::integrate::stiff::lu::Lu;
 use split_rotor_model::integrate::stiff::radau::{C, ERROR, GAMMA, PAIR, T, T_INVERSE, weights};
 use split_rotor_model::integrate::stiff::{Differentiable, Stiff};
-use split_rotor_model::integrate::{Fault, System};
 use split_rotor_model::rotor::Rotor;
 use split_rotor_model::state::WITH_WORK;
-use split_rotor_model::stored::{from_bytes, to_bytes};
 
 // --------------------------------------------------------------------------------------------- order conditions
 
@@ -87,32 +86,22 @@ fn observed_order_of_the_step() {
     let (rotor, y) = driven(3.0, 0.2);
     let exact = reference(&rotor, y, 1.0, 2000);
     let error = |n: u32| distance(after(&rotor, y, 1.0, n).state(), &exact);
-    let errors: Vec<_> = [200, 300, 450, 700, 1000].map(|n| (1.0 / f64::from(n), error(n))).into();
-    let slope = log_slope(&errors);
-    within(&format!("order {slope:.3}"), (slope - 5.0).abs(), OBSERVED);
+    let errors = [200, 300, 450, 700, 1000].map(|n| (1.0 / f64::from(n), error(n)));
+    within_order("Radau IIA", errors, 5.0, OBSERVED);
 }
 
 #[test]
 fn observed_order_of_the_dense_output() {
-    // Local: the error within one step from an exact state falls as h^(order + 1), here the geometric mean of places.
     let (rotor, start) = driven(3.0, 0.2);
     let places: Vec<_> =
         (1..=8).map(|i| (0.1 * f64::from(i), reference(&rotor, start, 0.1 * f64::from(i), 400))).collect();
-    let worst = |(t, y): &(f64, [f64; WITH_WORK]), h: f64| {
-        let mut method = Stiff::start(tolerance(1e-10), &rotor, *t, *y);
+    let errors = dense_errors(&rotor, &places, &[0.005, 0.007, 0.01, 0.014], |t, y, h| {
+        let mut method = Stiff::start(tolerance(1e-10), &rotor, t, y);
         method.fixed_step(&rotor, h);
-        largest([0.15, 0.3, 0.5, 0.7, 0.85].map(|sigma| {
-            let mut exact = Explicit::start(Method::Dop853.tableau(), tolerance(1.0), &rotor, *t, *y);
-            for _ in 0..4 {
-                exact.fixed_step(&rotor, sigma * h / 4.0);
-            }
-            distance(&method.dense(&rotor, t + sigma * h), exact.state())
-        }))
-    };
-    let mean = |h: f64| libm::exp(places.iter().map(|place| libm::log(worst(place, h))).sum::<f64>() / 8.0);
-    let errors: Vec<_> = [0.005, 0.007, 0.01, 0.014].map(|h| (h, mean(h))).into();
-    let slope = log_slope(&errors) - 1.0;
-    within(&format!("dense order {slope:.3}"), (slope - 5.0).abs(), OBSERVED);
+        let rotor = &rotor;
+        move |t| method.dense(rotor, t)
+    });
+    within_order("Radau IIA: dense", errors, 5.0, OBSERVED);
 }
 
 // ------------------------------------------------------------------------------------------------ stiff supports
@@ -269,23 +258,6 @@ fn exact_jacobian() {
 
 // ------------------------------------------------------------------------------------------- going back, faults
 
-#[test]
-fn run_goes_on_with_the_same_bits_from_its_bytes() {
-    let (rotor, y) = driven(3.0, 0.2);
-    let mut method = Stiff::start(tolerance(1e-7), &rotor, 0.0, y);
-    let go_on = |method: &mut Stiff<WITH_WORK>| {
-        for _ in 0..5 {
-            method.step(&rotor, f64::INFINITY, f64::INFINITY).expect("possible");
-        }
-    };
-    go_on(&mut method);
-    let mut copy = Stiff::blank();
-    from_bytes(&mut copy, &to_bytes(&mut method)).expect("whole");
-    go_on(&mut method);
-    go_on(&mut copy);
-    assert_eq!(to_bytes(&mut method), to_bytes(&mut copy));
-}
-
 /// Error at 0.8 s after going back half a step at 0.5 s, over that of a run that does not [1]: measured 0.98.
 const BACK: f64 = 2.0;
 
@@ -311,25 +283,4 @@ fn goes_on_from_where_it_went_back_to() {
     let (there, back) = (error(false), error(true));
     println!("{there:e}, {back:e}");
     within("went back", back / there, BACK);
-}
-
-#[test]
-fn impossible_steps_are_faults() {
-    let run = |scene: &Scene| {
-        let (rotor, y) = with_work(scene);
-        let mut method = Stiff::start(tolerance(1e-8), &rotor, 0.0, y);
-        loop {
-            if let Err(fault) = method.step(&rotor, f64::INFINITY, f64::INFINITY) {
-                return (method.time(), fault);
-            }
-        }
-    };
-    // Beyond 2.8 rad in its chart no step may end; at 10 rad/s that is at 0.28 s.
-    let (reached, fault) = run(&Scene { omega: Vector3::new(0.0, 10.0, 0.0), c2: 0.0, c1: 0.0, ..Scene::paper() });
-    assert!(matches!(fault, Fault::Refused { .. }), "{fault:?}");
-    within("where", (reached - 0.28).abs(), 1e-5);
-    let (_, fault) = run(&Scene { c1: f64::MAX, ..Scene::paper() });
-    assert!(matches!(fault, Fault::NotFinite { .. }), "{fault:?}");
-    let (_, fault) = run(&Scene { c1: f64::MAX, r_c: Vector3::new(10.0, 0.0, 0.0), ..Scene::paper() });
-    assert!(matches!(fault, Fault::NotFinite { .. }), "{fault:?}");
 }

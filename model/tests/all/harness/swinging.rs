@@ -1,7 +1,8 @@
 //! What observed orders are measured on: a rotor without small angles, and one that is damped and driven besides.
 
-use super::{Driven, Method, Scene, tolerance};
+use super::{Driven, Method, Scene, largest, tolerance, within};
 use nalgebra::{Vector2, Vector3};
+use oracles::numerics::log_slope;
 use split_rotor_model::effects::{Effects, named};
 use split_rotor_model::integrate::System;
 use split_rotor_model::integrate::explicit::Explicit;
@@ -47,6 +48,35 @@ pub fn driven(d1: f64, d2: f64) -> (Rotor<Driven>, [f64; WITH_WORK]) {
 pub fn distance<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
     let nominal = [0.75, 0.75, 0.75, 1.0, 1.0, 1.0, 0.15625, 0.15625, 0.15625, 1.0, 1.0, 1.0, 1.0, 1.0];
     (0..N).map(|n| ((a[n] - b[n]) / nominal[n]) * ((a[n] - b[n]) / nominal[n])).sum::<f64>().sqrt()
+}
+
+/// Holds the power of the step size with which errors fall to a nominal one; pairs of step size and error.
+pub fn within_order(what: &str, errors: impl IntoIterator<Item = (f64, f64)>, order: f64, allowed: f64) {
+    let slope = log_slope(&errors.into_iter().collect::<Vec<_>>());
+    within(&format!("{what}: order {slope:.3}"), (slope - order).abs(), allowed);
+}
+
+/// The order of a dense output, by its error within one step of each of these sizes [s] from an exact state, which falls as
+/// h^(order + 1): at its worst in the step, and the geometric mean of the times and states that are given. `step` takes the
+/// step, and answers at parts of it.
+pub fn dense_errors<const N: usize, A: FnMut(f64) -> [f64; N]>(
+    system: &impl System<N>,
+    places: &[(f64, [f64; N])],
+    sizes: &[f64],
+    step: impl Fn(f64, [f64; N], f64) -> A,
+) -> Vec<(f64, f64)> {
+    let worst = |(t, y): &(f64, [f64; N]), h: f64| {
+        let mut answer = step(*t, *y, h);
+        largest([0.15, 0.3, 0.5, 0.7, 0.85].map(|sigma| {
+            let mut exact = Explicit::start(Method::Dop853.tableau(), tolerance(1.0), system, *t, *y);
+            (0..4).for_each(|_| exact.fixed_step(system, sigma * h / 4.0));
+            distance(&answer(t + sigma * h), exact.state())
+        }))
+    };
+    let mean = |h: f64| {
+        libm::exp(places.iter().map(|place| libm::log(worst(place, h))).sum::<f64>() / places.len() as f64) / h
+    };
+    sizes.iter().map(|&h| (h, mean(h))).collect()
 }
 
 /// dop853 in so many steps: exact to rounding.
