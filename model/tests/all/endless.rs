@@ -2,7 +2,6 @@
 
 use crate::harness::named::Named;
 use crate::harness::within;
-use crate::ordinary;
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::simulation::Integrator;
 
@@ -66,35 +65,4 @@ fn regress_a_stiff_default_ends() {
         named
     };
     ends("support.d1 = 1e10", make, 1.0, &[SPENT, "infinite or not a number", "the energy is not kept"]);
-}
-
-/// What rotating damping drives, of an asymmetric body: its motion grows until the axis passes −e, ever faster.
-#[test]
-fn regress_what_runs_away_ends() {
-    let make = || {
-        let mut named = Named::new("rotor", Integrator::Method);
-        for (name, value) in [
-            ("start.omega.y", 20.0),
-            ("effects.support", 0.0),
-            ("effects.asymmetry", 1.0),
-            ("asymmetry.Jt2", 0.1),
-            ("effects.rotating_damping", 1.0),
-            ("rotating_damping.d", 5.0),
-            ("rotating_damping.position", -0.1),
-            ("solver.relative_tolerance", 1e-10),
-        ] {
-            named.set(name, value);
-        }
-        named
-    };
-    ends("a runaway", make, 1.0, &[SPENT, "3.1 rad", "the energy is not kept"]);
-}
-
-#[test]
-fn regress_what_cross_coupling_drives_ends() {
-    for cross in [1e7, 1e8] {
-        let make = || ordinary::by(&ordinary::unstable(cross), 1.0, 1e-4);
-        let reasons = [SPENT, "infinite or not a number", "the energy is not kept", "3.1 rad", "keeps the tolerance"];
-        ends(&format!("cross stiffness {cross:e} N/m"), make, 6.0, &reasons);
-    }
 }

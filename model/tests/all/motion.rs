@@ -1,69 +1,15 @@
-//! Whole runs against motions in closed form (`oracles/motion.rs`) and against what a motion must keep.
+//! Whole runs against motions in closed form (`oracles/src/motion.rs`); the gallery (`cargo xtask hard-cases`) has more of them.
 
-use crate::harness::{Method, Scene, Supported, at, largest, momentum_about_e, times, within};
+use crate::harness::{Scene, Supported, at, largest, times, within};
 use nalgebra::{SMatrix, Vector2, Vector3};
-use oracles::motion::{FreeRotor, Oscillator, Whirl, small_whirl};
-use oracles::numerics::{log_slope, root};
+use oracles::motion::{Oscillator, Whirl, small_whirl};
+use oracles::numerics::root;
 use oracles::rotation;
 use split_rotor_model::body::Body;
 use split_rotor_model::dual::Dual;
 use split_rotor_model::state::COORDINATES;
 use split_rotor_model::variables::Reading;
 use std::f64::consts::TAU;
-
-// ---------------------------------------------------------------------------------------------------- torque-free
-
-/// Two free rotors whose axis stays short of −e: a disk that nutates widely, and a long one that tilts to 2.6 rad.
-fn free_rotors() -> [Scene; 2] {
-    let free = Scene { tolerance: 1e-12, ..Scene::free() };
-    [
-        Scene { omega: Vector3::new(50.0, 12.0, 5.0), ..free.clone() },
-        Scene {
-            body: Body { m: 3.0, Ja: 0.05, Jt: 0.4, l: 0.75 },
-            phi: 2.0,
-            gamma: Vector2::new(-0.6, 1.1),
-            omega: Vector3::new(12.0, 10.0, 15.0),
-            v_c: Vector3::new(0.3, -0.2, 0.1),
-            ..free
-        },
-    ]
-}
-
-fn exact_of(scene: &Scene) -> FreeRotor {
-    let Body { Ja, Jt, .. } = scene.body;
-    FreeRotor { Ja, Jt, phi: scene.phi, gamma: scene.gamma, omega: scene.omega }
-}
-
-/// Attitude after 10 s of 10 to 50 rad/s at a tolerance of 1e-12, as the matrix of φ and γ [1]: measured 1.7e-8
-/// with dopri5, 4.8e-9 with dop853.
-const FREE_ATTITUDE: [f64; 2] = [5e-8, 1.5e-8];
-/// φ after 10 s, whole turns included: spin plus swept solid angle, eq. 19 [rad]: measured 1.9e-8 and 5.5e-9.
-const FREE_PHI: [f64; 2] = [6e-8, 1.5e-8];
-/// Path of the mass centre: straight and even [m]: measured 1.4e-14.
-const FREE_PATH: f64 = 5e-14;
-
-#[test]
-fn exact_free_rotor() {
-    for method in Method::PAIRS {
-        let (mut attitude, mut phi, mut path, mut theta) = (0.0, 0.0, 0.0, 0.0);
-        for scene in free_rotors() {
-            let (exact, scene) = (exact_of(&scene), Scene { method, ..scene });
-            for (t, reading) in times(10.0, 50).zip(scene.run::<()>(times(10.0, 50))) {
-                let at = &reading.motion.at;
-                let reached = rotation::attitude(reading.motion.angle().remainder, &reading.motion.tilt.gamma());
-                attitude = largest([attitude, (reached - exact.attitude(t)).amax()]);
-                phi = largest([phi, (reading.motion.phi() - exact.phi(t, 40 + (60.0 * t) as usize)).abs()]);
-                path = largest([path, (at.r - scene.r_c - scene.v_c * t).amax()]);
-                theta = largest([theta, reading.motion.tilt.gamma().norm()]);
-            }
-        }
-        let n = method as usize - 2;
-        within(&format!("{method:?}: attitude"), attitude, FREE_ATTITUDE[n]);
-        within(&format!("{method:?}: phi"), phi, FREE_PHI[n]);
-        within("path", path, FREE_PATH);
-        assert!(theta > 2.0 && theta < 3.0, "a wide motion short of the singular point: {theta}");
-    }
-}
 
 // ------------------------------------------------------------------------------------------------- steady whirl
 
@@ -125,60 +71,6 @@ fn exact_steady_whirl_at_any_tilt() {
             within(&format!("theta = {theta}, {name}"), worst[n], allowed[n]);
         }
     }
-}
-
-// ------------------------------------------------------------------------------- heavy top on an elastic pivot
-
-/// A spinning top on its elastic pivot, tilted by 0.6 rad, precessing at 6 rad/s under gravity along −e; c2 = 0.
-fn top(c1: f64) -> Whirl {
-    Whirl { c1, c2: 0.0, g: 9.81, ..Whirl::paper(0.6, 6.0) }
-}
-
-/// Errors of r_c [m], axis [1] and φ [rad] after two precession turns: measured 6.8e-15, 1.6e-14, 6.3e-13.
-const TOP: [f64; 3] = [2e-14, 5e-14, 1.5e-12];
-
-#[test]
-fn exact_heavy_top_with_elastic_pivot() {
-    let whirl = top(2000.0);
-    let mut simulation = scene_of(&whirl).started::<Supported>();
-    let mut worst = [0.0; 3];
-    for t in times(2.0 * TAU / 6.0, 20) {
-        let errors = whirl_errors(&whirl, t, &at(&mut simulation, t));
-        worst = std::array::from_fn(|n| largest([worst[n], errors[n]]));
-    }
-    for (n, name) in ["r_c", "axis", "phi"].into_iter().enumerate() {
-        within(name, worst[n], TOP[n]);
-    }
-}
-
-/// Observed power of the deviation from the rigid pivot in the stiffness, −1 but for [1]: measured 0.017.
-const RIGID_LIMIT: f64 = 0.05;
-
-#[test]
-fn exact_heavy_top_tends_to_lagrange() {
-    // Lagrange's steady precession, A Ω² cos θ − Ja ω_a Ω + m g l = 0 with A = Jt + m l²; started with it, the elastic
-    // top nutates about its own precession by an amount that falls as 1/c1.
-    let (theta, rate) = (0.6, 6.0);
-    let Body { m, Ja, Jt, l } = Scene::paper().body;
-    let spin = ((Jt + m * l * l) * rate * rate * libm::cos(theta) + m * 9.81 * l) / (Ja * rate);
-    let deviations: Vec<_> = [1e4, 3e4, 1e5, 3e5, 1e6]
-        .into_iter()
-        .map(|c1| {
-            let elastic = top(c1);
-            let axis = rotation::axis(&elastic.gamma(0.0));
-            let r_c = axis * l - Vector3::x() * (m * 9.81 / c1);
-            let omega = axis * spin + axis.cross(&Vector3::x().cross(&axis)) * rate;
-            let v_c = omega.cross(&axis) * l;
-            let scene = Scene { r_c, v_c, omega, tolerance: 1e-10, ..scene_of(&elastic) };
-            let readings = scene.run::<Supported>(times(0.2, 40));
-            let deviation = times(0.2, 40)
-                .zip(&readings)
-                .map(|(t, reading)| (reading.motion.axis() - rotation::axis(&elastic.gamma(t))).norm());
-            (c1, largest(deviation))
-        })
-        .collect();
-    let power = log_slope(&deviations);
-    within("power of the stiffness", (power + 1.0).abs(), RIGID_LIMIT);
 }
 
 // ------------------------------------------------------------------------------------------------- small whirl
@@ -315,61 +207,7 @@ fn exact_damped_decay_of_a_large_tilt() {
     }
 }
 
-// ---------------------------------------------------------------------------------------------- what stays or falls
-
-/// Residual of the ledger [J] of a damped rotor of 195 J over 5 s at a tolerance of 1e-10: measured 7.6e-11.
-const RESIDUAL: f64 = 2e-10;
-
-#[test]
-fn exact_ledger_closes_with_damping() {
-    let scene = Scene { d1: 20.0, d2: 1.0, ..Scene::paper() };
-    let readings = scene.run::<Supported>(times(5.0, 100));
-    let mut dissipated = 0.0;
-    for reading in &readings {
-        within("residual", reading.ledger.residual().abs(), RESIDUAL);
-        assert!(reading.ledger.dissipated >= dissipated, "what is lost stays lost");
-        assert_eq!(reading.ledger.supplied, 0.0);
-        dissipated = reading.ledger.dissipated;
-    }
-    // The rotor sags to rest under its weight: it loses what gravity gave it, less what the springs hold.
-    assert!(dissipated > 1.0, "{dissipated} J");
-    assert_eq!(readings[0].ledger.dissipated, 0.0);
-    let fallen = readings[0].ledger.total() - readings[100].ledger.total();
-    within("total fell by what was lost", (fallen - dissipated).abs(), RESIDUAL);
-}
-
-/// Energy, K_c·t, and angular momentum about e through O, relative, over 5 s at a tolerance of 1e-12, with dopri5 and
-/// with dop853 [1]: measured 2.6e-10, 4.2e-10, 2.9e-12 and 3.9e-12, 9.1e-12, 6.7e-14.
-const KEPT: [[f64; 3]; 2] = [[8e-10, 1.3e-9, 9e-12], [1.2e-11, 3e-11, 2e-13]];
-
-#[test]
-fn exact_conserved_quantities() {
-    // Gravity along −e: nothing turns the whole about e. The motion is wide: θ reaches some 1.5 rad.
-    let scene = Scene {
-        gamma: Vector2::new(0.5, -0.8),
-        omega: Vector3::new(40.0, 6.0, -3.0),
-        v_c: Vector3::new(0.1, 1.0, -1.5),
-        g: Vector3::new(-9.81, 0.0, 0.0),
-        tolerance: 1e-12,
-        ..Scene::paper()
-    };
-    for method in Method::PAIRS {
-        let readings = Scene { method, ..scene.clone() }.run::<Supported>(times(5.0, 100));
-        let kept = |reading: &Reading| {
-            let motion = &reading.motion;
-            [reading.ledger.total(), motion.at.k.dot(motion.axis()), momentum_about_e(motion)]
-        };
-        let first = kept(&readings[0]);
-        for (n, name) in ["energy", "K·t", "momentum about e"].into_iter().enumerate() {
-            let drift = largest(readings.iter().map(|reading| (kept(reading)[n] / first[n] - 1.0).abs()));
-            within(&format!("{method:?}: {name}"), drift, KEPT[method as usize - 2][n]);
-        }
-        let residual = largest(readings.iter().map(|reading| reading.ledger.residual().abs())) / first[0];
-        within(&format!("{method:?}: residual"), residual, KEPT[method as usize - 2][0]);
-        let theta = largest(readings.iter().map(|reading| reading.motion.tilt.gamma().norm()));
-        assert!(theta > 0.9, "a wide motion: {theta}");
-    }
-}
+// ------------------------------------------------------------------------------------------------- swept solid angle
 
 /// φ against spin plus swept solid angle [rad], by Simpson's rule over 0.2 ms: measured 5.6e-11.
 const SOLID_ANGLE: f64 = 1.7e-10;

@@ -1,12 +1,14 @@
 //! What a run shows at its communication points, and how far two runs are apart.
 
+use nalgebra::Vector3;
+
 /// The rotor at one communication point. What somebody does not tell is NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
     /// Position of the mass centre \[m].
-    pub r_c: [f64; 3],
+    pub r_c: Vector3<f64>,
     /// The rotor axis t, of any length but zero.
-    pub axis: [f64; 3],
+    pub axis: Vector3<f64>,
     /// φ = 2π `turns` + `angle` \[rad], kept apart for its last digits.
     pub turns: f64,
     /// See `turns`.
@@ -22,18 +24,18 @@ pub struct Point {
 impl Point {
     /// Whether it shows numbers.
     pub fn is_finite(&self) -> bool {
-        let shown = [self.r_c, self.axis, [self.turns, self.angle, self.residual]];
-        shown.iter().flatten().all(|x| x.is_finite())
+        let others = [self.turns, self.angle, self.residual];
+        self.r_c.iter().chain(&self.axis).chain(&others).all(|x| x.is_finite())
     }
 
     /// How far the place is from that of another, across e \[m].
     fn across(&self, other: &Self) -> f64 {
-        (self.r_c[1] - other.r_c[1]).hypot(self.r_c[2] - other.r_c[2])
+        (self.r_c - other.r_c).yz().norm()
     }
 
     /// The angle between the axes \[rad].
     fn tilt(&self, other: &Self) -> f64 {
-        length(cross(self.axis, other.axis)).atan2(dot(self.axis, other.axis))
+        self.axis.cross(&other.axis).norm().atan2(self.axis.dot(&other.axis))
     }
 
     /// By what φ differs \[rad].
@@ -112,7 +114,7 @@ impl Errors {
     /// Of one point against another.
     pub fn between(point: &Point, exact: &Point) -> Self {
         Self {
-            r_c: length(difference(point.r_c, exact.r_c)),
+            r_c: (point.r_c - exact.r_c).norm(),
             axis: point.tilt(exact),
             phi: point.turn(exact),
             energy: point.residual.abs(),
@@ -138,29 +140,13 @@ impl Errors {
     }
 }
 
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const EXACT: Point = Point {
-        r_c: [1.0, 2.0, 3.0],
-        axis: [1.0, 0.0, 0.0],
+        r_c: Vector3::new(1.0, 2.0, 3.0),
+        axis: Vector3::new(1.0, 0.0, 0.0),
         turns: 7.0,
         angle: 0.25,
         residual: 0.0,
@@ -171,9 +157,9 @@ mod tests {
     #[test]
     fn errors_of_a_known_difference() {
         let point = Point {
-            r_c: [1.0, 2.0 + 3e-6, 3.0 - 4e-6],
+            r_c: Vector3::new(1.0, 2.0 + 3e-6, 3.0 - 4e-6),
             // An axis need not have length 1, and a small angle keeps its digits.
-            axis: [2.0, 2e-9, 0.0],
+            axis: Vector3::new(2.0, 2e-9, 0.0),
             turns: 6.0,
             angle: 0.25 + std::f64::consts::TAU - 1e-6,
             residual: -2e-7,
@@ -189,7 +175,7 @@ mod tests {
     /// A whirl of 20 µm that an upright axis goes with: only the place tells that it is wrong.
     #[test]
     fn an_error_of_the_place_counts_where_the_axis_does_not_tilt() {
-        let at = |y: f64, z: f64, angle: f64| Point { r_c: [1.0, y, z], angle, turns: 0.0, ..EXACT };
+        let at = |y: f64, z: f64, angle: f64| Point { r_c: Vector3::new(1.0, y, z), angle, turns: 0.0, ..EXACT };
         let start = at(1e-3, 0.0, 0.0);
         let exact = [at(1e-3, 2e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.0)];
         let wrong = [at(1e-3, 0.8e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.5)];
@@ -200,13 +186,17 @@ mod tests {
         assert_eq!((off.axis, off.phi), (0.0, 5e-3));
         assert_eq!(off.worst(), off.place);
         // Along e there is no size to compare with.
-        let along = [Point { r_c: [2.0, 1e-3, 2e-5], ..exact[0] }, exact[1]];
+        let along = [Point { r_c: Vector3::new(2.0, 1e-3, 2e-5), ..exact[0] }, exact[1]];
         assert_eq!(Relative::of(&along, &start, &exact, &sizes).worst(), 0.0);
     }
 
     #[test]
     fn each_error_is_relative_to_its_own_size() {
-        let tilted = |tilt: f64, y: f64| Point { r_c: [0.0, y, 0.0], axis: [tilt.cos(), 0.0, tilt.sin()], ..EXACT };
+        let tilted = |tilt: f64, y: f64| Point {
+            r_c: Vector3::y() * y,
+            axis: Vector3::new(tilt.cos(), 0.0, tilt.sin()),
+            ..EXACT
+        };
         let (start, exact) = (tilted(0.5, 0.0), [tilted(0.5 + 1e-4, 0.0), tilted(0.5, 0.0)]);
         let sizes = Sizes::of(&start, &exact);
         let off = Relative::of(&[exact[0], tilted(0.5 - 1e-6, 0.0)], &start, &exact, &sizes);
@@ -218,8 +208,8 @@ mod tests {
 
     #[test]
     fn what_is_not_told_is_passed_over() {
-        let nan = Point { r_c: [f64::NAN; 3], axis: [f64::NAN; 3], angle: f64::NAN, ..EXACT };
-        let moved = Point { r_c: [1.0, 2.0, 3.5], ..EXACT };
+        let nan = Point { r_c: Vector3::repeat(f64::NAN), axis: Vector3::repeat(f64::NAN), angle: f64::NAN, ..EXACT };
+        let moved = Point { r_c: Vector3::new(1.0, 2.0, 3.5), ..EXACT };
         let sizes = Sizes::of(&EXACT, &[moved]);
         let off = Relative::of(&[nan, Point { angle: f64::NAN, ..EXACT }], &EXACT, &[moved, moved], &sizes);
         assert_eq!((off.place, off.axis), (1.0, 0.0));
@@ -230,7 +220,7 @@ mod tests {
 
     #[test]
     fn the_end_is_last_and_the_worst_is_largest() {
-        let moved = |x| Point { r_c: [1.0 + x, 2.0, 3.0], ..EXACT };
+        let moved = |x| Point { r_c: Vector3::new(1.0 + x, 2.0, 3.0), ..EXACT };
         let unknown = Point { angle: f64::NAN, ..EXACT };
         let [end, worst] = Errors::of(&[moved(0.25), moved(0.5), unknown, moved(0.125)], &[EXACT; 4]);
         assert_eq!((end.r_c, worst.r_c), (0.125, 0.5));

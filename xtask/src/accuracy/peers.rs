@@ -11,6 +11,7 @@ use crate::run::{cargo, fed, run};
 use crate::{paths, python};
 use anyhow::{Context, Result};
 use indicatif::ProgressBar;
+use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
 use split_rotor_model::scene::{Experiment, Scene};
 use std::process::Command;
@@ -151,7 +152,7 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
     let points = reference.points.iter().enumerate().map(|(n, exact)| {
         // What is null is not known.
         let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-        let vector = |key: &str| std::array::from_fn(|i| number(&line[key][n][i]));
+        let vector = |key: &str| Vector3::from_fn(|i, _| number(&line[key][n][i]));
         let energy = number(&line["energy"][n]);
         Point {
             r_c: vector("r_c"),
@@ -188,8 +189,8 @@ mod tests {
 
     fn reference() -> Reference {
         let point = Point {
-            r_c: [1.0, 0.0, 0.0],
-            axis: [1.0, 0.0, 0.0],
+            r_c: Vector3::x(),
+            axis: Vector3::x(),
             turns: 1.0,
             angle: 0.5,
             residual: 0.0,
@@ -199,7 +200,7 @@ mod tests {
         let errors = Errors { r_c: 0.0, axis: 0.0, phi: 0.0, energy: 0.0 };
         let sizes = Sizes { place: 0.5, axis: 0.0, phi: 0.0 };
         let floor = Relative { place: 0.0, axis: 0.0, phi: 0.0 };
-        let start = Point { r_c: [1.0, 0.5, 0.0], ..point };
+        let start = Point { r_c: Vector3::new(1.0, 0.5, 0.0), ..point };
         let [setting, check] = ["dop853", "dopri5"].map(|method| with_tolerance(method, 1e-14));
         Reference { setting, check, start, points: vec![point; 2], sizes, agreement: [errors; 2], floor }
     }

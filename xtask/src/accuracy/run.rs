@@ -6,6 +6,7 @@ use super::sweep::AUTO;
 use crate::fmu::{Fmu, Instance, Reference};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
+use nalgebra::Vector3;
 use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::variables::METHODS;
 use split_rotor_model::xml;
@@ -175,5 +176,5 @@ fn references<const N: usize>(scene: &Scene, names: [&str; N]) -> Result<[Refere
 
 fn point(outputs: [f64; OUTPUTS.len()]) -> Point {
     let [x, y, z, t_x, t_y, t_z, turns, angle, residual, energy, kinetic] = outputs;
-    Point { r_c: [x, y, z], axis: [t_x, t_y, t_z], turns, angle, residual, energy, kinetic }
+    Point { r_c: Vector3::new(x, y, z), axis: Vector3::new(t_x, t_y, t_z), turns, angle, residual, energy, kinetic }
 }

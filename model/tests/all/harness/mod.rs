@@ -6,6 +6,7 @@ pub mod named;
 pub mod swinging;
 
 pub use oracles::bounds::{largest, within};
+use oracles::machine::{self, Machine, Start};
 
 use nalgebra::{Vector2, Vector3};
 use proptest::test_runner::{Config as ProptestConfig, RngSeed};
@@ -127,28 +128,20 @@ impl Scene {
 
     /// Name and value of each variable that it sets.
     pub fn values(&self) -> Vec<(String, f64)> {
-        let mut values: Vec<(String, f64)> = Vec::new();
-        let mut set = |name: &str, value: f64| values.push((name.into(), value));
-        set("rotor.m", self.body.m);
-        set("rotor.Ja", self.body.Ja);
-        set("rotor.Jt", self.body.Jt);
-        set("rotor.l", self.body.l);
-        for (name, v) in [("r_c", &self.r_c), ("v_c", &self.v_c), ("omega", &self.omega)] {
-            for (n, component) in ["x", "y", "z"].into_iter().enumerate() {
-                set(&format!("start.{name}.{component}"), v[n]);
-            }
-        }
-        set("start.phi", self.phi);
-        set("start.gamma.y", self.gamma.x);
-        set("start.gamma.z", self.gamma.y);
-        for (n, component) in ["x", "y", "z"].into_iter().enumerate() {
-            set(&format!("gravity.g.{component}"), self.g[n]);
-        }
-        for (name, value) in [("c1", self.c1), ("c2", self.c2), ("d1", self.d1), ("d2", self.d2)] {
-            set(&format!("support.{name}"), value);
-        }
-        set("solver.method", f64::from(self.method as i32));
-        set("solver.relative_tolerance", self.tolerance);
+        let Body { m, Ja, Jt, l } = self.body;
+        let machine = Machine {
+            m,
+            Ja,
+            Jt,
+            l,
+            start: Start { r_c: self.r_c, v_c: self.v_c, phi: self.phi, gamma: self.gamma, omega: self.omega },
+            gravity: Some(self.g),
+            support: Some(machine::Support { c: [self.c1, self.c2], d: [self.d1, self.d2] }),
+            ..Machine::default()
+        };
+        let mut values = machine.settings();
+        values.push(("solver.method".into(), f64::from(self.method as i32)));
+        values.push(("solver.relative_tolerance".into(), self.tolerance));
         values
     }
 
@@ -185,17 +178,20 @@ impl Scene {
         times.into_iter().map(|t| at(&mut simulation, t)).collect()
     }
 
+    /// A list of effects that holds gravity and the support, as they act here.
+    pub fn effects<E: Effects>(&self) -> E {
+        let (mut effects, first) = (E::default(), Place::effect_block(0, 1));
+        let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
+        for (name, value) in self.values() {
+            let of_effect = variables.iter().find(|v| v.name == name && v.place.block >= first);
+            assert!(of_effect.is_none_or(|variable| effects.set_parameter(variable.place, value)), "{name}");
+        }
+        effects
+    }
+
     /// Its equations of motion with gravity and the support.
     pub fn rotor(&self) -> Rotor<Supported> {
-        let mut effects = Supported::default();
-        let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
-        for (name, value) in
-            self.values().iter().filter(|(name, _)| name.starts_with("gravity") || name.starts_with("support"))
-        {
-            let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
-            assert!(effects.set_parameter(variable.place, *value));
-        }
-        Rotor::new(self.body.into(), effects, Chart::FromE, 0.0)
+        Rotor::new(self.body.into(), self.effects(), Chart::FromE, 0.0)
     }
 
     /// The rates of these coordinates.

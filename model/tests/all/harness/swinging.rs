@@ -3,13 +3,12 @@
 use super::{Driven, Method, Scene, largest, tolerance, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::log_slope;
-use split_rotor_model::effects::{Effects, named};
+use split_rotor_model::effects::Effects;
 use split_rotor_model::integrate::System;
 use split_rotor_model::integrate::explicit::Explicit;
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::rotor::Rotor;
 use split_rotor_model::state::WITH_WORK;
-use split_rotor_model::variables::of_scene;
 
 /// The paper's rotor, heavily tilted and swinging: no small angle, no steady state.
 pub fn swinging() -> Scene {
@@ -27,13 +26,7 @@ pub fn swinging() -> Scene {
 /// The same with dampers d1 [N·s/m] and d2 [N·m·s/rad] and a torque that changes with time, and its state.
 pub fn driven(d1: f64, d2: f64) -> (Rotor<Driven>, [f64; WITH_WORK]) {
     let scene = Scene { d1, d2, ..swinging() };
-    let mut effects = Driven::default();
-    let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
-    for (name, value) in scene.values().iter().filter(|(name, _)| name.contains("gravity") || name.contains("support"))
-    {
-        let variable = variables.iter().find(|v| v.name == *name).expect("a variable of the effect");
-        assert!(effects.set_parameter(variable.place, *value));
-    }
+    let mut effects: Driven = scene.effects();
     effects.for_each_signal(&mut |tau| {
         tau.set(0.0, 2.0);
         tau.set_derivative(0.0, 1, -3.0);
