@@ -1,7 +1,7 @@
 //! Steps and spikes of the drive's torque.
 
 use super::case::{Case, Exact, Found, Phi, Setting, start, support, times};
-use super::method::at;
+use super::method::{at, usual};
 use anyhow::Result;
 use nalgebra::{Vector2, Vector3};
 use oracles::rigid_body::RigidBody;
@@ -69,7 +69,7 @@ fn tilted() -> Case {
         hard: "the joint passes the torque on across the tilt",
         oracle: "a rigid body by quaternions, extrapolated to order 16",
         scene: "driven",
-        methods: vec![(at("dop853", 1e-12), 9e-13), (at("dopri5", 1e-12), 6e-11), (at("stiff", 1e-10), 5e-9)],
+        methods: usual([9e-13, 6e-11, 5e-9], []),
         mutant: ("drive.tau", 1.0 + 1e-6),
         task: Box::new(move |bench| {
             let mut body = RigidBody::free(5.0, [0.15625, 0.078125, 0.078125], 0.75);

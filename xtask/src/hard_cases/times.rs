@@ -1,7 +1,7 @@
 //! Late times, tiny and huge communication steps: each counted.
 
 use super::case::{Case, Exact, Found, follow_from, of_whirl, times};
-use super::method::at;
+use super::method::{at, symplectic, usual};
 use anyhow::ensure;
 use oracles::motion::Whirl;
 
@@ -32,13 +32,7 @@ fn late() -> Case {
         hard: "a double knows that time to 1.2e-7 s",
         oracle: "steady whirl in closed form (ORACLES.md 1)",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 7e-12),
-            (at("dopri5", 1e-12), 8e-10),
-            (at("stiff", 1e-10), 6e-8),
-            (super::method::symplectic(8, 1.0 / 1024.0), 1.5e-10),
-            (at("auto", 1e-8), 2e-7),
-        ],
+        methods: usual([7e-12, 8e-10, 6e-8], [(symplectic(8, 1.0 / 1024.0), 1.5e-10), (at("auto", 1e-8), 2e-7)]),
         mutant: ("support.c2", 1.0 + 1e-5),
         task: follow_from(1e9, 1.0, of_whirl(&whirl), times(10.0, 40), move |t| Exact::of_whirl(&whirl, t)),
     }

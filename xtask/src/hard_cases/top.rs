@@ -1,7 +1,7 @@
 //! Lagrange's top on an elastic pivot: steady, asleep, waking, and as its pivot becomes rigid.
 
 use super::case::{Case, Exact, Found, Setting, body, follow, of_whirl, start, support, times};
-use super::method::at;
+use super::method::{at, usual};
 use anyhow::Result;
 use nalgebra::{Complex, ComplexField, Vector2, Vector3};
 use oracles::motion::Whirl;
@@ -25,7 +25,7 @@ fn steady() -> Case {
         hard: "gravity, spin and an elastic pivot balance",
         oracle: "steady whirl in closed form (ORACLES.md 4)",
         scene: "paper",
-        methods: vec![(at("dop853", 1e-12), 2e-12), (at("dopri5", 1e-12), 3e-12), (at("stiff", 1e-10), 3e-10)],
+        methods: usual([2e-12, 3e-12, 3e-10], []),
         mutant: ("gravity.g.x", 1.0 + 1e-6),
         task: follow(of_whirl(&whirl), times(2.0, 50), move |t| Exact::of_whirl(&whirl, t)),
     }

@@ -1,7 +1,7 @@
 //! Steady whirl of the paper's rotor on its springs, at any tilt.
 
 use super::case::{ALL_IT_TAKES, Case, Exact, follow, follow_from, of_whirl, start, support, times};
-use super::method::{at, symplectic};
+use super::method::{at, symplectic, usual};
 use nalgebra::{Vector2, Vector3};
 use oracles::motion::{Whirl, small_whirl};
 use std::f64::consts::TAU;
@@ -55,13 +55,7 @@ fn upright() -> Case {
         hard: "0/0 in every formula of the rotation",
         oracle: "stays upright, φ = 50 t",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 3e-13),
-            (at("dopri5", 1e-12), 3e-13),
-            (at("stiff", 1e-10), 4e-13),
-            (symplectic(6, 1e-2), 5e-13),
-            (at("auto", 1e-8), 3e-13),
-        ],
+        methods: usual([3e-13, 3e-13, 4e-13], [(symplectic(6, 1e-2), 5e-13), (at("auto", 1e-8), 3e-13)]),
         mutant: ("gravity.g.x", -1.0),
         task: follow(settings, times(10.0, 50), move |t| Exact {
             r_c: Some(rest),
@@ -88,13 +82,7 @@ fn vanishing(theta: f64) -> Case {
         hard: "underflow",
         oracle: "stays upright, φ = 50 t",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 2e-13),
-            (at("dopri5", 1e-12), 2e-13),
-            (at("stiff", 1e-10), 4e-13),
-            (symplectic(6, 1e-2), 5e-13),
-            (at("auto", 1e-8), 2e-13),
-        ],
+        methods: usual([2e-13, 2e-13, 4e-13], [(symplectic(6, 1e-2), 5e-13), (at("auto", 1e-8), 2e-13)]),
         mutant: ("start.omega.x", 1.0 + 1e-9),
         task: follow(settings, times(10.0, 50), upright),
     }
@@ -116,7 +104,7 @@ fn small() -> Case {
         hard: "digits of what is next to nothing",
         oracle: STEADY,
         scene: "paper",
-        methods: vec![(at("dop853", 1e-12), 8e-12), (at("dopri5", 1e-12), 6e-11), (at("stiff", 1e-10), 8e-9)],
+        methods: usual([8e-12, 6e-11, 8e-9], []),
         mutant: ("support.c1", 1.0 + 1e-6),
         task: follow_from(0.0, 1e-8, settings, times(10.0, 50), move |t| Exact::of_whirl(&whirl, t)),
     }

@@ -1,7 +1,7 @@
 //! Resonance, and whirl that damping or cross coupling drives.
 
 use super::case::{Case, Exact, Phi, Setting, follow_from, times};
-use super::method::{Method, at};
+use super::method::{Method, at, usual};
 use nalgebra::{Complex, Normed, Vector3};
 use oracles::forward_whirl::ForwardWhirl;
 use oracles::jeffcott::Jeffcott;
@@ -35,7 +35,7 @@ fn unbalanced(name: &str, speed: f64, acceleration: f64, bounds: [f64; 3]) -> Ca
         hard: "resonance: the phase decides how far the whirl grows",
         oracle: "Duhamel's integral",
         scene: "jeffcott",
-        methods: [at("dop853", 1e-12), at("dopri5", 1e-12), at("stiff", 1e-10)].into_iter().zip(bounds).collect(),
+        methods: usual(bounds, []),
         mutant: ("imposed_speed.w", 1.0 + 1e-5),
         task: follow_from(0.0, rotor.eccentricity, settings, times(10.0, 50), exact),
     }

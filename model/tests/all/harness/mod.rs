@@ -180,7 +180,7 @@ impl Scene {
 
     /// A list of effects that holds gravity and the support, as they act here.
     pub fn effects<E: Effects>(&self) -> E {
-        let (mut effects, first) = (E::default(), Place::effect_block(0, 1));
+        let (mut effects, first) = (E::default(), Place::effect_block(1, 1));
         let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
         for (name, value) in self.values() {
             let of_effect = variables.iter().find(|v| v.name == name && v.place.block >= first);
