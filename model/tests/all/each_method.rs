@@ -37,11 +37,6 @@ fn times(seed: u64, count: u32, end: f64) -> Vec<f64> {
     times
 }
 
-fn bits(named: &mut Named) -> Vec<u64> {
-    let places: Vec<_> = named.scene.variables.iter().map(|variable| variable.place).collect();
-    places.into_iter().map(|place| named.at(place).to_bits()).collect()
-}
-
 /// A tumbling rotor at any time of 5 s: its attitude [1] and φ with all turns [rad], in the order of [`CHOICES`]: measured
 /// 1.1e-8 and 2.7e-8, 1.7e-9 and 3.8e-9, 5.0e-12 and 1.1e-11, 7.8e-13 and 1.0e-11, 1.1e-12 and 5.3e-12, 2.6e-13 and
 /// 4.3e-12, 1.8e-7 and 3e-7. Drifts are exact, and the quadrature that φ is measured by keeps 1e-11.
@@ -119,7 +114,7 @@ fn what_is_read_and_where_it_went_changes_no_bit() {
             unread.start();
             for t in times(7, 30, 0.3) {
                 read.simulation.advance(t).expect("a possible motion");
-                bits(&mut read);
+                read.bits();
                 // Another way, and back.
                 let saved = read.simulation.clone();
                 read.simulation.advance(t + 0.02).expect("a possible motion");

@@ -6,12 +6,6 @@ use split_rotor_model::simulation::{Integrator, Simulation};
 use split_rotor_model::stored::{Damaged, from_bytes, to_bytes};
 use split_rotor_model::variables::Parameters;
 
-/// What all variables show, as bits.
-fn bits(named: &mut Named) -> Vec<u64> {
-    let places: Vec<_> = named.scene.variables.iter().map(|variable| variable.place).collect();
-    places.into_iter().map(|place| named.at(place).to_bits()).collect()
-}
-
 /// Somewhere in a run, in the chart from e, or `far` from e in that from −e.
 fn under_way(scene: &str, integrator: Integrator, method: f64, far: bool) -> Named {
     let mut named = Named::new(scene, integrator);
@@ -54,7 +48,7 @@ fn go_on(named: &mut Named, span: f64) -> Vec<Vec<u64>> {
                 exchange.settle();
             }
         }
-        bits(named)
+        named.bits()
     };
     (1..=10).map(one).collect()
 }
@@ -92,7 +86,7 @@ fn a_restored_run_goes_on_with_the_same_bits() {
                 one.simulation.advance(t + 4e-4).expect("a possible motion");
             }
             let mut other = restored(&mut one, nothing(integrator));
-            assert_eq!(bits(&mut other), bits(&mut one), "{scene} {integrator:?} {method} {far}");
+            assert_eq!(other.bits(), one.bits(), "{scene} {integrator:?} {method} {far}");
             assert_eq!(go_on(&mut other, 0.5), go_on(&mut one, 0.5), "{scene} {integrator:?} {method}");
         }
     }
@@ -107,7 +101,7 @@ fn a_run_that_is_not_started_is_restored() {
         let started = under_way("paper", integrator, 3.0, false).simulation;
         let mut other = restored(&mut one, started);
         assert_eq!(other.simulation.time(), None);
-        assert_eq!(bits(&mut other), bits(&mut one));
+        assert_eq!(other.bits(), one.bits());
         one.start();
         other.start();
         assert_eq!(go_on(&mut other, 0.5), go_on(&mut one, 0.5));

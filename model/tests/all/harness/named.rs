@@ -117,6 +117,12 @@ impl Named {
         self.simulation.get(place).expect("possible parameters").expect("a variable")
     }
 
+    /// What all variables show, as bits.
+    pub fn bits(&mut self) -> Vec<u64> {
+        let places: Vec<_> = self.scene.variables.iter().map(|variable| variable.place).collect();
+        places.into_iter().map(|place| self.at(place).to_bits()).collect()
+    }
+
     /// The value of a vector that is shown.
     pub fn vector(&mut self, name: &str) -> Vector3<f64> {
         Vector3::from(["x", "y", "z"].map(|axis| self.get(&format!("{name}.{axis}"))))
