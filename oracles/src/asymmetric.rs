@@ -1,5 +1,5 @@
 //! The torque-free rotor with three moments of inertia, in closed form but for one quadrature. SI units, radians. Checks:
-//! `exact_elliptic.rs`.
+//! `tests/exact/elliptic.rs`.
 
 use super::elliptic::{inverse, jacobi, quarter_period};
 use super::numerics::integral;
