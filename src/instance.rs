@@ -108,7 +108,7 @@ impl Instance {
         })
     }
 
-    /// Takes tolerance, start and stop [s] of the experiment.
+    /// Takes tolerance, start and stop \[s] of the experiment.
     pub fn setup_experiment(&mut self, tolerance: Option<f64>, start: f64, stop: Option<f64>) -> Reply {
         if !start.is_finite() {
             return Err(Failure::Error(format!("startTime = {start:?} must be a finite number of seconds")));

@@ -60,7 +60,10 @@ fn files(folder: &str, suffix: &str) -> Vec<PathBuf> {
 }
 
 fn rust_files() -> Vec<PathBuf> {
-    ["src", "model", "tests", "benches", "xtask", "fuzz/src"].iter().flat_map(|folder| files(folder, ".rs")).collect()
+    ["src", "model", "oracles", "tests", "benches", "xtask", "fuzz/src"]
+        .iter()
+        .flat_map(|folder| files(folder, ".rs"))
+        .collect()
 }
 
 fn read(file: &Path) -> String {
@@ -192,7 +195,7 @@ fn equation_labels_of_code_and_theory_match() {
     assert_eq!(distinct.len(), defined.len(), "an equation number stands twice in docs/theory.md");
     assert!(!distinct.is_empty());
     let mut used = BTreeSet::new();
-    for file in files("model", ".rs") {
+    for file in files("model", ".rs").into_iter().chain(files("oracles", ".rs")) {
         for number in numbers(&read(&file), "eq. ") {
             assert!(distinct.contains(&number), "{} cites eq. {number}, which docs/theory.md lacks", file.display());
             used.insert(number);

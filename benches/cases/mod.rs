@@ -27,19 +27,19 @@ macro_rules! methods {
     };
 }
 
-/// The rotor has moved this far before anything is measured [s].
+/// The rotor has moved this far before anything is measured \[s].
 const MOVED: f64 = 0.5;
 
-/// A communication step that makes the solver work [s].
+/// A communication step that makes the solver work \[s].
 pub const LONG: f64 = 0.1;
 
 /// What rests counts with, squared.
 const LEAST: f64 = 1e-12;
 
-/// The tolerance of the steps [1].
+/// The tolerance of the steps \[1].
 const TOLERANCE: f64 = 1e-10;
 
-/// A system of N equations at a time [s] and a state, to be stepped within a tolerance.
+/// A system of N equations at a time \[s] and a state, to be stepped within a tolerance.
 #[derive(Clone)]
 pub struct At<S, const N: usize> {
     pub system: S,
@@ -103,7 +103,7 @@ impl<S: System<N>, const N: usize> Stepping<S, N> {
         self.method.prepare_dense(&self.system);
     }
 
-    /// One step of this size [s]: no error is estimated.
+    /// One step of this size \[s]: no error is estimated.
     pub fn fixed_step(&mut self, h: f64) {
         self.method.fixed_step(&self.system, h);
     }
@@ -129,7 +129,7 @@ pub fn copied() -> At<Copied, 12> {
     At { system: Copied, t, y, tolerance }
 }
 
-/// An instance of the FMU, and the communication step to come [s].
+/// An instance of the FMU, and the communication step to come \[s].
 pub struct Hosted {
     instance: Instance,
     t: f64,

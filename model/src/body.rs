@@ -15,22 +15,22 @@ use nalgebra::{Matrix3, Vector3};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[allow(non_snake_case, reason = "the paper's symbols")]
 pub struct Body {
-    /// Mass [kg].
+    /// Mass \[kg].
     pub m: f64,
     /// Moment of inertia about the axis t [kg·m²].
     pub Ja: f64,
     /// Moment of inertia about c, transverse to t [kg·m²].
     pub Jt: f64,
-    /// Distance from the support point a to the mass centre c, along t [m].
+    /// Distance from the support point a to the mass centre c, along t \[m].
     pub l: f64,
 }
 
 /// What the motion needs of a body, with the divisions done once.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Inertia {
-    /// Mass of the whole [kg].
+    /// Mass of the whole \[kg].
     pub m: f64,
-    /// Distance from the support point a to the mass centre c, along t [m].
+    /// Distance from the support point a to the mass centre c, along t \[m].
     pub l: f64,
     /// 1/m [1/kg].
     pub per_m: f64,

@@ -173,10 +173,10 @@ fn switched(scene: &Scene) -> Vec<Vec<Place>> {
     if scene.general { vec![places(forwards), places(backwards)] } else { vec![places(forwards)] }
 }
 
-/// Each part of γ [rad], so that the motion starts in the first chart, and stays in either.
+/// Each part of γ \[rad], so that the motion starts in the first chart, and stays in either.
 const IN_FIRST_CHART: (f64, f64) = (0.5, 1.0);
 
-/// Each part of γ [rad], so that the motion starts in the second.
+/// Each part of γ \[rad], so that the motion starts in the second.
 const IN_SECOND_CHART: (f64, f64) = (1.3, 1.7);
 
 /// A rotor with random parameters and these switches on: possible where that can be had by changing one parameter after another,

@@ -88,7 +88,7 @@ pub trait Effect: Clone + Default + Send + 'static {
         Act::none()
     }
 
-    /// The ω_φ that it imposes at time `t` [s] [rad/s], and the rate of that [rad/s²]; None where it imposes none.
+    /// The ω_φ that it imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²]; None where it imposes none.
     #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
         None
@@ -118,7 +118,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Hears where the motion begins, before anything is asked.
     fn begin(&mut self, _start: &Motion<f64>) {}
 
-    /// Hears that a communication step begins at time `t` [s].
+    /// Hears that a communication step begins at time `t` \[s].
     fn step_from(&mut self, _t: f64) {}
 
     /// Extrapolates the input of this number over the step that begins.
@@ -161,7 +161,7 @@ pub struct InputSet {
     pub row: usize,
     /// 0 for its value, else the order of the derivative.
     pub order: u32,
-    /// At which communication point [s].
+    /// At which communication point \[s].
     pub t: f64,
     /// Whether it still holds what it held.
     pub goes_on: bool,

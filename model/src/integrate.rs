@@ -58,7 +58,7 @@ pub trait System<const N: usize> {
         in_one_group(change)
     }
 
-    /// How large the numbers are that a step of size `h` [s] from `y` adds up, in the same groups, squared.
+    /// How large the numbers are that a step of size `h` \[s] from `y` adds up, in the same groups, squared.
     fn roundings(&self, y: &[f64; N], _h: f64) -> Squares<N> {
         in_one_group(y)
     }
@@ -80,30 +80,30 @@ pub struct Refusal(pub &'static str);
 pub enum Fault {
     /// Every step, however short, ends where the system refuses to be.
     Refused {
-        /// The last time reached [s].
+        /// The last time reached \[s].
         t: f64,
         /// The system's reason.
         reason: Refusal,
     },
     /// The rates overflow or are undefined, however short the step.
     NotFinite {
-        /// The last time reached [s].
+        /// The last time reached \[s].
         t: f64,
     },
     /// All evaluations that may be spent are.
     Spent {
-        /// The last time reached [s].
+        /// The last time reached \[s].
         t: f64,
     },
     /// No step that advances the time keeps the tolerance.
     Underflow {
-        /// The last time reached [s].
+        /// The last time reached \[s].
         t: f64,
     },
 }
 
 impl Fault {
-    /// Why no step is possible beyond time `t` [s]: what stood in the way of the last one that was tried, or that none `advances` the
+    /// Why no step is possible beyond time `t` \[s]: what stood in the way of the last one that was tried, or that none `advances` the
     /// time, or may still be paid for.
     fn of_no_step(t: f64, advances: bool, obstacle: Option<Fault>) -> Fault {
         match obstacle {
@@ -147,9 +147,9 @@ pub struct Cost {
     pub rejected: f64,
     /// Evaluations of the right-hand side.
     pub evaluations: f64,
-    /// The step that the method would like next [s].
+    /// The step that the method would like next \[s].
     pub next_step: f64,
-    /// Sum of the accepted steps' error norms, in units of the tolerance [1].
+    /// Sum of the accepted steps' error norms, in units of the tolerance \[1].
     pub error_estimate: f64,
 }
 
@@ -167,10 +167,10 @@ impl Stored for Cost {
 /// A first step spans at least so many units in the last place of the time.
 const LEAST_FIRST: f64 = 100.0;
 
-/// A step that was tried in vain is tried again shorter, down to this part of it [1].
+/// A step that was tried in vain is tried again shorter, down to this part of it \[1].
 const SHRUNK: f64 = 1e-12;
 
-/// Where a step of size `h` [s] from `t` [s] ends that may not pass `until` [s]: it reaches it, or leaves half of a short
+/// Where a step of size `h` \[s] from `t` \[s] ends that may not pass `until` \[s]: it reaches it, or leaves half of a short
 /// rest.
 fn end_of_step(t: f64, h: f64, until: f64) -> f64 {
     let rest = until - t;

@@ -70,10 +70,10 @@ impl Stored for Frame {
     }
 }
 
-/// |γ| [rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
+/// |γ| \[rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
 pub const LIMIT: f64 = 3.1;
 
-/// In the chart from −e: |γ′| [rad] within which they are refused.
+/// In the chart from −e: |γ′| \[rad] within which they are refused.
 pub const FORBIDDEN: f64 = PI - LIMIT;
 
 const BEYOND_REACH: Refusal = Refusal("the axis turns too far for one chart, however short the step");
@@ -107,7 +107,7 @@ pub fn imposed<S: Scalar, E: Effects>(effects: &E, motion: Kinematics<S>) -> Kin
     }
 }
 
-/// The power of what imposes a speed, under the load of all else [W].
+/// The power of what imposes a speed, under the load of all else \[W].
 #[inline(always)]
 fn imposing<S: Scalar, E: Effects>(effects: &E, motion: &Kinematics<S>, load: Wrench<S>) -> Option<S> {
     motion.impulse?;
@@ -193,7 +193,7 @@ impl<'e, E: Effects> Rotor<'e, E> {
         Frame::new(body, effects, chart, turns).under(effects)
     }
 
-    /// The motion at time `t` [s], from a state.
+    /// The motion at time `t` \[s], from a state.
     #[inline(always)]
     pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
         self.motion_in(self.frame.chart, t, y)
@@ -257,7 +257,7 @@ impl<'e, E: Effects> Rotor<'e, E> {
         written::<f64, E, N, ALL>(self.effects, &motion, &act, all)
     }
 
-    /// Whether a state may have this γ [rad] in the chart, whose own reach is told, under these effects.
+    /// Whether a state may have this γ \[rad] in the chart, whose own reach is told, under these effects.
     pub fn reaches(&self, gamma: Vector2<f64>, reach: f64) -> Result<(), Refusal> {
         let theta_squared = gamma.norm_squared();
         if theta_squared > reach * reach {

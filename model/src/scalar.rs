@@ -36,7 +36,7 @@ pub trait Scalar:
     /// The square root, of a value ≥ 0.
     fn sqrt(self) -> Self;
 
-    /// Sine and cosine of an angle [rad].
+    /// Sine and cosine of an angle \[rad].
     fn sin_cos(self) -> [Self; 2];
 
     /// e to this power.
@@ -45,7 +45,7 @@ pub trait Scalar:
     /// The hyperbolic tangent.
     fn tanh(self) -> Self;
 
-    /// The azimuth of (x, y) [rad], `self` being y, in [−π, π]. At the origin it has no limit: 0, and derivatives of 0.
+    /// The azimuth of (x, y) \[rad], `self` being y, in [−π, π]. At the origin it has no limit: 0, and derivatives of 0.
     fn atan2(self, x: Self) -> Self;
 
     /// A value ≥ 0 to any power. At 0 the derivative is 0 where it would be infinite (a power below 1): that of
@@ -60,13 +60,13 @@ pub trait Scalar:
         if self.re() < other.re() { then } else { otherwise }
     }
 
-    /// The sine of an angle [rad].
+    /// The sine of an angle \[rad].
     #[inline(always)]
     fn sin(self) -> Self {
         self.sin_cos()[0]
     }
 
-    /// The cosine of an angle [rad].
+    /// The cosine of an angle \[rad].
     #[inline(always)]
     fn cos(self) -> Self {
         self.sin_cos()[1]

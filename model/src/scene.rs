@@ -34,13 +34,13 @@ pub struct Scene {
 /// The default experiment of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Experiment {
-    /// Start time [s].
+    /// Start time \[s].
     pub start: f64,
-    /// Stop time [s].
+    /// Stop time \[s].
     pub stop: f64,
-    /// Communication step [s].
+    /// Communication step \[s].
     pub step: f64,
-    /// Relative tolerance [1].
+    /// Relative tolerance \[1].
     pub tolerance: f64,
 }
 

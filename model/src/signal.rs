@@ -9,7 +9,7 @@ use crate::stored::{Damaged, Stored, Walk, choice, stored};
 /// held. The polynomial stays in force until the input is set again.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Signal {
-    /// The communication point where it was last set [s].
+    /// The communication point where it was last set \[s].
     origin: f64,
     /// In the input's unit.
     value: f64,
@@ -19,7 +19,7 @@ pub struct Signal {
     curvature: f64,
     /// The direction in which derivatives are asked for [unit].
     seed: f64,
-    /// What was said of it last, and when [s].
+    /// What was said of it last, and when \[s].
     source: Source,
     told: f64,
 }
@@ -53,7 +53,7 @@ impl Signal {
         Self { value, ..Self::default() }
     }
 
-    /// Its value at time `t` [s].
+    /// Its value at time `t` \[s].
     #[inline(always)]
     pub fn at<S: Scalar>(&self, t: S) -> S {
         let s = t - S::constant(self.origin);
@@ -84,7 +84,7 @@ impl Signal {
         S::constant(self.slope) + (t - S::constant(self.origin)) * S::constant(self.curvature)
     }
 
-    /// When it was last set [s].
+    /// When it was last set \[s].
     pub fn since(&self) -> f64 {
         self.origin
     }
@@ -110,13 +110,13 @@ impl Signal {
         Self { source: self.source, told: self.told, ..before }
     }
 
-    /// Sets its value from the communication point `t` [s] on. Derivatives sent there stay.
+    /// Sets its value from the communication point `t` \[s] on. Derivatives sent there stay.
     pub fn set(&mut self, t: f64, value: f64) {
         self.set_out_from(t);
         self.value = value;
     }
 
-    /// Sets its derivative of order 1 or 2 at the communication point `t` [s].
+    /// Sets its derivative of order 1 or 2 at the communication point `t` \[s].
     pub fn set_derivative(&mut self, t: f64, order: u32, value: f64) {
         self.set_out_from(t);
         self.source = Source::Derivatives;
@@ -127,22 +127,22 @@ impl Signal {
         }
     }
 
-    /// What was set before the run counts from its start at `t` [s].
+    /// What was set before the run counts from its start at `t` \[s].
     pub fn begin(&mut self, t: f64) {
         (self.origin, self.told) = (t, t);
     }
 
-    /// The value that was set at the communication point `t` [s], if one was.
+    /// The value that was set at the communication point `t` \[s], if one was.
     pub fn set_at(&self, t: f64) -> Option<f64> {
         (self.told == t && self.source != Source::Extrapolated).then_some(self.value)
     }
 
-    /// Whether derivatives were sent at the communication point `t` [s].
+    /// Whether derivatives were sent at the communication point `t` \[s].
     pub fn was_sent_derivatives_at(&self, t: f64) -> bool {
         self.told == t && self.source == Source::Derivatives
     }
 
-    /// Extrapolates it from the communication point `t` [s] on: value, rate and second derivative there.
+    /// Extrapolates it from the communication point `t` \[s] on: value, rate and second derivative there.
     pub fn extrapolate(&mut self, t: f64, [value, slope, curvature]: [f64; 3]) {
         *self = Self { origin: t, value, slope, curvature, source: Source::Extrapolated, told: t, ..*self };
     }
@@ -152,7 +152,7 @@ impl Signal {
         self.seed += seed;
     }
 
-    /// The value goes on from `t` [s]; derivatives sent elsewhere are forgotten.
+    /// The value goes on from `t` \[s]; derivatives sent elsewhere are forgotten.
     fn set_out_from(&mut self, t: f64) {
         if self.origin != t || self.source == Source::Extrapolated {
             *self = Self { origin: t, value: self.at(t), ..Self::default() };

@@ -134,7 +134,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         self.instant = None;
     }
 
-    /// Starts the motion at time `t` [s]; a relative tolerance [1] given here stands in for that of the parameters.
+    /// Starts the motion at time `t` \[s]; a relative tolerance \[1] given here stands in for that of the parameters.
     ///
     /// # Panics
     /// Where `t` is not finite.
@@ -142,7 +142,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         self.start_until(t, relative_tolerance, None)
     }
 
-    /// [`Simulation::start`] of a run that is known to stop at `stop` [s]: no step runs ahead of that.
+    /// [`Simulation::start`] of a run that is known to stop at `stop` \[s]: no step runs ahead of that.
     pub fn start_until(&mut self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
         let mut parameters = self.parameters.clone();
@@ -180,7 +180,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
-    /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
+    /// Moves the communication point to time `t` \[s]. On a fault it stands at the last time reached.
     ///
     /// # Panics
     /// Before [`Simulation::start`], where a host integrates, or where `t` lies before the communication point or is not
@@ -229,7 +229,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         self.parameters.effects.take_extrapolated(&extrapolated);
     }
 
-    /// The communication point [s]; None before the start.
+    /// The communication point \[s]; None before the start.
     #[inline(always)]
     pub fn time(&self) -> Option<f64> {
         match self.run.as_ref()? {
@@ -247,7 +247,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
-    /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was [s].
+    /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was \[s].
     pub fn growth(&self) -> Option<(f64, f64)> {
         match self.run.as_ref()? {
             Run::Method(integration) => integration.growth(),
@@ -391,7 +391,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         Nominals::of(&parameters.effects, &start, t).each()
     }
 
-    /// Below which place [m], velocity [m/s], angular momentum [kg·m²/s] and tilt [rad] errors are not compared with a smaller
+    /// Below which place \[m], velocity [m/s], angular momentum [kg·m²/s] and tilt \[rad] errors are not compared with a smaller
     /// motion.
     pub fn least_sizes(&self) -> [f64; 4] {
         let nominals = self.nominals();
@@ -423,7 +423,7 @@ pub struct Hosted<'s, E, const N: usize> {
 }
 
 impl<E: Effects, const N: usize> Hosted<'_, E, N> {
-    /// The host's time [s].
+    /// The host's time \[s].
     pub fn set_time(&mut self, t: f64) {
         self.exchange.set_time(t);
     }

@@ -24,7 +24,7 @@ pub struct Flow<'r, E, const N: usize> {
     tilt: Tilt<f64>,
     /// Whole turns of φ from e since the step began, besides φ in the chart.
     turns: f64,
-    /// Work supplied and lost [J], and whether it is solved.
+    /// Work supplied and lost \[J], and whether it is solved.
     work: [f64; 2],
     works: bool,
     /// The state where the step began; its own states are those that the motion has reached.
@@ -40,7 +40,7 @@ pub struct Flow<'r, E, const N: usize> {
     refusal: Option<Refusal>,
 }
 
-/// A step in which the axis goes further about K than this [rad] spreads its kicks: the nutation is not resolved. Measured
+/// A step in which the axis goes further about K than this \[rad] spreads its kicks: the nutation is not resolved. Measured
 /// from 0.03 to 32 times around, worst of 20 step sizes: below this angle both ways are as good, beyond it kicks that
 /// are not spread are up to 10⁴ times worse.
 const RESOLVED: f64 = PI;
@@ -87,7 +87,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
 }
 
 impl<E: Effects, const N: usize> Flow<'_, E, N> {
-    /// Turns the axis by the Euler vector ρ [rad].
+    /// Turns the axis by the Euler vector ρ \[rad].
     #[inline(always)]
     fn turn(&mut self, rho: Vector3<f64>) {
         self.take(self.tilt.turned(&Turn::about(rho)));
@@ -102,7 +102,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         self.tilt = Tilt::new(self.rotor.frame.chart, turned.gamma);
     }
 
-    /// Whether the axis may come near −e within a drift of `h` [s], where a law has no limit.
+    /// Whether the axis may come near −e within a drift of `h` \[s], where a law has no limit.
     fn may_pass_the_limit(&self, h: f64) -> bool {
         let (body, k, theta) = (self.rotor.inertia(), self.at.k, self.tilt.gamma_in_chart().norm());
         let to_antipode = if self.rotor.frame.chart == Chart::FromE { PI - theta } else { theta };
@@ -118,14 +118,14 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         way.is_finite() && way > to_antipode - FORBIDDEN
     }
 
-    /// The motion at time `t` [s], with these speeds where it is.
+    /// The motion at time `t` \[s], with these speeds where it is.
     #[inline(always)]
     fn motion(&self, t: f64, v: Vector3<f64>, k: Vector3<f64>) -> Kinematics<f64> {
         let at = Coordinates { v, k, ..self.at };
         Kinematics::tilted(self.rotor.inertia(), self.tilt, at).when(t, self.rotor.frame.turns)
     }
 
-    /// Follows the speeds for a time `h` [s], the place and the time `t` [s] standing still.
+    /// Follows the speeds for a time `h` \[s], the place and the time `t` \[s] standing still.
     #[inline(always)]
     fn push(&mut self, t: f64, h: f64) {
         let effects = &self.rotor.effects;

@@ -9,15 +9,15 @@ use nalgebra::{Vector2, Vector3};
 /// The coordinates of the motion, or their rates (units per second). Vectors in the inertial frame O.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Coordinates<S: Scalar> {
-    /// Position of the mass centre G of the whole [m]: of c, where nothing is unbalanced.
+    /// Position of the mass centre G of the whole \[m]: of c, where nothing is unbalanced.
     pub r: Vector3<S>,
     /// Velocity of G [m/s].
     pub v: Vector3<S>,
     /// Angular momentum about G [kg·m²/s].
     pub k: Vector3<S>,
-    /// γ_y and γ_z [rad] in the chart in force.
+    /// γ_y and γ_z \[rad] in the chart in force.
     pub gamma: Vector2<S>,
-    /// φ [rad] in the chart in force, less the whole turns that are counted apart.
+    /// φ \[rad] in the chart in force, less the whole turns that are counted apart.
     pub phi: S,
 }
 
@@ -28,10 +28,10 @@ pub const COORDINATES: usize = 12;
 /// last. N is [`WITH_WORK`] and the own states; a state of [`COORDINATES`] only has neither.
 pub const WITH_WORK: usize = COORDINATES + 2;
 
-/// Where the work supplied [J] stands behind the own states.
+/// Where the work supplied \[J] stands behind the own states.
 pub const SUPPLIED: usize = COORDINATES;
 
-/// Where the work lost [J] stands behind the own states.
+/// Where the work lost \[J] stands behind the own states.
 pub const DISSIPATED: usize = COORDINATES + 1;
 
 /// The coordinates and the work, or their rates.
@@ -43,7 +43,7 @@ pub const fn own(n: usize) -> usize {
     n.saturating_sub(WITH_WORK)
 }
 
-/// The work supplied and lost [J] of a state.
+/// The work supplied and lost \[J] of a state.
 #[inline(always)]
 pub fn work<S: Scalar, const N: usize>(y: &[S; N]) -> [S; 2] {
     if N < WITH_WORK { [S::zero(); 2] } else { [y[N - 2], y[N - 1]] }
@@ -104,7 +104,7 @@ impl<S: Scalar> Coordinates<S> {
 pub struct Rates<'m, S: Scalar> {
     /// Of the coordinates.
     pub coordinates: Coordinates<S>,
-    /// Of the work supplied and lost [W].
+    /// Of the work supplied and lost \[W].
     pub work: [S; 2],
     /// Of the effect's own states.
     pub own: &'m [S],
@@ -125,7 +125,7 @@ impl<S: Scalar> Rates<'_, S> {
 pub struct Kinematics<S: Scalar> {
     /// The body that moves.
     pub body: Inertia,
-    /// Time [s].
+    /// Time \[s].
     pub t: S,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
@@ -139,7 +139,7 @@ pub struct Kinematics<S: Scalar> {
     pub spin: S,
     /// Angular velocity ω [rad/s].
     pub omega: Vector3<S>,
-    /// From c to the mass centre G of the whole [m]; None of a body of which both are one.
+    /// From c to the mass centre G of the whole \[m]; None of a body of which both are one.
     pub to_centre: Option<Vector3<S>>,
     /// λ [N·m·s], where ω_φ is imposed: the angular momentum about G is K + λ n.
     pub impulse: Option<S>,
@@ -167,7 +167,7 @@ impl<S: Scalar> Kinematics<S> {
         Self { body, t: S::zero(), turns: 0.0, at, tilt, swing, spin, omega, to_centre, impulse: None }
     }
 
-    /// The same at time `t` [s], with whole turns counted apart.
+    /// The same at time `t` \[s], with whole turns counted apart.
     #[inline(always)]
     pub fn when(self, t: S, turns: f64) -> Self {
         Self { t, turns, ..self }
@@ -238,12 +238,12 @@ impl<S: Scalar> Kinematics<S> {
         self.tilt.chart().axial_angle(self.turns, self.at.phi.re(), gamma)
     }
 
-    /// φ from e [rad].
+    /// φ from e \[rad].
     pub fn phi(&self) -> S {
         self.tilt.chart().phi_from_e(self.at.phi, self.at.gamma).with_value(self.angle().radians())
     }
 
-    /// The axis t [1].
+    /// The axis t \[1].
     #[inline(always)]
     pub fn axis(&self) -> &Vector3<S> {
         &self.tilt.axis
@@ -289,7 +289,7 @@ impl<S: Scalar> Kinematics<S> {
         rate
     }
 
-    /// Position of c, the point on the axis that is the mass centre of the balanced rotor [m].
+    /// Position of c, the point on the axis that is the mass centre of the balanced rotor \[m].
     #[inline(always)]
     pub fn r_c(&self) -> Vector3<S> {
         // eq. 71: r_G = r_c + L b
@@ -303,19 +303,19 @@ impl<S: Scalar> Kinematics<S> {
         self.to_centre.map_or(self.at.v, |to_centre| self.at.v - self.omega.cross(&to_centre))
     }
 
-    /// From c to the station at `p` [m] along t, in O [m].
+    /// From c to the station at `p` \[m] along t, in O \[m].
     #[inline(always)]
     pub fn lever(&self, p: f64) -> Vector3<S> {
         self.axis() * S::constant(p)
     }
 
-    /// Position of the station at `p` [m] along t from c, in O [m].
+    /// Position of the station at `p` \[m] along t from c, in O \[m].
     #[inline(always)]
     pub fn station(&self, p: f64) -> Vector3<S> {
         self.r_c() + self.lever(p)
     }
 
-    /// Velocity of the station at `p` [m] along t from c, in O [m/s].
+    /// Velocity of the station at `p` \[m] along t from c, in O [m/s].
     #[inline(always)]
     pub fn station_velocity(&self, p: f64) -> Vector3<S> {
         self.v_c() + self.axis_rate() * S::constant(p)

@@ -115,7 +115,7 @@ impl<P, O: Shown> Access<P, O> {
         matches!(self, Access::Output(_) | Access::Rate(_))
     }
 
-    /// The value of a variable at an instant, an input's at time `t` [s]; None of a calculated one where nothing is shown, or not
+    /// The value of a variable at an instant, an input's at time `t` \[s]; None of a calculated one where nothing is shown, or not
     /// the rates that it asks for.
     #[inline(always)]
     pub fn value<'m>(

@@ -37,13 +37,13 @@ pub struct Setup {
 /// The motion at the start, in O.
 #[derive(Clone, Debug, Default)]
 pub struct Start {
-    /// Position of the mass centre [m].
+    /// Position of the mass centre \[m].
     pub r_c: Vector3<f64>,
     /// Velocity of the mass centre [m/s].
     pub v_c: Vector3<f64>,
-    /// Axial angle φ [rad].
+    /// Axial angle φ \[rad].
     pub phi: f64,
-    /// Transverse Euler vector γ, y and z [rad].
+    /// Transverse Euler vector γ, y and z \[rad].
     pub gamma: Vector2<f64>,
     /// Angular velocity ω [rad/s].
     pub omega: Vector3<f64>,
@@ -73,7 +73,7 @@ impl<S: Scalar> Reading<S> {
         self.motion.momentum()
     }
 
-    /// γ_y and γ_z from e [rad], where rounding gives |γ| > π: π.
+    /// γ_y and γ_z from e \[rad], where rounding gives |γ| > π: π.
     fn gamma(&self) -> Vector2<S> {
         let gamma = self.motion.tilt.gamma();
         let is_crossed = self.motion.tilt.chart() == Chart::FromMinusE;
@@ -111,7 +111,7 @@ pub struct Instant<const N: usize, S: Scalar = f64> {
 }
 
 impl<const N: usize, S: Scalar> Instant<N, S> {
-    /// What a motion with this state shows, and the total energy at the start [J].
+    /// What a motion with this state shows, and the total energy at the start \[J].
     pub fn new<E: Effects>(motion: Kinematics<S>, state: [S; N], effects: &E, total_at_start: f64, cost: Cost) -> Self {
         let ledger = Ledger::new(&motion, &state[..own(N)], effects, work(&state), total_at_start);
         Self { reading: Reading { motion, ledger, cost }, state }
@@ -129,7 +129,7 @@ impl<const N: usize, S: Scalar> Instant<N, S> {
 }
 
 impl<const N: usize> Instant<N> {
-    /// The same with the derivatives of a state that moves in the direction `seeds` and of time that moves by `time` [s],
+    /// The same with the derivatives of a state that moves in the direction `seeds` and of time that moves by `time` \[s],
     /// under these effects.
     pub fn moving<S: Scalar, E: Effects>(&self, seeds: &[f64; N], time: f64, effects: &E) -> Instant<N, S> {
         let state: [S; N] = std::array::from_fn(|n| S::moving(self.state[n], seeds[n]));
@@ -354,7 +354,7 @@ pub fn state_number(place: Place) -> Option<usize> {
     (place.block == STATES && place.row < WITH_WORK).then_some(place.row)
 }
 
-/// So many whole turns are counted without a gap: 2⁵³ of them [rad].
+/// So many whole turns are counted without a gap: 2⁵³ of them \[rad].
 pub(crate) const LARGEST_PHI: f64 = TAU * (1_u64 << 53) as f64;
 
 impl Setup {
@@ -410,7 +410,7 @@ impl<E: Effects> Parameters<E> {
         always(place, E::FACTS.could_work).map_or_else(|| E::meta(place), |row| Some(&row.meta))
     }
 
-    /// The value of a variable, an input's at time `t` [s]; None where there is none at this place, or where it is
+    /// The value of a variable, an input's at time `t` \[s]; None where there is none at this place, or where it is
     /// calculated and there is no reading.
     #[inline(always)]
     pub fn value<const N: usize>(&self, place: Place, t: f64, instant: Option<&Instant<N>>) -> Option<f64> {

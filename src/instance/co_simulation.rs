@@ -11,7 +11,7 @@ const TIME_TOLERANCE: f64 = 1e-9;
 const TIME_ULPS: f64 = 4.0;
 
 impl Instance {
-    /// Moves the communication point from `from` by `step` [s].
+    /// Moves the communication point from `from` by `step` \[s].
     pub fn do_step(&mut self, from: f64, step: f64) -> Reply {
         let to = self.end_of_step(from, step)?;
         self.warn_of_zeros();
@@ -59,7 +59,7 @@ impl Instance {
         Ok(to)
     }
 
-    /// The communication point [s].
+    /// The communication point \[s].
     pub fn now(&self) -> f64 {
         self.memory.simulation.time().unwrap_or(self.memory.experiment.start)
     }

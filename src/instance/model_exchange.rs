@@ -48,7 +48,7 @@ impl Instance {
         Ok(wants_event)
     }
 
-    /// Sets the time [s].
+    /// Sets the time \[s].
     pub fn set_time(&mut self, t: f64) -> Reply {
         if !t.is_finite() {
             return Err(Failure::Error(format!("time = {t:?} must be a finite number of seconds")));

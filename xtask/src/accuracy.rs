@@ -42,7 +42,7 @@ struct Accuracy {
 /// Communication steps between two that are read, where the cost of short ones is measured.
 const SUBSTEPS: usize = 100;
 
-/// Packages the scene, measures it, and writes target/accuracy/<scene>/; which peers were left out, and why.
+/// Packages the scene, measures it, and writes target/accuracy/SCENE/; which peers were left out, and why.
 pub fn accuracy(scene: &str, with_peers: bool) -> Result<Vec<String>> {
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let scene = scenes::find(scene)?;

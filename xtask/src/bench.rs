@@ -82,7 +82,7 @@ fn target(at_most: Option<f64>, measured: f64) -> String {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn exact_a_table_that_is_not_there_is_an_error() {
+    fn a_table_that_is_not_there_is_an_error() {
         let refused = super::bench("nosuchtable", None).expect_err("nothing to measure").to_string();
         let names = "calls, scenes, effects, general, off, counts, times";
         assert_eq!(refused, format!("no table's name holds \"nosuchtable\": there are {names}"));

@@ -75,6 +75,6 @@ pub fn example_is_right() -> Result<()> {
         let (command, rest) = arguments.split_first().context("a command")?;
         run(cargo().current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest))
     };
-    within(&["test", "--package", "split-rotor-model", "--test", "exact_power"])?;
+    within(&["test", "--package", "split-rotor-model", "--test", "all", "power::"])?;
     within(&["run", "--package", "xtask", "--", "package", "tethered"])
 }

@@ -199,7 +199,7 @@ impl Instance<'_> {
         })
     }
 
-    /// Leads it through initialization, for a run between these times [s].
+    /// Leads it through initialization, for a run between these times \[s].
     pub fn initialize(&mut self, start: f64, stop: f64) -> Result<()> {
         // SAFETY: a live instance, here and below.
         self.done("fmi2SetupExperiment", |component| unsafe {
@@ -211,7 +211,7 @@ impl Instance<'_> {
         self.done("fmi2ExitInitializationMode", |component| unsafe { (self.fmu.exit_initialization)(component) })
     }
 
-    /// A communication step from time `from` of length `step` [s], never to be taken back.
+    /// A communication step from time `from` of length `step` \[s], never to be taken back.
     pub fn do_step(&mut self, from: f64, step: f64) -> Result<()> {
         // SAFETY: a live instance.
         self.done("fmi2DoStep", |component| unsafe { (self.fmu.do_step)(component, from, step, TRUE) })
@@ -238,7 +238,7 @@ impl Instance<'_> {
         all.iter().filter(|(status, _)| *status == OK).map(|(_, message)| message.clone()).collect()
     }
 
-    /// The time that the last step reached [s].
+    /// The time that the last step reached \[s].
     pub fn last_successful_time(&self) -> Result<f64> {
         let mut t = 0.0;
         // SAFETY: a live instance; a place for one value.

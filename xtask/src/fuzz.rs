@@ -21,7 +21,7 @@ const FEWER: &str = "SPLIT_ROTOR_SEQUENCES";
 /// The longest sequence, in bytes; a call takes some five.
 const LONGEST: u32 = 200;
 
-/// A sequence that takes longer [s] hangs; it takes a few milliseconds.
+/// A sequence that takes longer \[s] hangs; it takes a few milliseconds.
 const PATIENCE: u32 = 120;
 
 /// Runs them; the same seed makes the same sequences.

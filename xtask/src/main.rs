@@ -11,9 +11,6 @@ mod fuzz;
 mod hard_cases;
 mod licences;
 mod memcheck;
-/// Exact answers, shared with the tests of the model.
-#[path = "../../model/tests/oracles/mod.rs"]
-mod oracles;
 mod package;
 mod page;
 mod paths;
@@ -59,7 +56,7 @@ enum Command {
         #[arg(long)]
         long: bool,
     },
-    /// Package scenes as target/fmu/<scene>.fmu
+    /// Package scenes as target/fmu/SCENE.fmu
     Package {
         /// The scenes
         #[arg(default_value = "paper")]
@@ -68,7 +65,7 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Measure error against time for every method: table, SVG, CSV and JSON in target/accuracy/<scene>
+    /// Measure error against time for every method: table, SVG, CSV and JSON in target/accuracy/SCENE
     Accuracy {
         /// The scene
         #[arg(default_value = "paper")]

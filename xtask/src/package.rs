@@ -145,7 +145,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn exact_a_package_that_fails_leaves_what_was_there() {
+    fn a_package_that_fails_leaves_what_was_there() {
         let folder = paths::target().join("tests/package");
         fs::create_dir_all(&folder).unwrap();
         let fmu = folder.join("paper.fmu");

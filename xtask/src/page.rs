@@ -68,7 +68,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn exact_each_text_has_its_effect() {
+    fn each_text_has_its_effect() {
         let texts = std::fs::read_dir(paths::root().join("modelDescription/documentation/effects")).unwrap();
         let texts: BTreeSet<_> = texts.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         let effects: BTreeSet<_> = CATALOGUE.iter().map(|info| format!("{}.html", info.name)).collect();
@@ -78,7 +78,7 @@ mod tests {
 
     /// Of each law: what only a page with `asymmetry`, with `unbalance` and with neither says.
     #[test]
-    fn exact_laws_are_those_of_the_scene() {
+    fn laws_are_those_of_the_scene() {
         let (even, of_c) = ("<i>φ</i>, on which nothing depends,", "½ <i>m</i> |<b>v</b><sub>c</sub>|²");
         let (asymmetric, of_g) = ("<i>φ</i>, which the motion follows", "½ <i>M</i> |<b>v</b><sub>G</sub>|²");
         let (on_c, on_g) = ("<b>g</b><sub>0</sub>·<b>r</b><sub>c</sub>", "<b>g</b><sub>0</sub>·<b>r</b><sub>G</sub>");

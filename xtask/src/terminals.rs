@@ -40,7 +40,7 @@ mod tests {
     use split_rotor_model::effects::CATALOGUE;
 
     #[test]
-    fn exact_a_terminal_has_all_of_its_effect_but_parameters() {
+    fn a_terminal_has_all_of_its_effect_but_parameters() {
         let scene = scenes::find("paper").unwrap();
         let (info, index) = scene.effects.iter().find(|(info, _)| info.name == "support").unwrap();
         let variables: Vec<_> = scenes::variables_of(&scene, info, *index).collect();
@@ -55,7 +55,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_flows_are_members() {
+    fn flows_are_members() {
         for info in CATALOGUE {
             for flow in info.terminal.map_or(&[] as &[_], |terminal| terminal.flows) {
                 let is_member = |role| !matches!(role, Role::Parameter { .. });

@@ -11,8 +11,9 @@ use std::time::Instant;
 type Job = (&'static str, fn() -> Result<()>);
 
 /// What always runs, the quickest first.
-const SHORT: [Job; 5] = [
+const SHORT: [Job; 6] = [
     ("Rust's tests", rust_tests),
+    ("documentation of the code", documentation),
     ("call rules of a driven scene", driven_tests),
     ("bits of other builds", other_builds),
     ("packaged FMUs", packaged_fmus),
@@ -57,6 +58,11 @@ pub fn test(part: &str, long: bool) -> Result<()> {
 
 fn rust_tests() -> Result<()> {
     run(cargo().args(["test", "--quiet", "--workspace"]))
+}
+
+/// The comments of the code as pages, without a warning.
+fn documentation() -> Result<()> {
+    run(cargo().args(["doc", "--quiet", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
 /// The call rules once more with a scene that has an input.
@@ -111,9 +117,8 @@ fn clients() -> Result<()> {
 
 /// The Rust tests of the model that take long.
 fn long_runs() -> Result<()> {
-    run(cargo().args(["test", "--quiet", "-p", "split-rotor-model", "--test", "named", "--", "--ignored"]))?;
-    // Not quiet: it prints the seed of the day.
-    run(cargo().args(["test", "-p", "split-rotor-model", "--test", "random_scenes", "--", "--ignored", "--nocapture"]))
+    // It prints the seed of the day.
+    run(cargo().args(["test", "-p", "split-rotor-model", "--test", "all", "--", "--ignored", "--nocapture"]))
 }
 
 /// What a user would pick instead of us still runs, all of it.
@@ -132,7 +137,7 @@ fn pytest(arguments: &[&str]) -> Result<()> {
 #[cfg(test)]
 mod tests {
     #[test]
-    fn exact_a_job_that_is_not_there_is_an_error() {
+    fn a_job_that_is_not_there_is_an_error() {
         for part in ["nosuchjob", "absence is free"] {
             let refused = super::test(part, false).expect_err("nothing to run").to_string();
             assert!(

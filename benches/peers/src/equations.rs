@@ -1,6 +1,6 @@
 //! The rotor as dy/dt = f(y), y = (r_c, v_c, K_c, t, φ): the equations of `xtask/python/peers/equations.py`, for numbers.
 
-/// r_c [m], v_c [m/s], K_c [kg·m²/s], t [1], φ [rad].
+/// r_c \[m], v_c [m/s], K_c [kg·m²/s], t \[1], φ \[rad].
 pub type State = [f64; 13];
 
 /// The scene: parameters in SI units, zero where the scene lacks the effect.
@@ -69,7 +69,7 @@ impl Rotor {
         y
     }
 
-    /// Kinetic and potential energy [J].
+    /// Kinetic and potential energy \[J].
     pub fn energy(&self, y: &State) -> f64 {
         let [r_c, v_c, k, t] = vectors(y);
         let r_a: [f64; 3] = std::array::from_fn(|i| r_c[i] - self.l * t[i]);

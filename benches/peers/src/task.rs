@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 pub struct Task {
     pub rotor: Rotor,
     pub start: State,
-    /// The start, then the points at which the motion is read [s]: irregular.
+    /// The start, then the points at which the motion is read \[s]: irregular.
     pub times: Vec<f64>,
     tolerances: Vec<f64>,
     repeats: Value,

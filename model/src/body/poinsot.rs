@@ -14,9 +14,9 @@ use nalgebra::Vector3;
 pub struct Poinsot {
     /// The places of a, b, c among the principal axes.
     places: [usize; 3],
-    /// K/|K| at the start, along a, b, c [1].
+    /// K/|K| at the start, along a, b, c \[1].
     start: [f64; 3],
-    /// The amplitudes of its parts along them [1].
+    /// The amplitudes of its parts along them \[1].
     amplitudes: [f64; 3],
     /// sn, cn ≥ 0 and dn at the start.
     phase: [f64; 3],
@@ -25,7 +25,7 @@ pub struct Poinsot {
     rate: f64,
     /// Whether c is the axis whose azimuth is reckoned, and not a.
     about_c: bool,
-    /// How fast the azimuth grows evenly [rad/s], and by how much of the integral besides [rad].
+    /// How fast the azimuth grows evenly [rad/s], and by how much of the integral besides \[rad].
     mean: f64,
     rest: f64,
     /// ν of the integral.
@@ -34,7 +34,7 @@ pub struct Poinsot {
     bound: f64,
 }
 
-/// K that is not farther from an axis of inertia stays there [1], squared: nothing that turns by so little is seen.
+/// K that is not farther from an axis of inertia stays there \[1], squared: nothing that turns by so little is seen.
 const NEAR: f64 = 1e-290;
 
 impl Poinsot {
@@ -99,7 +99,7 @@ impl Poinsot {
         self.bound
     }
 
-    /// How the body has turned after a time `h` [s], backwards where it is negative; in principal axes at the start.
+    /// How the body has turned after a time `h` \[s], backwards where it is negative; in principal axes at the start.
     pub fn turn(&self, h: f64) -> Turn {
         let half = 2.0 * self.elliptic.quarter_period();
         let argument = self.rate * h;
@@ -126,7 +126,7 @@ impl Poinsot {
         self.seen_from_body(self.mean * h + self.rest * third, &end)
     }
 
-    /// The turn that takes K in the body from the start to `end` and the axis by an azimuth [rad] about K.
+    /// The turn that takes K in the body from the start to `end` and the axis by an azimuth \[rad] about K.
     fn seen_from_body(&self, azimuth: f64, end: &[f64; 3]) -> Turn {
         let figure = if self.about_c { 2 } else { 0 };
         let (i, j) = ((self.places[figure] + 1) % 3, (self.places[figure] + 2) % 3);

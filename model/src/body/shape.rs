@@ -14,7 +14,7 @@ pub struct Shape {
     pub rotor: Body,
     /// Its moment of inertia about z, where it is not Jt as well [kg·m²].
     pub Jt2: Option<f64>,
-    /// Σ m_i of what is added [kg].
+    /// Σ m_i of what is added \[kg].
     mass: f64,
     /// Σ m_i s_i from c [kg·m].
     moment: Vector3<f64>,
@@ -25,9 +25,9 @@ pub struct Shape {
 /// What is asymmetric of a body: its mass centre is not on its axis, or it is not symmetric about it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Asymmetric {
-    /// From c to the mass centre G of the whole, in body axes [m].
+    /// From c to the mass centre G of the whole, in body axes \[m].
     pub centre: Vector3<f64>,
-    /// Its first two principal axes, in body axes [1].
+    /// Its first two principal axes, in body axes \[1].
     pub axes: [Vector3<f64>; 2],
     /// 1/J about the second less that about the third [1/(kg·m²)].
     pub excess: f64,
@@ -36,14 +36,14 @@ pub struct Asymmetric {
 stored!(Asymmetric { centre, axes, excess });
 
 impl Asymmetric {
-    /// Its principal axes, as columns, the third making them right-handed [1].
+    /// Its principal axes, as columns, the third making them right-handed \[1].
     pub fn principal(&self) -> Matrix3<f64> {
         let [first, second] = self.axes;
         Matrix3::from_columns(&[first, second, first.cross(&second)])
     }
 }
 
-/// A moment of inertia beyond its bound by no more than this is that of a thin disk [1].
+/// A moment of inertia beyond its bound by no more than this is that of a thin disk \[1].
 const ROUNDING: f64 = 1e-12;
 
 impl Shape {
@@ -52,7 +52,7 @@ impl Shape {
         Self { rotor, Jt2: None, mass: 0.0, moment: Vector3::zeros(), inertia: Matrix3::zeros() }
     }
 
-    /// Adds a point mass [kg] at `place` from c, in body axes [m].
+    /// Adds a point mass \[kg] at `place` from c, in body axes \[m].
     pub fn add(&mut self, mass: f64, place: &Vector3<f64>) {
         self.mass += mass;
         self.moment += place * mass;
@@ -82,7 +82,7 @@ impl Shape {
         Err(Invalid::new("asymmetry.Jt2", Jt2, bound))
     }
 
-    /// From c to the mass centre G of the whole, in body axes [m].
+    /// From c to the mass centre G of the whole, in body axes \[m].
     pub fn centre(&self) -> Vector3<f64> {
         self.moment / (self.rotor.m + self.mass)
     }

@@ -12,11 +12,11 @@ pub struct Act<S: Scalar> {
     /// Of what damps [N, N·m]: asked for only where some effect [works](super::Effect::works), so that undamped motions do not pay
     /// for it.
     pub damping: Wrench<S>,
-    /// Potential energy [J].
+    /// Potential energy \[J].
     pub stored: S,
-    /// Power that comes from outside [W].
+    /// Power that comes from outside \[W].
     pub supply: S,
-    /// Power that leaves the mechanics [W], ≥ 0.
+    /// Power that leaves the mechanics \[W], ≥ 0.
     pub loss: S,
     /// Rates of its own states; those beyond [`super::Effect::OWN`] do not count.
     pub own: [S; MOST_OWN],

@@ -12,7 +12,7 @@ use nalgebra::Vector3;
 /// A bearing on the stator line, the x axis.
 #[derive(Clone, Debug, Default)]
 pub struct Bearing {
-    /// Where it is, along t from c [m].
+    /// Where it is, along t from c \[m].
     pub position: f64,
     /// Stiffness K [N/m]; a seal or a magnet may have a negative one.
     pub kyy: f64,
@@ -38,11 +38,11 @@ pub struct Bearing {
     pub kt: f64,
     /// Damping of the tilt [N·m·s/rad].
     pub ct: f64,
-    /// x of its station at the start, from where the axial spring is measured [m].
+    /// x of its station at the start, from where the axial spring is measured \[m].
     x_at_start: f64,
 }
 
-/// A symmetric damping that is within this of its bound [1] is rounded.
+/// A symmetric damping that is within this of its bound \[1] is rounded.
 const ROUNDING: f64 = 1e-12;
 
 /// Rows of a matrix that acts on (y, z).
@@ -62,7 +62,7 @@ impl Bearing {
         0.5 * (self.kyz - self.kzy)
     }
 
-    /// (x, q) of its station, x from its place at the start [m].
+    /// (x, q) of its station, x from its place at the start \[m].
     #[inline(always)]
     fn displacement<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         motion.station(self.position) - Vector3::x() * S::constant(self.x_at_start)
@@ -73,21 +73,21 @@ impl Bearing {
         motion.station_velocity(self.position)
     }
 
-    /// Force of the springs on the rotor [N].
+    /// Force of the springs on the rotor \[N].
     #[inline(always)]
     fn spring<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         // eq. 61: F = −(kxx x, K q)
         -times(self.kxx, self.stiffness(), self.displacement(motion))
     }
 
-    /// Force of the dampers on the rotor [N].
+    /// Force of the dampers on the rotor \[N].
     #[inline(always)]
     fn damper<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         // eq. 61: F = −(cxx dx/dt, C dq/dt)
         -times(self.cxx, self.damping(), self.velocity(motion))
     }
 
-    /// Force on the rotor at the station [N].
+    /// Force on the rotor at the station \[N].
     fn force<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         self.spring(motion) + self.damper(motion)
     }

@@ -10,7 +10,7 @@ use crate::variable::{Access, Bound, Kind, Meta, Role, parameter};
 pub struct Extrapolation {
     /// Degree of the polynomials: 0, 1 or 2.
     pub order: i32,
-    /// How many communication steps the values are late [1].
+    /// How many communication steps the values are late \[1].
     pub lag: f64,
     /// How many communication points are known; those points, the latest first; the values of each input there.
     memory: [f64; 1 + POINTS + MOST * NODES],
@@ -43,7 +43,7 @@ impl Extrapolation {
         &self.memory[1..=POINTS]
     }
 
-    /// The communication point so many steps back [s], interpolated between two; the first one from there on.
+    /// The communication point so many steps back \[s], interpolated between two; the first one from there on.
     fn point(&self, back: f64) -> f64 {
         let back = back.min((self.known() - 1) as f64);
         let n = back as usize;

@@ -31,7 +31,7 @@ mod at {
     /// The value of w that was set last [rad/s], and whether it differed from the one before.
     pub const TOLD: usize = 2;
     pub const DIFFERED: usize = 3;
-    /// The last two communication points, the later first [s].
+    /// The last two communication points, the later first \[s].
     pub const T: usize = 4;
     /// λ at the last one, before w jumps there [N·m·s], and ω_φ [rad/s].
     pub const IMPULSE: usize = 6;
@@ -58,7 +58,7 @@ impl ImposedSpeed {
         motion.torque(self.told(motion.t)[1], &moment)
     }
 
-    /// ω_φ [rad/s] and its rate [rad/s²] at time `t` [s].
+    /// ω_φ [rad/s] and its rate [rad/s²] at time `t` \[s].
     #[inline(always)]
     fn told<S: Scalar>(&self, t: S) -> [S; 2] {
         // A host that integrates goes back in time, so that what was set last is not what was set latest.
@@ -72,7 +72,7 @@ impl ImposedSpeed {
         }
     }
 
-    /// The mean torque over the step of `h` [s] that ended here [N·m].
+    /// The mean torque over the step of `h` \[s] that ended here [N·m].
     fn mean(&self, end: &Kinematics<f64>, impulse: f64, h: f64) -> f64 {
         let memory = &self.memory;
         // eq. 77: τ = (∫τ dt + Σ impulses)/H, since dλ/dt = τ, and λ jumps by an impulse

@@ -59,7 +59,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// The rates of their own states.
     fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]);
 
-    /// The ω_φ that one of them imposes at time `t` [s] [rad/s], and the rate of that [rad/s²].
+    /// The ω_φ that one of them imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²].
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
 
     /// The effect of this number, counted from 0.
@@ -164,7 +164,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         });
     }
 
-    /// Hear that a communication step begins at time `t` [s].
+    /// Hear that a communication step begins at time `t` \[s].
     fn step_from(&mut self, t: f64) {
         self.for_each(|block| {
             if block.is_active() {

@@ -31,25 +31,25 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.own[n]
     }
 
-    /// Time [s].
+    /// Time \[s].
     #[inline(always)]
     pub fn t(&self) -> S {
         self.kinematics.t
     }
 
-    /// Mass of the whole [kg].
+    /// Mass of the whole \[kg].
     #[inline(always)]
     pub fn mass(&self) -> f64 {
         self.kinematics.body.m
     }
 
-    /// Distance from the support point a to c, along t [m].
+    /// Distance from the support point a to c, along t \[m].
     #[inline(always)]
     pub fn l(&self) -> f64 {
         self.kinematics.body.l
     }
 
-    /// The axis t [1].
+    /// The axis t \[1].
     #[inline(always)]
     pub fn axis(&self) -> &'m Vector3<S> {
         self.kinematics.axis()
@@ -61,13 +61,13 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.kinematics.axis_rate()
     }
 
-    /// How far the axis leans: the Euler vector that turns e to t the shortest way, f e×t with f = θ/sinθ, y and z [rad].
+    /// How far the axis leans: the Euler vector that turns e to t the shortest way, f e×t with f = θ/sinθ, y and z \[rad].
     #[inline(always)]
     pub fn lean(&self) -> Vector2<S> {
         self.kinematics.tilt.gamma()
     }
 
-    /// n = (e + t)/(1 + e·t), along which a constant-velocity joint passes a torque on [1].
+    /// n = (e + t)/(1 + e·t), along which a constant-velocity joint passes a torque on \[1].
     #[inline(always)]
     pub fn joint_axis(&self) -> Vector3<S> {
         self.kinematics.tilt.joint_axis()
@@ -91,7 +91,7 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.kinematics.axial_rate()
     }
 
-    /// φ [rad]; a law that asks for it declares that it [follows φ](super::Effect::FOLLOWS_PHI).
+    /// φ \[rad]; a law that asks for it declares that it [follows φ](super::Effect::FOLLOWS_PHI).
     pub fn phi(&self) -> S {
         self.kinematics.phi()
     }
@@ -106,37 +106,37 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.kinematics.axial_acceleration(&rates.coordinates)
     }
 
-    /// From c to the mass centre of the whole [m]; None where both are one.
+    /// From c to the mass centre of the whole \[m]; None where both are one.
     #[inline(always)]
     pub fn to_centre(&self) -> Option<Vector3<S>> {
         self.kinematics.to_centre
     }
 
-    /// Position of the mass centre of the whole [m].
+    /// Position of the mass centre of the whole \[m].
     #[inline(always)]
     pub fn centre(&self) -> &'m Vector3<S> {
         &self.kinematics.at.r
     }
 
-    /// Position of c [m].
+    /// Position of c \[m].
     #[inline(always)]
     pub fn r_c(&self) -> Vector3<S> {
         self.kinematics.r_c()
     }
 
-    /// From c to the station at `p` [m] along t [m].
+    /// From c to the station at `p` \[m] along t \[m].
     #[inline(always)]
     pub fn lever(&self, p: f64) -> Vector3<S> {
         self.kinematics.lever(p)
     }
 
-    /// Position of the station at `p` [m] along t from c, relative to the stator [m].
+    /// Position of the station at `p` \[m] along t from c, relative to the stator \[m].
     #[inline(always)]
     pub fn station(&self, p: f64) -> Vector3<S> {
         self.kinematics.station(p)
     }
 
-    /// Velocity of the station at `p` [m] along t from c, relative to the stator [m/s].
+    /// Velocity of the station at `p` \[m] along t from c, relative to the stator [m/s].
     #[inline(always)]
     pub fn station_velocity(&self, p: f64) -> Vector3<S> {
         self.kinematics.station_velocity(p)

@@ -13,9 +13,9 @@ pub struct Motor {
     pub stall_torque: f64,
     /// Speed at which it gives no torque [rad/s].
     pub synchronous_speed: f64,
-    /// Of the torque, which follows its characteristic [s]; 0: at once.
+    /// Of the torque, which follows its characteristic \[s]; 0: at once.
     pub time_constant: f64,
-    /// Part of the stall torque [1].
+    /// Part of the stall torque \[1].
     pub command: Signal,
 }
 

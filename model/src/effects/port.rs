@@ -10,16 +10,16 @@ use nalgebra::Vector3;
 /// A station to which another model is coupled.
 #[derive(Clone, Debug, Default)]
 pub struct Port {
-    /// Where it is, along t from c [m].
+    /// Where it is, along t from c \[m].
     pub position: f64,
-    /// Force on the rotor in O [N].
+    /// Force on the rotor in O \[N].
     pub f: Vector3<Signal>,
     /// Moment on the rotor in O [N·m].
     pub m: Vector3<Signal>,
 }
 
 impl Port {
-    /// Force [N] and moment [N·m].
+    /// Force \[N] and moment [N·m].
     #[inline(always)]
     fn given<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
         let now = |signal: &Signal| signal.at::<S>(motion.t());

@@ -7,7 +7,7 @@ use crate::variable::{Bound, output, parameter};
 /// A pair of sensors across the x axis.
 #[derive(Clone, Debug, Default)]
 pub struct Probe {
-    /// Where it looks, along t from c [m].
+    /// Where it looks, along t from c \[m].
     pub position: f64,
 }
 

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 pub struct RotatingDamping {
     /// Damping d [N·s/m].
     pub d: f64,
-    /// Where it is, along t from c [m].
+    /// Where it is, along t from c \[m].
     pub position: f64,
 }
 

@@ -23,7 +23,7 @@ pub struct Support {
 }
 
 impl Support {
-    /// Force of the springs at a [N], and their moment against tilt [N·m].
+    /// Force of the springs at a \[N], and their moment against tilt [N·m].
     #[inline(always)]
     fn springs<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
         let to_origin = motion.lever(motion.l()) - motion.r_c();
@@ -31,7 +31,7 @@ impl Support {
         [to_origin * S::constant(self.c1), -across(motion.lean() * S::constant(self.c2))]
     }
 
-    /// Force of the dampers at a [N], and their moment against tilt [N·m].
+    /// Force of the dampers at a \[N], and their moment against tilt [N·m].
     #[inline(always)]
     fn dampers<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
         // eq. 14: F = −d1 v_a, M = −d2 t×(dt/dt)
@@ -41,14 +41,14 @@ impl Support {
         ]
     }
 
-    /// A force at a [N] and a moment [N·m] as a wrench.
+    /// A force at a \[N] and a moment [N·m] as a wrench.
     #[inline(always)]
     fn wrench<S: Scalar>(motion: &Motion<S>, [force, moment]: [Vector3<S>; 2]) -> Wrench<S> {
         // eq. 14: M_c = F×l t + M
         Wrench { force, moment: force.cross(&motion.lever(motion.l())) + moment }
     }
 
-    /// Force on the rotor at a [N].
+    /// Force on the rotor at a \[N].
     fn force<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         self.springs(motion)[0] + self.dampers(motion)[0]
     }

@@ -9,13 +9,13 @@ use nalgebra::Vector3;
 /// A point mass that turns with the rotor. c stays the mass centre of the balanced rotor, a point on its axis.
 #[derive(Clone, Debug, Default)]
 pub struct Unbalance {
-    /// Its mass [kg].
+    /// Its mass \[kg].
     pub mass: f64,
-    /// Its distance from the axis [m].
+    /// Its distance from the axis \[m].
     pub radius: f64,
-    /// Where it stands about the axis, from y towards z where φ = 0 and γ = 0 [rad].
+    /// Where it stands about the axis, from y towards z where φ = 0 and γ = 0 \[rad].
     pub angle: f64,
-    /// Where it stands along t, from c [m].
+    /// Where it stands along t, from c \[m].
     pub position: f64,
 }
 

@@ -9,7 +9,7 @@ use std::ops::Add;
 /// A force on the rotor and its moment about c, in O.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrench<S: Scalar> {
-    /// Force [N].
+    /// Force \[N].
     pub force: Vector3<S>,
     /// Moment about c [N·m].
     pub moment: Vector3<S>,
@@ -24,7 +24,7 @@ impl<S: Scalar> Wrench<S> {
         Self { force: none, moment: none }
     }
 
-    /// A force [N] at the mass centre G of the whole.
+    /// A force \[N] at the mass centre G of the whole.
     #[inline(always)]
     pub fn at_centre(motion: &Motion<S>, force: Vector3<S>) -> Self {
         match motion.to_centre() {
@@ -41,7 +41,7 @@ impl<S: Scalar> Wrench<S> {
         motion.to_centre.map_or(self.moment, |to_centre| self.moment - to_centre.cross(&self.force))
     }
 
-    /// A force [N] at the station at `p` [m] along t from c.
+    /// A force \[N] at the station at `p` \[m] along t from c.
     #[inline(always)]
     pub fn at_station(motion: &Motion<S>, p: f64, force: Vector3<S>) -> Self {
         // eq. 60: M_c = p t×F

@@ -6,7 +6,7 @@ use crate::stored::stored;
 /// spends as much as whoever goes on without a break.
 #[derive(Clone, Copy, Debug)]
 pub struct Answer<const N: usize> {
-    /// [s]; not a number where there was no question yet.
+    /// \[s]; not a number where there was no question yet.
     t: f64,
     y: [f64; N],
 }
@@ -19,12 +19,12 @@ impl<const N: usize> Answer<N> {
         Self { t: f64::NAN, y: [0.0; N] }
     }
 
-    /// The state at a time `t` [s], if that was the last question.
+    /// The state at a time `t` \[s], if that was the last question.
     pub fn at(&self, t: f64) -> Option<[f64; N]> {
         (t == self.t).then_some(self.y)
     }
 
-    /// Keeps the state `y` at a time `t` [s], and returns it.
+    /// Keeps the state `y` at a time `t` \[s], and returns it.
     pub fn keep(&mut self, t: f64, y: [f64; N]) -> [f64; N] {
         *self = Self { t, y };
         y

@@ -17,10 +17,10 @@ use std::ops::Range;
 
 /// A motion that is the sum of two, on its way through a step.
 pub trait Split<const N: usize> {
-    /// Follows the one for a time `h` [s], backwards where it is negative.
+    /// Follows the one for a time `h` \[s], backwards where it is negative.
     fn drift(&mut self, h: f64);
 
-    /// Follows the other for a time `h` [s], backwards where it is negative; meanwhile the time stands at `t` [s].
+    /// Follows the other for a time `h` \[s], backwards where it is negative; meanwhile the time stands at `t` \[s].
     fn kick(&mut self, t: f64, h: f64);
 
     /// The state reached, or why it cannot be, and how often the right-hand side was evaluated on the way.
@@ -34,10 +34,10 @@ pub trait Splitting<const N: usize>: System<N> {
     where
         Self: 's;
 
-    /// Sets out from y on a step of size `h` [s].
+    /// Sets out from y on a step of size `h` \[s].
     fn flow<'s>(&'s self, y: &[f64; N], composition: &Composition, h: f64) -> Self::Flow<'s>;
 
-    /// [`System::roundings`] of one part of a step of size `h` [s] from `y`.
+    /// [`System::roundings`] of one part of a step of size `h` \[s] from `y`.
     fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
         self.roundings(y, h)
     }
@@ -53,7 +53,7 @@ pub trait Splitting<const N: usize>: System<N> {
 pub struct Composition {
     /// Its order.
     pub order: u32,
-    /// γ_1 to the one in the middle [1].
+    /// γ_1 to the one in the middle \[1].
     half: &'static [f64],
 }
 
@@ -63,12 +63,12 @@ impl Composition {
         ALL.into_iter().find(|composition| composition.order == order)
     }
 
-    /// All γ_i [1].
+    /// All γ_i \[1].
     pub fn parts(&self) -> impl Iterator<Item = f64> {
         self.half.iter().chain(self.half.iter().rev().skip(1)).copied()
     }
 
-    /// One step of size `h` [s] from time `t` [s].
+    /// One step of size `h` \[s] from time `t` \[s].
     #[inline(always)]
     pub fn follow<const N: usize>(&self, motion: &mut impl Split<N>, t: f64, h: f64) {
         // eq. 38: S(h) is drift(h/2), kick(h), drift(h/2); a step is S(γ₁h), S(γ₂h), …, and drifts that meet are one
@@ -106,19 +106,19 @@ pub struct Composed<const N: usize> {
     /// What its steps must keep; None where their size is given.
     tolerance: Option<Tolerance<N>>,
     sizes: Sizes<N>,
-    /// Size of a step [s].
+    /// Size of a step \[s].
     size: f64,
-    /// Size of the next step [s], never more.
+    /// Size of the next step \[s], never more.
     h: f64,
     /// Steps since the last that was compared.
     unchecked: u32,
     /// After so many the next is compared.
     every: u32,
     cost: Cost,
-    /// The time reached [s], and the state there.
+    /// The time reached \[s], and the state there.
     t: f64,
     y: [f64; N],
-    /// Where the last step began [s], the state there, and its size [s].
+    /// Where the last step began \[s], the state there, and its size \[s].
     start: f64,
     start_y: [f64; N],
     last: f64,
@@ -132,11 +132,11 @@ stored!(Composed<const N: usize> {
 /// Comparisons are no further apart than so many steps.
 const EVERY: u32 = 32;
 
-/// The error of a step may be this part of the tolerance, since errors add up [1].
+/// The error of a step may be this part of the tolerance, since errors add up \[1].
 const SHARE: f64 = 0.1;
 
 /// A step is chosen this much smaller than the error would allow, and grows only where it can grow by this; at most by
-/// [`MOST_GROWTH`] at once [1].
+/// [`MOST_GROWTH`] at once \[1].
 const SAFETY: f64 = 0.8;
 const GROWTH: f64 = 1.25;
 const MOST_GROWTH: f64 = 6.0;
@@ -144,11 +144,11 @@ const MOST_GROWTH: f64 = 6.0;
 /// A drift and a kick round about so many sums one after another, at most.
 const SUMS: f64 = 4.0;
 
-/// The first step that is tried is no longer than this [s].
+/// The first step that is tried is no longer than this \[s].
 const LONGEST_FIRST: f64 = 1e-2;
 
 impl<const N: usize> Composed<N> {
-    /// Starts at time `t` [s] and state `y`, with steps of this size [s].
+    /// Starts at time `t` \[s] and state `y`, with steps of this size \[s].
     pub fn start(composition: &'static Composition, size: f64, t: f64, y: [f64; N]) -> Self {
         Self {
             composition,
@@ -192,7 +192,7 @@ impl<const N: usize> Composed<N> {
         Self::start(&STRANG, 0.0, 0.0, [0.0; N])
     }
 
-    /// The time reached [s].
+    /// The time reached \[s].
     pub fn time(&self) -> f64 {
         self.t
     }
@@ -202,7 +202,7 @@ impl<const N: usize> Composed<N> {
         &self.y
     }
 
-    /// Where the last step began [s].
+    /// Where the last step began \[s].
     pub fn start_time(&self) -> f64 {
         self.start
     }
@@ -212,17 +212,17 @@ impl<const N: usize> Composed<N> {
         &self.start_y
     }
 
-    /// The next step will be no longer than this [s].
+    /// The next step will be no longer than this \[s].
     pub fn limit_step(&mut self, h: f64) {
         self.h = self.h.min(h);
     }
 
-    /// The size of the next step [s], unless it is limited.
+    /// The size of the next step \[s], unless it is limited.
     pub fn next_step(&self) -> f64 {
         self.h
     }
 
-    /// Goes back to a time `t` [s] within the last step, where the state is `y`.
+    /// Goes back to a time `t` \[s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, t: f64, y: [f64; N]) {
         (self.t, self.y) = (t, y);
         // What acts now may act otherwise.
@@ -249,7 +249,7 @@ impl<const N: usize> Composed<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward, but not past time `until` [s], while the run has taken at most `most` evaluations. One that cannot be
+    /// One step forward, but not past time `until` \[s], while the run has taken at most `most` evaluations. One that cannot be
     /// done is tried again with half its size; where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl Splitting<N>, most: f64, until: f64) -> Result<(), Fault> {
         let mut h = self.h;
@@ -290,7 +290,7 @@ impl<const N: usize> Composed<N> {
         }
     }
 
-    /// By which factor a step may grow [1] that ends at `y` after a time `h` [s]: it must shrink by one below 1, and is right
+    /// By which factor a step may grow \[1] that ends at `y` after a time `h` \[s]: it must shrink by one below 1, and is right
     /// otherwise. None where that is not asked now.
     fn checked(&mut self, system: &impl Splitting<N>, y: &[f64; N], h: f64) -> Option<f64> {
         let tolerance = self.tolerance?;
@@ -328,14 +328,14 @@ impl<const N: usize> Composed<N> {
         Some(factor(largest_square(system, &told, &weights).sqrt()).clamp(1.0, MOST_GROWTH))
     }
 
-    /// One step of size `h` [s], wherever it ends.
+    /// One step of size `h` \[s], wherever it ends.
     pub fn fixed_step(&mut self, system: &impl Splitting<N>, h: f64) {
         let y = self.y;
         let y = self.followed(system, self.t, &y, h).unwrap_or([f64::NAN; N]);
         self.accept(self.t + h, y, h);
     }
 
-    /// The state at a time `t` [s] within the last step: a step of its own from where that began, as good as the method
+    /// The state at a time `t` \[s] within the last step: a step of its own from where that began, as good as the method
     /// and without a gap at either end. `system` as it was in the last step.
     pub fn dense(&mut self, system: &impl Splitting<N>, t: f64) -> [f64; N] {
         if t == self.start || self.last == 0.0 {
@@ -357,7 +357,7 @@ impl<const N: usize> Composed<N> {
         y
     }
 
-    /// Goes on to time `end` [s] and state `y` after a time `h` [s].
+    /// Goes on to time `end` \[s] and state `y` after a time `h` \[s].
     fn accept(&mut self, end: f64, y: [f64; N], h: f64) {
         (self.start, self.start_y, self.last) = (self.t, self.y, h);
         (self.t, self.y, self.h) = (end, y, self.size);
@@ -366,7 +366,7 @@ impl<const N: usize> Composed<N> {
         self.cost.steps += 1.0;
     }
 
-    /// The size of steps from here on, after one of size `wish` [s], of which `h` [s] were left, may grow by `factor` [1]. Errors
+    /// The size of steps from here on, after one of size `wish` \[s], of which `h` \[s] were left, may grow by `factor` \[1]. Errors
     /// add up least where steps are of one size, so it is changed only where that pays.
     fn resize(&mut self, wish: f64, h: f64, factor: f64) {
         let (is_whole, grows) = (h >= 0.999 * wish, factor >= GROWTH);

@@ -22,10 +22,10 @@ pub struct Explicit<const N: usize> {
     sizes: Sizes<N>,
     controller: Controller,
     cost: Cost,
-    /// The time reached [s], and the state there.
+    /// The time reached \[s], and the state there.
     t: f64,
     y: [f64; N],
-    /// Size of the next step [s].
+    /// Size of the next step \[s].
     h: f64,
     /// The stages k_i of the last step; `k[tableau.last]` is the rate at its end.
     k: [[f64; N]; MOST_STAGES],
@@ -37,11 +37,11 @@ stored!(Explicit<const N: usize> { tableau, tolerance, sizes, controller, cost, 
 /// A refused step is tried again with this part of it.
 const REFUSED: f64 = 0.6;
 
-/// A first step is guessed from what changes within this time, at most [s].
+/// A first step is guessed from what changes within this time, at most \[s].
 const LONGEST_TRIAL: f64 = 1e-2;
 
 impl<const N: usize> Explicit<N> {
-    /// Starts at time `t` [s] and state `y`.
+    /// Starts at time `t` \[s] and state `y`.
     pub fn start(
         tableau: &'static Tableau,
         tolerance: Tolerance<N>,
@@ -83,7 +83,7 @@ impl<const N: usize> Explicit<N> {
         }
     }
 
-    /// The time reached [s].
+    /// The time reached \[s].
     pub fn time(&self) -> f64 {
         self.t
     }
@@ -93,7 +93,7 @@ impl<const N: usize> Explicit<N> {
         &self.y
     }
 
-    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase [rad].
+    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase \[rad].
     pub fn swings(&self) -> f64 {
         self.tableau.swings
     }
@@ -103,7 +103,7 @@ impl<const N: usize> Explicit<N> {
         &self.k[self.tableau.last]
     }
 
-    /// Where the last step began [s].
+    /// Where the last step began \[s].
     pub fn start_time(&self) -> f64 {
         self.segment.t
     }
@@ -113,17 +113,17 @@ impl<const N: usize> Explicit<N> {
         &self.segment.y
     }
 
-    /// The next step will be no longer than this [s].
+    /// The next step will be no longer than this \[s].
     pub fn limit_step(&mut self, h: f64) {
         self.h = self.h.min(h);
     }
 
-    /// The size of the next step [s], unless it is limited.
+    /// The size of the next step \[s], unless it is limited.
     pub fn next_step(&self) -> f64 {
         self.h
     }
 
-    /// Goes back to a time `t` [s] within the last step, where the state is `y`.
+    /// Goes back to a time `t` \[s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, system: &impl System<N>, t: f64, y: [f64; N]) {
         let Segment { t: start, h, sizes, .. } = self.segment;
         let is_within = t < self.t;
@@ -153,7 +153,7 @@ impl<const N: usize> Explicit<N> {
         self.sizes
     }
 
-    /// The same in place of another method at the same state, with its sizes and its cost, and with a next step of `h` [s].
+    /// The same in place of another method at the same state, with its sizes and its cost, and with a next step of `h` \[s].
     pub fn instead(self, h: f64, sizes: Sizes<N>, cost: Cost) -> Self {
         let evaluations = cost.evaluations + self.cost.evaluations;
         Self { h, sizes, cost: Cost { evaluations, ..cost }, ..self }
@@ -169,7 +169,7 @@ impl<const N: usize> Explicit<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward of the method's own choice, but not past time `until` [s], while the run has taken at most `most`
+    /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations. Where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl System<N>, most: f64, until: f64) -> Result<(), Fault> {
         let (rate, h) = (self.k[self.tableau.last], self.h);
@@ -213,7 +213,7 @@ impl<const N: usize> Explicit<N> {
         }
     }
 
-    /// One step of size `h` [s], whatever its error.
+    /// One step of size `h` \[s], whatever its error.
     pub fn fixed_step(&mut self, system: &impl System<N>, h: f64) {
         self.h = h;
         self.k[0] = self.k[self.tableau.last];
@@ -261,7 +261,7 @@ impl<const N: usize> Explicit<N> {
         if step.is_finite() { step.min(100.0 * trial) } else { trial }
     }
 
-    /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
+    /// What each group's error counts in a step of size `h` \[s] that ends where the sizes are `seen`.
     #[inline(always)]
     fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares<N>) -> Squares<N> {
         self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, h), seen)
@@ -272,7 +272,7 @@ impl<const N: usize> Explicit<N> {
 struct Attempt<const N: usize> {
     /// The state at its end.
     y: [f64; N],
-    /// The norm of its error in units of the tolerance [1], or 0 where it is not asked for.
+    /// The norm of its error in units of the tolerance \[1], or 0 where it is not asked for.
     error: f64,
     /// The sizes of the motion there.
     seen: Squares<N>,

@@ -8,9 +8,9 @@ use crate::stored::stored;
 /// The last step.
 #[derive(Clone, Debug)]
 pub struct Segment<const N: usize> {
-    /// Where it began [s].
+    /// Where it began \[s].
     pub t: f64,
-    /// Its size [s].
+    /// Its size \[s].
     pub h: f64,
     /// The state at its start.
     pub y: [f64; N],
@@ -43,7 +43,7 @@ impl<const N: usize> Segment<N> {
         }
     }
 
-    /// The state at a time `t` [s], by the first so many terms.
+    /// The state at a time `t` \[s], by the first so many terms.
     pub fn at(&self, t: f64, terms: usize) -> [f64; N] {
         let sigma = (t - self.t) / self.h;
         let mut sum = [0.0; N];

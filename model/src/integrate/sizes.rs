@@ -12,7 +12,7 @@ pub type Squares<const N: usize> = [f64; N];
 /// How small the error of a step must be.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance<const N: usize> {
-    /// Relative to the size of each group [1].
+    /// Relative to the size of each group \[1].
     pub relative: f64,
     /// No error below this counts.
     pub absolute: Squares<N>,
@@ -49,13 +49,13 @@ pub struct Sizes<const N: usize> {
 
 stored!(Sizes<const N: usize> { origin, recent, largest });
 
-/// After a whole step so much is left of a size that is not reached again [1].
+/// After a whole step so much is left of a size that is not reached again \[1].
 const KEPT: f64 = 0.9;
 
-/// A size is at least this part of the largest ever [1]: what has died out need not be followed for ever.
+/// A size is at least this part of the largest ever \[1]: what has died out need not be followed for ever.
 pub const LEAST: f64 = 1e-3;
 
-/// What rounding takes from a step, beside the numbers that go into it [1].
+/// What rounding takes from a step, beside the numbers that go into it \[1].
 const ROUNDING: f64 = 3e-16;
 
 impl<const N: usize> Sizes<N> {
@@ -84,7 +84,7 @@ impl<const N: usize> Sizes<N> {
         system.sizes(y, rate, &self.origin)
     }
 
-    /// Goes on to where the motion has the sizes `seen`, over this `share` of a whole step [1].
+    /// Goes on to where the motion has the sizes `seen`, over this `share` of a whole step \[1].
     #[inline(always)]
     pub fn take<F: System<N>>(&mut self, _system: &F, seen: &Squares<N>, share: f64) {
         // eq. 80, KEPT^share to first order
@@ -124,7 +124,7 @@ impl<const N: usize> Sizes<N> {
     }
 }
 
-/// The largest of all groups' errors, whose squares are `parts`, squared [1]; not a number where one is not.
+/// The largest of all groups' errors, whose squares are `parts`, squared \[1]; not a number where one is not.
 #[inline(always)]
 pub fn largest_square<F: System<N>, const N: usize>(_system: &F, parts: &Squares<N>, weights: &Squares<N>) -> f64 {
     let (mut most, mut all) = (both(0.0), nothing());

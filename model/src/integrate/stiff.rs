@@ -33,11 +33,11 @@ pub struct Stiff<const N: usize> {
     newton: Tolerance<N>,
     controller: Controller,
     cost: Cost,
-    /// The time reached [s], the state there and its rate.
+    /// The time reached \[s], the state there and its rate.
     t: f64,
     y: [f64; N],
     rate: [f64; N],
-    /// Size of the next step [s].
+    /// Size of the next step \[s].
     h: f64,
     /// Iterations of Newton's method in the last attempt.
     iterations: u32,
@@ -51,9 +51,9 @@ stored!(Stiff<const N: usize> { tolerance, sizes, newton, controller, cost, t, y
 /// The last step.
 #[derive(Clone, Copy, Debug)]
 struct Segment<const N: usize> {
-    /// Where it began [s].
+    /// Where it began \[s].
     t: f64,
-    /// Its size [s].
+    /// Its size \[s].
     h: f64,
     /// The state at its start, and the Jacobian that solved it.
     y: [f64; N],
@@ -70,20 +70,20 @@ stored!(Segment<const N: usize> { t, h, y, jacobian, sizes, z, answer });
 /// A refused step is tried again with this part of it, and so is one that Newton's method does not solve.
 const REFUSED: f64 = 0.5;
 
-/// The estimate's tolerance is this times the fourth fifth of the run's [1]: measured, so that a tolerance means about what it does
+/// The estimate's tolerance is this times the fourth fifth of the run's \[1]: measured, so that a tolerance means about what it does
 /// with the other methods.
 const LOOSER: f64 = 2.0;
 
-/// Newton's method stops where what is left is this part of the run's tolerance [1].
+/// Newton's method stops where what is left is this part of the run's tolerance \[1].
 const PRECISION: f64 = 0.1;
 
-/// A first step is no longer than this [s].
+/// A first step is no longer than this \[s].
 const LONGEST_FIRST: f64 = 1e-2;
 
 /// Its equations round about so many sums one after another.
 const SUMS: f64 = 10.0;
 
-/// The last step extrapolates the next one as long as that is at most so many times longer [1].
+/// The last step extrapolates the next one as long as that is at most so many times longer \[1].
 const EXTRAPOLATED: f64 = 10.0;
 
 /// Newton's method gives up after so many iterations.
@@ -93,7 +93,7 @@ const MOST_ITERATIONS: u32 = 10;
 const FEW_ITERATIONS: u32 = 4;
 
 impl<const N: usize> Stiff<N> {
-    /// Starts at time `t` [s] and state `y`.
+    /// Starts at time `t` \[s] and state `y`.
     pub fn start(tolerance: Tolerance<N>, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
         // The estimate falls with h⁴ and the error of a run with h⁵: what the one calls c tol^(4/5) the other keeps to tol.
         let looser = LOOSER / power(tolerance.relative, 0.2);
@@ -134,7 +134,7 @@ impl<const N: usize> Stiff<N> {
         }
     }
 
-    /// The time reached [s].
+    /// The time reached \[s].
     pub fn time(&self) -> f64 {
         self.t
     }
@@ -149,7 +149,7 @@ impl<const N: usize> Stiff<N> {
         &self.rate
     }
 
-    /// Where the last step began [s].
+    /// Where the last step began \[s].
     pub fn start_time(&self) -> f64 {
         self.segment.t
     }
@@ -159,17 +159,17 @@ impl<const N: usize> Stiff<N> {
         &self.segment.y
     }
 
-    /// The next step will be no longer than this [s].
+    /// The next step will be no longer than this \[s].
     pub fn limit_step(&mut self, h: f64) {
         self.h = self.h.min(h);
     }
 
-    /// The size of the next step [s], unless it is limited.
+    /// The size of the next step \[s], unless it is limited.
     pub fn next_step(&self) -> f64 {
         self.h
     }
 
-    /// Goes back to a time `t` [s] within the last step, where the state is `y`.
+    /// Goes back to a time `t` \[s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, system: &impl System<N>, t: f64, y: [f64; N]) {
         let Segment { t: start, h, sizes, .. } = self.segment;
         let is_within = t < self.t;
@@ -199,7 +199,7 @@ impl<const N: usize> Stiff<N> {
         self.sizes
     }
 
-    /// The same in place of another method at the same state, with its sizes and its cost, and with a next step of `h` [s].
+    /// The same in place of another method at the same state, with its sizes and its cost, and with a next step of `h` \[s].
     pub fn instead(self, h: f64, sizes: Sizes<N>, cost: Cost) -> Self {
         let evaluations = cost.evaluations + self.cost.evaluations;
         Self { h, sizes, cost: Cost { evaluations, ..cost }, ..self }
@@ -215,7 +215,7 @@ impl<const N: usize> Stiff<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// One step forward of the method's own choice, but not past time `until` [s], while the run has taken at most `most`
+    /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations. Where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl Differentiable<N>, most: f64, until: f64) -> Result<(), Fault> {
         if !self.rate.iter().all(|rate| rate.is_finite()) {
@@ -261,7 +261,7 @@ impl<const N: usize> Stiff<N> {
         }
     }
 
-    /// One step of size `h` [s], whatever its error.
+    /// One step of size `h` \[s], whatever its error.
     pub fn fixed_step(&mut self, system: &impl Differentiable<N>, h: f64) {
         self.h = h;
         let jacobian = self.differentiate(system);
@@ -270,7 +270,7 @@ impl<const N: usize> Stiff<N> {
         self.h = h;
     }
 
-    /// The state at a time `t` [s] within the last step: that of a shorter step from the same start, which the polynomial of
+    /// The state at a time `t` \[s] within the last step: that of a shorter step from the same start, which the polynomial of
     /// collocation, of order 3 only, extrapolates.
     pub fn dense(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
         let Segment { t: start, h, y, jacobian, z, answer, .. } = self.segment;
@@ -301,7 +301,7 @@ impl<const N: usize> Stiff<N> {
         system.jacobian(self.t + 0.5 * self.h, &std::array::from_fn(|n| self.y[n] + ahead[n]))
     }
 
-    /// A step of size h from where the method stands to time `end` [s].
+    /// A step of size h from where the method stands to time `end` \[s].
     fn attempt(&mut self, system: &impl System<N>, end: f64, jacobian: &[[f64; N]; N]) -> Attempt<N> {
         let collocation = Collocation::new(jacobian, self.h, system.depended_on());
         let guess = self.extrapolated();
@@ -315,7 +315,7 @@ impl<const N: usize> Stiff<N> {
         Attempt { z, error, rate, seen }
     }
 
-    /// What each group's error counts in a step of size `h` [s] that ends where the sizes are `seen`.
+    /// What each group's error counts in a step of size `h` \[s] that ends where the sizes are `seen`.
     fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares<N>) -> Squares<N> {
         self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, h), seen)
     }
@@ -383,7 +383,7 @@ impl<const N: usize> Stiff<N> {
         None
     }
 
-    /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance [1].
+    /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance \[1].
     fn error_norm(
         &mut self,
         system: &impl System<N>,
@@ -409,7 +409,7 @@ impl<const N: usize> Stiff<N> {
         std::array::from_fn(|n| self.y[n] + z[STAGES - 1][n])
     }
 
-    /// Goes on to time `end` [s], over this `share` of a whole step [1].
+    /// Goes on to time `end` \[s], over this `share` of a whole step \[1].
     fn accept(&mut self, system: &impl System<N>, end: f64, jacobian: [[f64; N]; N], attempt: Attempt<N>, share: f64) {
         let Attempt { z, error, rate, seen } = attempt;
         let y = self.ended(&z);
@@ -428,7 +428,7 @@ impl<const N: usize> Stiff<N> {
 struct Attempt<const N: usize> {
     /// What the state gains at each stage.
     z: [[f64; N]; STAGES],
-    /// The norm of the error in units of the tolerance [1]; not a number where the equations were not solved.
+    /// The norm of the error in units of the tolerance \[1]; not a number where the equations were not solved.
     error: f64,
     /// The rate of the state at its end, and the sizes of the motion there.
     rate: [f64; N],

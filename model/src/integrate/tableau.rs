@@ -14,7 +14,7 @@ pub type Combination = &'static [(usize, f64)];
 /// k_i = f(t + c h, y + h Σ a_j k_j).
 #[derive(Debug)]
 pub struct Stage {
-    /// When within the step [1].
+    /// When within the step \[1].
     pub c: f64,
     /// Of which stages before it.
     pub a: Combination,
@@ -43,9 +43,9 @@ pub struct Tableau {
     /// How the error is estimated.
     pub error: ErrorRule,
     /// What the estimate is multiplied by, so that the tolerance means for every method about the same: that the error of a
-    /// smooth run is of its size (measured in `model/tests/exact_honest_tolerance.rs`).
+    /// smooth run is of its size (measured in `model/tests/all/honest_tolerance.rs`).
     pub calibration: f64,
-    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase [rad].
+    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase \[rad].
     pub swings: f64,
     /// The power of h with which the estimate falls.
     pub error_order: f64,

@@ -3,15 +3,15 @@
 use super::exact;
 use std::f64::consts::TAU;
 
-/// What the double nearest 2π lacks [rad].
+/// What the double nearest 2π lacks \[rad].
 const TAU_LOW: f64 = 2.449_293_598_294_706_4e-16;
 
 /// 2π·turns + remainder.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Angle {
-    /// Whole turns, a whole number [1].
+    /// Whole turns, a whole number \[1].
     pub turns: f64,
-    /// What is left [rad], in [0, 2π) once wrapped.
+    /// What is left \[rad], in [0, 2π) once wrapped.
     pub remainder: f64,
 }
 
@@ -38,7 +38,7 @@ impl Angle {
         if self.remainder >= TAU { Self { turns: self.turns + 1.0, remainder: 0.0 } } else { self }
     }
 
-    /// The angle as one number [rad].
+    /// The angle as one number \[rad].
     pub fn radians(self) -> f64 {
         // eq. 20
         let (high, low) = exact::product(self.turns, TAU);

@@ -4,10 +4,10 @@ use super::{exact, series};
 use crate::scalar::Scalar;
 use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 
-/// π less its double [rad].
+/// π less its double \[rad].
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
-/// The azimuth of (x, y) [rad], in [−π, π]; 0 at the origin.
+/// The azimuth of (x, y) \[rad], in [−π, π]; 0 at the origin.
 #[inline(always)]
 pub fn atan2(y: f64, x: f64) -> f64 {
     let (across, along) = (y.abs(), x.abs());
@@ -22,21 +22,21 @@ pub fn atan2(y: f64, x: f64) -> f64 {
     if y < 0.0 { -angle } else { angle }
 }
 
-/// An angle a ≥ 0 [rad] as β + nπ, |β| ≤ π/2.
+/// An angle a ≥ 0 \[rad] as β + nπ, |β| ≤ π/2.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduced {
-    /// β [rad].
+    /// β \[rad].
     pub beta: f64,
-    /// n [1].
+    /// n \[1].
     pub half_turns: f64,
-    /// cos β [1].
+    /// cos β \[1].
     pub cosine: f64,
-    /// sin β/β [1].
+    /// sin β/β \[1].
     pub sinc: f64,
 }
 
 impl Reduced {
-    /// Of a [rad], 0 ≤ a < 10⁹; beyond, the angle itself is not known to a turn's small part.
+    /// Of a \[rad], 0 ≤ a < 10⁹; beyond, the angle itself is not known to a turn's small part.
     #[inline(always)]
     pub fn new(a: f64) -> Self {
         let (mut beta, mut half_turns) = (a, 0.0);
@@ -52,7 +52,7 @@ impl Reduced {
         Self { beta, half_turns, cosine, sinc: cosine + square * j_quarter }
     }
 
-    /// sin a [1].
+    /// sin a \[1].
     #[inline(always)]
     pub fn sine(&self) -> f64 {
         let sine = self.beta * self.sinc;
@@ -60,7 +60,7 @@ impl Reduced {
     }
 }
 
-/// Cosine and sine of an angle a [rad] of any sign, |a| < 10⁹.
+/// Cosine and sine of an angle a \[rad] of any sign, |a| < 10⁹.
 #[inline(always)]
 pub fn cosine_and_sine<S: Scalar>(angle: S) -> [S; 2] {
     let a = angle.re();

@@ -6,7 +6,7 @@ use crate::scalar::Scalar;
 use nalgebra::{Matrix3, Vector3};
 
 impl<S: Scalar> Tilt<S> {
-    /// L(ϑ), 3×3 [1], of a body with φ [rad] in the chart: its columns are the axes of the body in O, the first one t.
+    /// L(ϑ), 3×3 \[1], of a body with φ \[rad] in the chart: its columns are the axes of the body in O, the first one t.
     #[inline(always)]
     pub fn attitude(&self, phi: S) -> Matrix3<S> {
         let ([y, z], [cosine, sine]) = (self.across(), cosine_and_sine(phi));
@@ -14,7 +14,7 @@ impl<S: Scalar> Tilt<S> {
         Matrix3::from_columns(&[self.axis, y * cosine + z * sine, z * cosine - y * sine])
     }
 
-    /// The axes across t of a body with φ = 0 in the chart [1].
+    /// The axes across t of a body with φ = 0 in the chart \[1].
     #[inline(always)]
     fn across(&self) -> [Vector3<S>; 2] {
         let (gamma, sign) = (self.gamma_in_chart(), S::constant(self.chart().sign()));

@@ -25,18 +25,18 @@ impl Stored for Chart {
     }
 }
 
-/// π less its double [rad].
+/// π less its double \[rad].
 const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;
 
 impl Chart {
-    /// Beyond this |γ| [rad] the motion goes on in the other chart. The other's |γ| is then 1.14, so that an axis that
+    /// Beyond this |γ| \[rad] the motion goes on in the other chart. The other's |γ| is then 1.14, so that an axis that
     /// lingers about the equator (π/2) does not switch to and fro.
     const SWITCH: f64 = 2.0;
 
-    /// A step that ends beyond this |γ| [rad] was too long: the chart is singular at π.
+    /// A step that ends beyond this |γ| \[rad] was too long: the chart is singular at π.
     pub const REACH: f64 = 2.8;
 
-    /// +1 where γ turns e into t, −1 where it turns −e into t [1].
+    /// +1 where γ turns e into t, −1 where it turns −e into t \[1].
     #[inline(always)]
     pub const fn sign(self) -> f64 {
         match self {
@@ -53,17 +53,17 @@ impl Chart {
         }
     }
 
-    /// Whether a motion at this γ [rad] should go on in the other chart.
+    /// Whether a motion at this γ \[rad] should go on in the other chart.
     pub fn is_left_at(self, gamma: Vector2<f64>) -> bool {
         gamma.norm_squared() > Self::SWITCH * Self::SWITCH
     }
 
-    /// Whether the axis at this γ [rad] is tilted from e by more than π/2.
+    /// Whether the axis at this γ \[rad] is tilted from e by more than π/2.
     pub fn is_tilted_back(self, gamma: Vector2<f64>) -> bool {
         (gamma.norm_squared() > FRAC_PI_2 * FRAC_PI_2) == (self == Chart::FromE)
     }
 
-    /// The chart and γ [rad] in which a motion begins, given γ from e.
+    /// The chart and γ \[rad] in which a motion begins, given γ from e.
     pub fn best(gamma: Vector2<f64>) -> (Self, Vector2<f64>) {
         if gamma.norm_squared() <= FRAC_PI_2 * FRAC_PI_2 {
             (Chart::FromE, gamma)
@@ -72,7 +72,7 @@ impl Chart {
         }
     }
 
-    /// φ from e [rad], up to whole turns, of φ [rad] and γ [rad] in this chart.
+    /// φ from e \[rad], up to whole turns, of φ \[rad] and γ \[rad] in this chart.
     pub fn phi_from_e<S: Scalar>(self, phi: S, gamma: Vector2<S>) -> S {
         match self {
             Chart::FromE => phi,
@@ -81,12 +81,12 @@ impl Chart {
         }
     }
 
-    /// φ from e, wrapped, of whole turns, and φ [rad] and γ [rad] in this chart.
+    /// φ from e, wrapped, of whole turns, and φ \[rad] and γ \[rad] in this chart.
     pub fn axial_angle(self, turns: f64, phi: f64, gamma: Vector2<f64>) -> Angle {
         Angle { turns, remainder: self.phi_from_e(phi, gamma) }.wrapped()
     }
 
-    /// φ in this chart, wrapped, of φ from e and γ [rad] in this chart.
+    /// φ in this chart, wrapped, of φ from e and γ \[rad] in this chart.
     pub fn own_angle(self, phi: Angle, gamma: Vector2<f64>) -> Angle {
         match self {
             Chart::FromE => phi,
@@ -95,7 +95,7 @@ impl Chart {
         }
     }
 
-    /// The turns that φ from e gains beside φ in this chart, while γ [rad] goes from one value to another by less than
+    /// The turns that φ from e gains beside φ in this chart, while γ \[rad] goes from one value to another by less than
     /// half a turn about the origin: those of 2β where its azimuth β passes its cut at ±π.
     pub fn turns_gained(self, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
         match self {
@@ -105,7 +105,7 @@ impl Chart {
     }
 }
 
-/// The same tilt from the other chart: γ′ of γ, or γ of γ′ [rad]. Where γ = 0: a half turn about y backwards.
+/// The same tilt from the other chart: γ′ of γ, or γ of γ′ \[rad]. Where γ = 0: a half turn about y backwards.
 pub fn crossed<S: Scalar>(gamma: Vector2<S>) -> Vector2<S> {
     let theta_squared = gamma.dot(&gamma);
     if theta_squared.re() == 0.0 {
@@ -141,7 +141,7 @@ pub fn crossed_exactly(gamma: Vector2<f64>) -> Vector2<f64> {
     })
 }
 
-/// Azimuth β of γ about e, from y towards z [rad], in [−π, π].
+/// Azimuth β of γ about e, from y towards z \[rad], in [−π, π].
 pub(super) fn azimuth<S: Scalar>(gamma: Vector2<S>) -> S {
     let (y, z) = (gamma.x.re(), gamma.y.re());
     // dβ = e·(γ×dγ)/|γ|²
@@ -149,7 +149,7 @@ pub(super) fn azimuth<S: Scalar>(gamma: Vector2<S>) -> S {
     turned.with_value(libm::atan2(z, y))
 }
 
-/// Δβ [rad] from one γ to another, by the shorter way; +π where it is straight through the origin.
+/// Δβ \[rad] from one γ to another, by the shorter way; +π where it is straight through the origin.
 pub fn azimuth_change(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
     // eq. 28: Δβ = atan2(e·(γ₀×γ₁), γ₀·γ₁); + 0 makes −0 a +0, and so −π a +π
     libm::atan2(from.perp(&to) + 0.0, from.dot(&to))

@@ -2,7 +2,7 @@
 //!
 //! All take the complementary parameter m₁ = 1 − k² instead of the modulus k: near k = 1, where a body lingers at its middle
 //! axis, m₁ keeps its digits. Only sums, products and roots: the same bits everywhere. Measured against a second way in
-//! `model/tests/exact_free_flow.rs`.
+//! `model/tests/all/free_flow.rs`.
 
 use super::arc::cosine_and_sine;
 use super::series;

@@ -35,7 +35,7 @@ fn cross<S: Scalar>(v: &Vector3<S>) -> Matrix3<S> {
     Matrix3::new(o, -v.z, v.y, v.z, o, -v.x, -v.y, v.x, o)
 }
 
-/// L(ϑ), 3×3 [1]: the rotation by |ϑ| ≤ π [rad] about ϑ.
+/// L(ϑ), 3×3 \[1]: the rotation by |ϑ| ≤ π \[rad] about ϑ.
 pub fn rotation<S: Scalar>(euler_vector: &Vector3<S>) -> Matrix3<S> {
     let k = Coefficients::new(euler_vector.dot(euler_vector));
     let e = cross(euler_vector);
@@ -43,7 +43,7 @@ pub fn rotation<S: Scalar>(euler_vector: &Vector3<S>) -> Matrix3<S> {
     Matrix3::identity() + e * k.sinc + e * e * k.versine
 }
 
-/// B(ϑ), 3×3 [1]: ω = B dϑ/dt, |ϑ| ≤ π [rad].
+/// B(ϑ), 3×3 \[1]: ω = B dϑ/dt, |ϑ| ≤ π \[rad].
 pub fn rate<S: Scalar>(euler_vector: &Vector3<S>) -> Matrix3<S> {
     let k = Coefficients::new(euler_vector.dot(euler_vector));
     let e = cross(euler_vector);
@@ -51,7 +51,7 @@ pub fn rate<S: Scalar>(euler_vector: &Vector3<S>) -> Matrix3<S> {
     Matrix3::identity() + e * k.versine + e * e * k.cubic
 }
 
-/// B⁻¹(ϑ), 3×3 [1]: dϑ/dt = B⁻¹ω, |ϑ| ≤ π [rad].
+/// B⁻¹(ϑ), 3×3 \[1]: dϑ/dt = B⁻¹ω, |ϑ| ≤ π \[rad].
 pub fn inverse_rate<S: Scalar>(euler_vector: &Vector3<S>) -> Matrix3<S> {
     let k = Coefficients::new(euler_vector.dot(euler_vector));
     let e = cross(euler_vector);

@@ -9,9 +9,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// What becomes of a tilt.
 #[derive(Clone, Copy, Debug)]
 pub struct Turned {
-    /// γ₁ in the chart of γ [rad].
+    /// γ₁ in the chart of γ \[rad].
     pub gamma: Vector2<f64>,
-    /// By how much φ in the chart advances [rad], less `turns`.
+    /// By how much φ in the chart advances \[rad], less `turns`.
     pub phi: f64,
     /// Whole turns, so that φ from e advances by what its rate adds up to.
     pub turns: f64,
@@ -27,7 +27,7 @@ pub struct Turn {
 }
 
 impl Turn {
-    /// By an Euler vector ρ [rad] of any length.
+    /// By an Euler vector ρ \[rad] of any length.
     #[inline(always)]
     pub fn about(rho: Vector3<f64>) -> Self {
         let square = rho.norm_squared();
@@ -68,7 +68,7 @@ impl Turn {
         v + (across * self.w + self.p.cross(&across)) * 2.0
     }
 
-    /// Real and imaginary part [1].
+    /// Real and imaginary part \[1].
     pub fn quaternion(&self) -> (f64, Vector3<f64>) {
         (self.w, self.p)
     }
@@ -79,7 +79,7 @@ impl Turn {
         (self.w * a - self.p.yz().dot(&b), self.p.x * a + self.p.yz().perp(&b))
     }
 
-    /// The half angle δ/2 of that part [rad] in [−π, π], and the half turns that it does besides.
+    /// The half angle δ/2 of that part \[rad] in [−π, π], and the half turns that it does besides.
     #[inline(always)]
     fn half_angle(&self, a: f64, b: Vector2<f64>) -> (f64, f64) {
         let (w, x) = self.along(a, b);

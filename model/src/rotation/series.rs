@@ -3,7 +3,7 @@
 //!
 //! No libm, no square root, no special case at θ = 0. The coefficients interpolate P and Q below at Chebyshev nodes of
 //! 0 ≤ x ≤ π²/4 (50 digits, rounded once), where c = 1 − x/2 + x² P(x) and j = 1/3 + x Q(x). Measured against exact
-//! rationals in `model/tests/exact_series.rs`: error ≤ 1 ulp of 1 (2.2e-16), on the whole interval.
+//! rationals in `model/tests/all/series.rs`: error ≤ 1 ulp of 1 (2.2e-16), on the whole interval.
 
 use crate::scalar::Scalar;
 

@@ -10,22 +10,22 @@ use nalgebra::{Vector2, Vector3};
 pub struct Tilt<S: Scalar> {
     /// The chart of `gamma`.
     chart: Chart,
-    /// γ_y and γ_z [rad] in the chart.
+    /// γ_y and γ_z \[rad] in the chart.
     gamma: Vector2<S>,
-    /// The rotor axis t [1].
+    /// The rotor axis t \[1].
     pub axis: Vector3<S>,
     /// θ² [rad²], θ = |γ| in the chart
     theta_squared: S,
-    /// s²/4 [1]
+    /// s²/4 \[1]
     quarter: S,
-    /// (jc + s²)/4 [1]
+    /// (jc + s²)/4 \[1]
     numerator: S,
-    /// θ/sin θ [1]
+    /// θ/sin θ \[1]
     per_sinc: S,
 }
 
 impl<S: Scalar> Tilt<S> {
-    /// The tilt of γ = (0, γ_y, γ_z) [rad] in a chart.
+    /// The tilt of γ = (0, γ_y, γ_z) \[rad] in a chart.
     #[inline(always)]
     pub fn new(chart: Chart, gamma: Vector2<S>) -> Self {
         let theta_squared = gamma.dot(&gamma);
@@ -45,21 +45,21 @@ impl<S: Scalar> Tilt<S> {
         Self { chart, gamma, axis, theta_squared, quarter, numerator, per_sinc }
     }
 
-    /// τ = tan(θ/2)/θ [1].
+    /// τ = tan(θ/2)/θ \[1].
     #[inline(always)]
     fn tau(&self) -> S {
         // eq. 10: τ = s/(2c) = 2 s²/4 · θ/sin θ
         (self.quarter + self.quarter) * self.per_sinc
     }
 
-    /// (1 − cos θ)/θ² [1].
+    /// (1 − cos θ)/θ² \[1].
     #[inline(always)]
     pub(super) fn versine(&self) -> S {
         // eq. 10: ½ s² = 2 s²/4
         self.quarter + self.quarter
     }
 
-    /// g = γ×e in the chart, whose length is θ [rad].
+    /// g = γ×e in the chart, whose length is θ \[rad].
     #[inline(always)]
     fn g(&self) -> Vector2<S> {
         Vector2::new(self.gamma.y, -self.gamma.x)
@@ -93,7 +93,7 @@ impl<S: Scalar> Tilt<S> {
         if rate.re().is_finite() { rate } else { in_chart }
     }
 
-    /// n = (e + t)/(1 + e·t) [1], along which a constant-velocity joint passes a torque on: ω_φ = n·ω.
+    /// n = (e + t)/(1 + e·t) \[1], along which a constant-velocity joint passes a torque on: ω_φ = n·ω.
     #[inline(always)]
     pub fn joint_axis(&self) -> Vector3<S> {
         let g = self.g();
@@ -106,13 +106,13 @@ impl<S: Scalar> Tilt<S> {
         Vector3::new(S::one(), across.x, across.y)
     }
 
-    /// tan(θ/2) γ/θ in the chart [1].
+    /// tan(θ/2) γ/θ in the chart \[1].
     #[inline(always)]
     pub(super) fn half_tangent(&self) -> Vector2<S> {
         self.gamma * self.tau()
     }
 
-    /// γ_y and γ_z [rad] in the chart.
+    /// γ_y and γ_z \[rad] in the chart.
     #[inline(always)]
     pub fn gamma_in_chart(&self) -> Vector2<S> {
         self.gamma
@@ -123,7 +123,7 @@ impl<S: Scalar> Tilt<S> {
         self.chart
     }
 
-    /// γ_y and γ_z from e [rad], |γ| ≤ π.
+    /// γ_y and γ_z from e \[rad], |γ| ≤ π.
     #[inline(always)]
     pub fn gamma(&self) -> Vector2<S> {
         match self.chart {

@@ -13,7 +13,7 @@ pub(super) struct Auto {
     rest: u32,
     /// Steps between two looks at a run of dop853 that found nothing.
     pause: u32,
-    /// When the look began [s], and after how many evaluations.
+    /// When the look began \[s], and after how many evaluations.
     since: f64,
     spent: f64,
     /// The fastest rate of the linear equations, when it was last looked at [rad/s].
@@ -31,7 +31,7 @@ const LONGEST_PAUSE: u32 = 4096;
 /// `stiff` is measured over so many steps, after as many to find its own step.
 const TRIAL: u32 = 8;
 
-/// Dop853 is stable where a step spans less than this [rad], on the imaginary axis and on the negative one.
+/// Dop853 is stable where a step spans less than this \[rad], on the imaginary axis and on the negative one.
 const STABLE: f64 = 6.0;
 
 /// Stability may hold a step that spans this part of it.
@@ -43,7 +43,7 @@ const STAGES: f64 = 12.0;
 /// An evaluation of `stiff`, with the linear equations that go with it, takes so many times that of dop853: measured.
 const DEARER: f64 = 6.0;
 
-/// It must pay by this before the method is changed [1].
+/// It must pay by this before the method is changed \[1].
 const GAIN: f64 = 1.25;
 
 /// What is to be done next.
@@ -73,7 +73,7 @@ impl Auto {
         self.changes
     }
 
-    /// The longest step for which dop853 is stable [s].
+    /// The longest step for which dop853 is stable \[s].
     pub fn stable_step(&self) -> f64 {
         STABLE / self.fastest
     }
@@ -85,7 +85,7 @@ impl Auto {
         self.rest == 0
     }
 
-    /// Of dop853, whose next step is `h` [s] where the linear equations are these.
+    /// Of dop853, whose next step is `h` \[s] where the linear equations are these.
     pub fn look_at_explicit<const N: usize>(&mut self, h: f64, jacobian: &[[f64; N]; N], size: usize) -> Verdict {
         self.fastest = spectral_radius(jacobian, size);
         if h * self.fastest < SUSPECT * STABLE {
@@ -95,7 +95,7 @@ impl Auto {
         self.change(TRIAL)
     }
 
-    /// Of `stiff`, which has reached time `t` [s] after so many evaluations.
+    /// Of `stiff`, which has reached time `t` \[s] after so many evaluations.
     pub fn look_at_stiff<const N: usize>(
         &mut self,
         t: f64,

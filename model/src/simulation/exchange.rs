@@ -17,15 +17,15 @@ use nalgebra::Vector2;
 #[derive(Clone)]
 pub struct Exchange<const N: usize> {
     frame: Frame,
-    /// [s]
+    /// \[s]
     t: f64,
     /// φ with all its turns but those that it gains beside the chart from −e, which the rotor's `turns` count.
     state: [f64; N],
     /// Where the last completed step ended.
     completed: Completed,
-    /// The kinetic energy at the event that the host is at [J]; None between events.
+    /// The kinetic energy at the event that the host is at \[J]; None between events.
     at_event: Option<f64>,
-    /// Total energy at the start [J].
+    /// Total energy at the start \[J].
     total_at_start: f64,
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
@@ -37,9 +37,9 @@ stored!(Exchange<const N: usize> { frame, t, state, completed, at_event, total_a
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
 struct Completed {
-    /// [s]
+    /// \[s]
     t: f64,
-    /// γ [rad].
+    /// γ \[rad].
     gamma: Vector2<f64>,
     /// dγ/dt [rad/s].
     rate: Vector2<f64>,
@@ -98,7 +98,7 @@ impl<const N: usize> Exchange<N> {
         self.frame.is_of(&parameters.shape().inertia(), &parameters.effects)
     }
 
-    /// The time [s].
+    /// The time \[s].
     pub fn time(&self) -> f64 {
         self.t
     }
@@ -108,12 +108,12 @@ impl<const N: usize> Exchange<N> {
         self.tilted
     }
 
-    /// How fast a motion grows [1/s], and since when that is known [s].
+    /// How fast a motion grows [1/s], and since when that is known \[s].
     pub(super) fn growth(&self) -> Option<(f64, f64)> {
         self.watch.found()
     }
 
-    /// The host's time [s].
+    /// The host's time \[s].
     pub fn set_time(&mut self, t: f64) {
         self.t = t;
     }
@@ -180,7 +180,7 @@ impl<const N: usize> Exchange<N> {
         true
     }
 
-    /// [J]
+    /// \[J]
     fn kinetic<E: Effects>(&self, effects: &E) -> f64 {
         kinetic(&self.frame.under(effects).motion(self.t, &self.state))
     }
@@ -221,7 +221,7 @@ impl<const N: usize> Exchange<N> {
         self.frame.turns + if gained.is_finite() { gained } else { 0.0 }
     }
 
-    /// The way of γ [rad] since the last completed step, in pieces.
+    /// The way of γ \[rad] since the last completed step, in pieces.
     fn path<E: Effects>(&self, effects: &E) -> impl Iterator<Item = Vector2<f64>> {
         let (start, end) = (self.completed, self.here(effects));
         let h = end.t - start.t;

@@ -13,7 +13,7 @@ use nalgebra::{Complex, Normed, SMatrix, SVector};
 pub(super) struct Watch {
     /// Between these |K| nothing new is expected [kg·m²/s].
     known: [f64; 2],
-    /// The growth that was found [1/s], and when [s].
+    /// The growth that was found [1/s], and when \[s].
     found: Option<(f64, f64)>,
 }
 
@@ -23,27 +23,27 @@ stored!(Watch { known, found });
 /// steady speed.
 const LINEAR: usize = PHI;
 
-/// |K| has changed much by this part of itself, and of what nutates as fast as the fastest motion [1].
+/// |K| has changed much by this part of itself, and of what nutates as fast as the fastest motion \[1].
 const MUCH: f64 = 0.1;
 
 /// A motion grows if it does so by this part of its own rate, and of the fastest one: what is less may be rounding, which
-/// parts equal eigenvalues by the root of ε [1].
+/// parts equal eigenvalues by the root of ε \[1].
 const SEEN: f64 = 0.01;
 const ROUNDING: f64 = 1e-7;
 
-/// The equations hold as long as the axis moves slower than the motion grows, by this [1].
+/// The equations hold as long as the axis moves slower than the motion grows, by this \[1].
 const STILL: f64 = 3.0;
 
-/// An asymmetric body turns its equations with it, which these do not see: its inertias about t differ by more than this [1].
+/// An asymmetric body turns its equations with it, which these do not see: its inertias about t differ by more than this \[1].
 const ASYMMETRIC: f64 = 1e-3;
 
 impl Watch {
-    /// What grows [1/s], and since when that is known [s].
+    /// What grows [1/s], and since when that is known \[s].
     pub fn found(&self) -> Option<(f64, f64)> {
         self.found
     }
 
-    /// Looks at the rotor at time `t` [s] and state `y`, if that is due.
+    /// Looks at the rotor at time `t` \[s] and state `y`, if that is due.
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
         let momentum = Coordinates::from_slice(rigid(y)).k.norm();
         let [low, high] = self.known;

@@ -29,10 +29,10 @@ pub(super) struct Integration<const N: usize> {
     /// So many evaluations a communication step may take.
     most: f64,
     last: LastStep,
-    /// The communication point [s], and when the run stops.
+    /// The communication point \[s], and when the run stops.
     t: f64,
     stop: f64,
-    /// Total energy at the start [J].
+    /// Total energy at the start \[J].
     total_at_start: f64,
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
@@ -51,7 +51,7 @@ struct Held<const N: usize> {
     y: [f64; N],
     chart: Chart,
     turns: f64,
-    /// Kinetic energy [J], which a jump of an imposed speed changes.
+    /// Kinetic energy \[J], which a jump of an imposed speed changes.
     kinetic: f64,
 }
 
@@ -70,9 +70,9 @@ struct LastStep {
     chart: Chart,
     /// Whole turns of φ at its start.
     turns: f64,
-    /// γ [rad] at its start.
+    /// γ \[rad] at its start.
     gamma: Vector2<f64>,
-    /// When [s] and where [rad] γ came closest to the origin, if its azimuth turned much.
+    /// When \[s] and where \[rad] γ came closest to the origin, if its azimuth turned much.
     closest: Option<(f64, Vector2<f64>)>,
 }
 
@@ -86,29 +86,29 @@ impl Stored for LastStep {
     }
 }
 
-/// Where the azimuth of γ turns by more than this in a step [rad], the way past the origin is looked at closely: on a
+/// Where the azimuth of γ turns by more than this in a step \[rad], the way past the origin is looked at closely: on a
 /// curved path it may have turned by more than π. What whirls steadily turns by less ([`LONGEST_WHIRL`]).
 const MUCH: f64 = 1.2;
 
-/// So near −e [rad], a law that ends close to it makes every step looked at: an axis may go there and back within one.
+/// So near −e \[rad], a law that ends close to it makes every step looked at: an axis may go there and back within one.
 const NEAR: f64 = 1.0;
 
-/// No step is longer than so many communication steps: a rotor at rest would ask for one without end [1].
+/// No step is longer than so many communication steps: a rotor at rest would ask for one without end \[1].
 const AHEAD: f64 = 1e6;
 
-/// φ [rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
+/// φ \[rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
 /// last place for the remainder of φ to stay exact.
 const LONGEST_TURN: f64 = 16.0 * TAU;
 
-/// γ [rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
+/// γ \[rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
 /// keep the step from growing beyond what its dense output can follow.
 const LONGEST_TILT: f64 = 1.0;
 
-/// The azimuth of γ from −e [rad] advances by about so much at most in a step, so that its turns can be counted.
+/// The azimuth of γ from −e \[rad] advances by about so much at most in a step, so that its turns can be counted.
 const LONGEST_WHIRL: f64 = 1.0;
 
 /// Where the ledger leaves over more than this part of all energy that there is, was, came and went, a method without an
-/// error estimate has lost the motion [1].
+/// error estimate has lost the motion \[1].
 const LOST: f64 = 0.1;
 
 const TOO_LONG: Refusal = Refusal(
@@ -117,7 +117,7 @@ const TOO_LONG: Refusal = Refusal(
 );
 
 impl<const N: usize> Integration<N> {
-    /// A integration from time `t` [s] of a motion that shows `reading` at its start, for `span` [s], where that is known.
+    /// A integration from time `t` \[s] of a motion that shows `reading` at its start, for `span` \[s], where that is known.
     pub(super) fn start<E: Effects>(
         effects: &E,
         start: &Motion<N>,
@@ -172,7 +172,7 @@ impl<const N: usize> Integration<N> {
         self.most == most && self.frame.is_of(&parameters.shape().inertia(), &parameters.effects)
     }
 
-    /// The communication point [s].
+    /// The communication point \[s].
     pub(super) fn time(&self) -> f64 {
         self.t
     }
@@ -182,7 +182,7 @@ impl<const N: usize> Integration<N> {
         self.tilted
     }
 
-    /// How fast a motion grows [1/s], and since when that is known [s].
+    /// How fast a motion grows [1/s], and since when that is known \[s].
     pub(super) fn growth(&self) -> Option<(f64, f64)> {
         self.watch.found()
     }
@@ -200,7 +200,7 @@ impl<const N: usize> Integration<N> {
         }
     }
 
-    /// Moves the communication point to time `t` [s]. On a fault it stands at the last time reached.
+    /// Moves the communication point to time `t` \[s]. On a fault it stands at the last time reached.
     pub(super) fn advance<E: Effects>(&mut self, effects: &E, t: f64) -> Result<(), Fault> {
         assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
@@ -245,7 +245,7 @@ impl<const N: usize> Integration<N> {
         }
     }
 
-    /// Steps up to time `t` [s] or past it, but not past `until` [s]; the communication point is then there, or where steps
+    /// Steps up to time `t` \[s] or past it, but not past `until` \[s]; the communication point is then there, or where steps
     /// came to.
     fn run_to<E: Effects>(&mut self, effects: &E, t: f64, until: f64) -> Result<(), Fault> {
         let most = self.method.cost().evaluations + self.most;
@@ -364,7 +364,7 @@ impl<const N: usize> Integration<N> {
         Ok(())
     }
 
-    /// After a step on the way to time `t` [s]: counts whole turns, and goes on in the other chart where this one is left.
+    /// After a step on the way to time `t` \[s]: counts whole turns, and goes on in the other chart where this one is left.
     fn settle<E: Effects>(&mut self, effects: &E, t: f64) {
         let y = *self.method.state();
         let gamma = gamma(&y);
@@ -394,7 +394,7 @@ impl<const N: usize> Integration<N> {
         }
     }
 
-    /// The whole turns of φ that go with γ [rad] at a time `t` [s] of the last step.
+    /// The whole turns of φ that go with γ \[rad] at a time `t` \[s] of the last step.
     fn turns_at(&self, t: f64, gamma: Vector2<f64>) -> f64 {
         let LastStep { chart, turns, gamma: from, closest } = self.last;
         if self.method.counts_turns() {
@@ -408,7 +408,7 @@ impl<const N: usize> Integration<N> {
         }
     }
 
-    /// When [s] and where [rad] γ came closest to the origin in the last step, by golden sections of its dense output.
+    /// When \[s] and where \[rad] γ came closest to the origin in the last step, by golden sections of its dense output.
     fn closest_to_origin<E: Effects>(&mut self, rotor: &Rotor<'_, E>) -> (f64, Vector2<f64>) {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         const SECTIONS: u32 = 40;

@@ -35,7 +35,7 @@ macro_rules! each {
 }
 
 impl<const N: usize> Method<N> {
-    /// The method of the plan, at time `t` [s] and state `y`.
+    /// The method of the plan, at time `t` \[s] and state `y`.
     pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) -> Self {
         match plan {
             Plan::Explicit(tableau) => OfPair(Explicit::start(tableau, tolerance, rotor, t, y)),
@@ -78,7 +78,7 @@ impl<const N: usize> Method<N> {
         matches!(self, OfComposition(_))
     }
 
-    /// The time reached [s].
+    /// The time reached \[s].
     #[inline(always)]
     pub fn time(&self) -> f64 {
         each!(self, method => method.time())
@@ -98,12 +98,12 @@ impl<const N: usize> Method<N> {
         }
     }
 
-    /// Steps may span so much of the phase of a motion that does not die out [rad], or it grows; None where none does.
+    /// Steps may span so much of the phase of a motion that does not die out \[rad], or it grows; None where none does.
     pub fn swings(&self) -> Option<f64> {
         if let OfPair(method) = self { Some(method.swings()) } else { None }
     }
 
-    /// Where the last step began [s].
+    /// Where the last step began \[s].
     pub fn start_time(&self) -> f64 {
         each!(self, method => method.start_time())
     }
@@ -113,17 +113,17 @@ impl<const N: usize> Method<N> {
         each!(self, method => method.start_state())
     }
 
-    /// The next step will be no longer than this [s].
+    /// The next step will be no longer than this \[s].
     pub fn limit_step(&mut self, h: f64) {
         each!(self, method => method.limit_step(h));
     }
 
-    /// The size of the next step [s], unless it is limited.
+    /// The size of the next step \[s], unless it is limited.
     pub fn next_step(&self) -> f64 {
         each!(self, method => method.next_step())
     }
 
-    /// Goes back to a time `t` [s] within the last step, where the state is `y`.
+    /// Goes back to a time `t` \[s] within the last step, where the state is `y`.
     pub fn go_back<E: Effects>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) {
         match self {
             OfPair(method) => method.go_back(rotor, t, y),
@@ -152,7 +152,7 @@ impl<const N: usize> Method<N> {
         each!(self, method => method.cost())
     }
 
-    /// One step forward of the method's own choice, but not past time `until` [s], while the run has taken at most `most`
+    /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations. Where none is possible, the method stands as before.
     pub fn step<E: Effects>(&mut self, rotor: &Rotor<'_, E>, most: f64, until: f64) -> Result<(), Fault> {
         each!(self, method => method.step(rotor, most, until))
@@ -170,7 +170,7 @@ impl<const N: usize> Method<N> {
         }
     }
 
-    /// The state at a time `t` [s] within the last step, of the rotor in the chart of that step.
+    /// The state at a time `t` \[s] within the last step, of the rotor in the chart of that step.
     pub fn dense<E: Effects>(&mut self, rotor: &Rotor<'_, E>, t: f64) -> [f64; N] {
         each!(self, method => method.dense(rotor, t))
     }

@@ -9,28 +9,28 @@ use crate::integrate::stiff::Differentiable;
 use crate::rotor::groups::squares;
 use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
 
-/// One length [m] and one rate [rad/s], and what goes with them.
+/// One length \[m] and one rate [rad/s], and what goes with them.
 #[derive(Clone, Copy, Debug)]
 pub struct Nominals<const N: usize> {
-    /// Of r [m].
+    /// Of r \[m].
     pub place: f64,
     /// Of v [m/s].
     pub velocity: f64,
     /// Of K [kg·m²/s].
     pub momentum: f64,
-    /// Of γ [rad].
+    /// Of γ \[rad].
     pub tilt: f64,
-    /// Of work [J].
+    /// Of work \[J].
     pub work: f64,
     /// Of the own states, which come first.
     pub own: [f64; N],
 }
 
-/// Of its radius of gyration a rotor moves so much where nothing else is known [1].
+/// Of its radius of gyration a rotor moves so much where nothing else is known \[1].
 const UNKNOWN: f64 = 1e-6;
 
 impl<const N: usize> Nominals<N> {
-    /// Of a motion that starts at time `t` [s].
+    /// Of a motion that starts at time `t` \[s].
     pub(super) fn of<E: Effects>(effects: &E, Motion { frame, state, own_nominal }: &Motion<N>, t: f64) -> Self {
         let rotor = frame.under(effects);
         let (rates, slopes) = (rotor.rates_of_all(t, state), rotor.jacobian(t, state));

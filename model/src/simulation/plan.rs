@@ -10,7 +10,7 @@ use crate::variables::{Solver, numbers};
 pub(super) enum Plan {
     /// A pair with adaptive steps.
     Explicit(&'static Tableau),
-    /// A composition, with steps of this size [s] where it is given.
+    /// A composition, with steps of this size \[s] where it is given.
     Composed(&'static Composition, Option<f64>),
     /// Radau IIA with adaptive steps.
     Stiff,
@@ -18,7 +18,7 @@ pub(super) enum Plan {
     Auto,
 }
 
-/// Where nothing acts every drift is exact, so its length does not matter [s].
+/// Where nothing acts every drift is exact, so its length does not matter \[s].
 const FREE: f64 = 1.0;
 
 impl Plan {

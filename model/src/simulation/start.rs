@@ -19,7 +19,7 @@ pub(crate) struct Motion<const N: usize> {
 }
 
 impl<const N: usize> Motion<N> {
-    /// The motion at the start, at time `t` [s], of which the effects hear; the parameters were checked.
+    /// The motion at the start, at time `t` \[s], of which the effects hear; the parameters were checked.
     pub(crate) fn at_start<E: Effects>(parameters: &mut Parameters<E>, t: f64) -> Self {
         let (shape, start) = (parameters.shape(), &parameters.setup.start);
         let body = shape.inertia();
@@ -55,7 +55,7 @@ impl<const N: usize> Motion<N> {
         Self { frame, state, own_nominal }
     }
 
-    /// What it shows at time `t` [s], under the effects that heard of it.
+    /// What it shows at time `t` \[s], under the effects that heard of it.
     pub(super) fn shows<E: Effects>(&self, effects: &E, t: f64) -> Instant<N> {
         let motion = self.frame.under(effects).motion(t, &self.state);
         let shows = |total| Instant::new(motion, self.state, effects, total, Cost::default());
@@ -70,7 +70,7 @@ impl<const N: usize> Motion<N> {
     }
 }
 
-/// Errors count beside this part of the nominals [1] until a method has seen a motion that is larger: what a spring gives way to a
+/// Errors count beside this part of the nominals \[1] until a method has seen a motion that is larger: what a spring gives way to a
 /// weight may be far more than what the rotor then does.
 pub(super) const BESIDE: f64 = 1e-4;
 

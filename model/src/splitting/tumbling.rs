@@ -8,17 +8,17 @@ use crate::rotation::{Tilt, Turn};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
 
-/// Of a path that ends at −e if it goes straight there, so much is gone at once [1].
+/// Of a path that ends at −e if it goes straight there, so much is gone at once \[1].
 const SHARE: f64 = 0.9;
 
-/// So close to −e [rad] nothing tells on which side the axis passes.
+/// So close to −e \[rad] nothing tells on which side the axis passes.
 const LEAST: f64 = 1e-12;
 
-/// By less than half a turn [rad] the shortest turn has the turns of φ of the true one.
+/// By less than half a turn \[rad] the shortest turn has the turns of φ of the true one.
 const FARTHEST: f64 = 3.0;
 
 impl<E: Effects, const N: usize> Flow<'_, E, N> {
-    /// Follows an asymmetric body that nothing acts on for a time `h` [s].
+    /// Follows an asymmetric body that nothing acts on for a time `h` \[s].
     pub(super) fn tumble(&mut self, body: &Inertia, asymmetric: &Asymmetric, h: f64) {
         let axes = self.tilt.attitude(self.at.phi) * asymmetric.principal();
         let along = axes.tr_mul(&self.at.k);
@@ -49,13 +49,13 @@ const TOO_MANY_PARTS: Refusal =
 /// A body that tumbles.
 pub struct Tumbling {
     free: Poinsot,
-    /// Its principal axes at the start, in O [1].
+    /// Its principal axes at the start, in O \[1].
     axes: Matrix3<f64>,
     /// K along them [kg·m²/s].
     along: Vector3<f64>,
     /// 1/J about them [1/(kg·m²)].
     slowness: Vector3<f64>,
-    /// The axis t along them [1].
+    /// The axis t along them \[1].
     t: Vector3<f64>,
 }
 
@@ -68,15 +68,15 @@ pub struct Beside {
 }
 
 impl Tumbling {
-    /// With its principal axes in O [1], and K `along` them [kg·m²/s]; None where it turns steadily.
+    /// With its principal axes in O \[1], and K `along` them [kg·m²/s]; None where it turns steadily.
     pub fn new(body: &Inertia, asymmetric: &Asymmetric, axes: Matrix3<f64>, along: Vector3<f64>) -> Option<Self> {
         let slowness = Vector3::new(body.spin + body.per_jt, asymmetric.excess + body.per_jt, body.per_jt);
         let free = body.free(asymmetric, &along)?;
         Some(Self { free, axes, along, slowness, t: asymmetric.principal().row(0).transpose() })
     }
 
-    /// For how long the axis, `tilt` now, surely does not reach −e when K is `along` the principal axes now [s]; nearer than
-    /// `least` [rad] it does not count.
+    /// For how long the axis, `tilt` now, surely does not reach −e when K is `along` the principal axes now \[s]; nearer than
+    /// `least` \[rad] it does not count.
     fn clear(&self, tilt: &Tilt<f64>, along: &Vector3<f64>, least: f64) -> f64 {
         let (bound, way) = (self.free.bound(), (SHARE * (tilt.axis + Vector3::x()).norm()).max(least));
         let omega = along.component_mul(&self.slowness);
@@ -88,7 +88,7 @@ impl Tumbling {
         (way / bound).max((libm::log1p(half * time) / half).min(FARTHEST / bound))
     }
 
-    /// How φ advances in a time `h` [s], by `phi` [rad] and so many whole turns, where the start is `tilt`.
+    /// How φ advances in a time `h` \[s], by `phi` \[rad] and so many whole turns, where the start is `tilt`.
     ///
     /// In parts too short to reach −e. Any two ways of the axis that do not reach it advance φ alike, so the shortest may
     /// stand for the true one.

@@ -11,11 +11,11 @@ pub struct Solver {
     pub method: i32,
     /// The same number for hosts that cannot set an enumeration; 0: as `method` says.
     pub method_number: i32,
-    /// Relative to the size of the motion [1].
+    /// Relative to the size of the motion \[1].
     pub relative_tolerance: f64,
-    /// The least error that is asked for, in nominals [1].
+    /// The least error that is asked for, in nominals \[1].
     pub absolute_tolerance: f64,
-    /// Step of `symplectic` [s]; 0: chosen from the scene.
+    /// Step of `symplectic` \[s]; 0: chosen from the scene.
     pub step_size: f64,
     /// Order of `symplectic`: 2, 4, 6 or 8.
     pub order: i32,
@@ -69,7 +69,7 @@ pub static METHODS: Enumeration = Enumeration {
     ],
 };
 
-/// What a relative tolerance [1] must be: no tighter than double precision can keep.
+/// What a relative tolerance \[1] must be: no tighter than double precision can keep.
 pub const TOLERANCES: Bound = Bound::Within(1e-14, 1e-1);
 
 /// The absolute tolerances that are possible: where a component passes zero nothing else counts, and far below the rounding

@@ -38,7 +38,7 @@ export! {
         instance.output_derivatives(values(vr, n, "vr")?, values(order, n, "order")?, room(value, n, "value")?)
     }
 
-    /// Moves the communication point from `from` by `step` [s].
+    /// Moves the communication point from `from` by `step` \[s].
     fmi2DoStep(instance, from: Real, step: Real, _no_set_state_before: Boolean) { instance.do_step(from, step) }
 
     /// No step is asynchronous.
@@ -50,7 +50,7 @@ export! {
         answer(kind, (status_kind::DO_STEP, "fmi2DoStepStatus"), value, status)
     }
 
-    /// The last successful time [s].
+    /// The last successful time \[s].
     fmi2GetRealStatus(instance, kind: Choice, value: *mut Real) {
         answer(kind, (status_kind::LAST_SUCCESSFUL_TIME, "fmi2LastSuccessfulTime"), value, instance.now())
     }

@@ -34,7 +34,7 @@ export! {
         Ok(())
     }
 
-    /// Sets the time [s].
+    /// Sets the time \[s].
     fmi2SetTime(instance, time: Real) { instance.set_time(time) }
 
     /// Sets the continuous states.

@@ -4,13 +4,13 @@ use super::row::{Measured, OURS, Row};
 use super::sweep::{AUTO, TOLERANCE};
 use super::table::{about, methods, power, setting, short};
 
-/// Errors that a user may want, over the motion's own size [1].
+/// Errors that a user may want, over the motion's own size \[1].
 pub const GOALS: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
-/// Times that differ by less are the same [1]: a busy machine shifts them by as much.
+/// Times that differ by less are the same \[1]: a busy machine shifts them by as much.
 const SAME_TIME: f64 = 1.05;
 
-/// The cheapest row that errs by no more than `goal` [1] in place, axis and φ; of rows that take the same time, the most accurate.
+/// The cheapest row that errs by no more than `goal` \[1] in place, axis and φ; of rows that take the same time, the most accurate.
 pub fn cheapest<'r>(rows: impl IntoIterator<Item = &'r Row>, goal: f64) -> Option<(&'r Row, &'r Measured)> {
     let reached: Vec<_> = measured(rows).filter(|(_, m)| m.error() <= goal).collect();
     let least = reached.iter().map(|(_, m)| m.cpu_time).min_by(f64::total_cmp)?;
@@ -18,10 +18,10 @@ pub fn cheapest<'r>(rows: impl IntoIterator<Item = &'r Row>, goal: f64) -> Optio
     same.min_by(|(_, a), (_, b)| a.error().total_cmp(&b.error()))
 }
 
-/// Between these tolerances a tolerance should mean the same [1].
+/// Between these tolerances a tolerance should mean the same \[1].
 const MEANT: std::ops::RangeInclusive<f64> = 1e-12..=1e-4;
 
-/// What a tolerance means with each method of ours: the error over it. `floor` [1] is what cannot be told.
+/// What a tolerance means with each method of ours: the error over it. `floor` \[1] is what cannot be told.
 pub fn meaning(rows: &[Row], floor: f64) -> Option<String> {
     let mut parts: Vec<String> = Vec::new();
     for (tool, method) in methods(rows).into_iter().filter(|(tool, _)| *tool == OURS) {
@@ -46,7 +46,7 @@ fn measured<'r>(rows: impl IntoIterator<Item = &'r Row>) -> impl Iterator<Item =
     rows.into_iter().filter_map(|row| Some((row, row.outcome.as_ref().ok()?)))
 }
 
-/// One sentence a goal, of our own methods; `floor` [1]: no smaller error can be told. `simulated` [s].
+/// One sentence a goal, of our own methods; `floor` \[1]: no smaller error can be told. `simulated` \[s].
 pub fn sentences(rows: &[Row], floor: f64, simulated: f64) -> Vec<String> {
     // `auto` is one of the others.
     let ours = || rows.iter().filter(|row| row.tool == OURS && row.method != AUTO);
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_cheapest_that_reached_it() {
+    fn the_cheapest_that_reached_it() {
         let failed = Row { outcome: Err("no".into()), ..row(OURS, "d", 1e-9, 0.0, 0.0) };
         let rows = [
             row(OURS, "a", 1e-3, 1e-4, 1.0),
@@ -104,7 +104,7 @@ mod tests {
 
     /// The axis of these rows is right; their place is not.
     #[test]
-    fn exact_no_setting_is_advised_that_errs_in_any_of_the_three() {
+    fn no_setting_is_advised_that_errs_in_any_of_the_three() {
         let rows = [row(OURS, "wrong", 1e-3, 0.62, 1e-6), row(OURS, "right", 1e-6, 5e-4, 1.0)];
         assert_eq!(rows[0].outcome.as_ref().unwrap().end.axis, 0.0);
         let [loose, middle, tight] = sentences(&rows, 1e-12, 6.0).try_into().unwrap();
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_tolerance_means_the_error_over_it() {
+    fn a_tolerance_means_the_error_over_it() {
         let mut rows = [(1e-3, 1.0), (1e-4, 2e-4), (1e-8, 3e-7), (1e-12, 1e-13)]
             .map(|(tolerance, error)| row(OURS, "a", tolerance, error, 1.0));
         for row in &mut rows {
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_sentence_says_what_to_take_and_what_it_costs() {
+    fn a_sentence_says_what_to_take_and_what_it_costs() {
         let rows = [row(OURS, "dop853", 2e-8, 4.56e-7, 0.0005), row("peer", "fast", 1e-8, 1e-12, 1e-6)];
         let [loose, middle, tight] = sentences(&rows, 1e-12, 10.0).try_into().unwrap();
         let took = "it errs by 4.6e-7 and takes 0.50 ms of CPU time, 20 000 times real time.";

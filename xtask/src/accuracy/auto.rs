@@ -21,7 +21,7 @@ pub fn taken(said: &[String]) -> Option<String> {
 }
 
 /// What `auto` takes from its loosest to its tightest tolerance, and what it costs beside the cheapest setting that errs no
-/// more; `floor` [1]: no smaller error can be told.
+/// more; `floor` \[1]: no smaller error can be told.
 pub fn sentence(rows: &[Row], floor: f64) -> Option<String> {
     let (row, ratio, best) = dearest(rows, floor)?;
     let mut taken: Vec<(&str, f64, f64)> = Vec::new();
@@ -47,7 +47,7 @@ pub fn sentence(rows: &[Row], floor: f64) -> Option<String> {
     ))
 }
 
-/// The row of `auto` that is dearest beside the cheapest that errs no more, how much dearer [1], and that one's name.
+/// The row of `auto` that is dearest beside the cheapest that errs no more, how much dearer \[1], and that one's name.
 fn dearest(rows: &[Row], floor: f64) -> Option<(&Row, f64, String)> {
     let ours = || rows.iter().filter(|row| row.tool == OURS).filter_map(|row| Some((row, row.outcome.as_ref().ok()?)));
     let error = |m: &Measured| m.error().max(floor);
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_best_errs_no_more_and_is_another() {
+    fn the_best_errs_no_more_and_is_another() {
         let mut rows = [
             row(OURS, "a", 1e-3, 1e-2, 1.0),
             row(OURS, "b", 1e-4, 1e-5, 2.0),
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_it_said_is_what_it_took() {
+    fn what_it_said_is_what_it_took() {
         let first = "auto takes dop853, and stiff as long as stability alone would hold dop853 to short steps";
         let second = "auto goes on with stiff from t = 0.5 s: what changes at 1e4 rad/s would hold dop853";
         let third = "auto goes on with dop853 from t = 0.7 s: stiff no longer saves work";

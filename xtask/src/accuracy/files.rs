@@ -1,4 +1,4 @@
-//! What the command leaves behind in target/accuracy/<scene>/: accuracy.md, .csv, .json and .svg.
+//! What the command leaves behind in target/accuracy/SCENE/: accuracy.md, .csv, .json and .svg.
 
 use super::row::csv;
 use super::run::Setting;

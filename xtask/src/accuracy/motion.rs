@@ -1,58 +1,60 @@
 //! What a run shows at its communication points, and how far two runs are apart.
 
+use nalgebra::Vector3;
+
 /// The rotor at one communication point. What somebody does not tell is NaN.
 #[derive(Clone, Copy, Debug)]
 pub struct Point {
-    /// Position of the mass centre [m].
-    pub r_c: [f64; 3],
+    /// Position of the mass centre \[m].
+    pub r_c: Vector3<f64>,
     /// The rotor axis t, of any length but zero.
-    pub axis: [f64; 3],
-    /// φ = 2π `turns` + `angle` [rad], kept apart for its last digits.
+    pub axis: Vector3<f64>,
+    /// φ = 2π `turns` + `angle` \[rad], kept apart for its last digits.
     pub turns: f64,
     /// See `turns`.
     pub angle: f64,
-    /// What the energy ledger leaves over: zero for an exact solution [J].
+    /// What the energy ledger leaves over: zero for an exact solution \[J].
     pub residual: f64,
-    /// Kinetic and potential energy [J].
+    /// Kinetic and potential energy \[J].
     pub energy: f64,
-    /// Kinetic energy [J].
+    /// Kinetic energy \[J].
     pub kinetic: f64,
 }
 
 impl Point {
     /// Whether it shows numbers.
     pub fn is_finite(&self) -> bool {
-        let shown = [self.r_c, self.axis, [self.turns, self.angle, self.residual]];
-        shown.iter().flatten().all(|x| x.is_finite())
+        let others = [self.turns, self.angle, self.residual];
+        self.r_c.iter().chain(&self.axis).chain(&others).all(|x| x.is_finite())
     }
 
-    /// How far the place is from that of another, across e [m].
+    /// How far the place is from that of another, across e \[m].
     fn across(&self, other: &Self) -> f64 {
-        (self.r_c[1] - other.r_c[1]).hypot(self.r_c[2] - other.r_c[2])
+        (self.r_c - other.r_c).yz().norm()
     }
 
-    /// The angle between the axes [rad].
+    /// The angle between the axes \[rad].
     fn tilt(&self, other: &Self) -> f64 {
-        length(cross(self.axis, other.axis)).atan2(dot(self.axis, other.axis))
+        self.axis.cross(&other.axis).norm().atan2(self.axis.dot(&other.axis))
     }
 
-    /// By what φ differs [rad].
+    /// By what φ differs \[rad].
     fn turn(&self, other: &Self) -> f64 {
         (std::f64::consts::TAU * (self.turns - other.turns) + (self.angle - other.angle)).abs()
     }
 }
 
-/// The least size of a motion, of place [m] and axis [rad]: smaller ones are rounding.
+/// The least size of a motion, of place \[m] and axis \[rad]: smaller ones are rounding.
 const LEAST: [f64; 2] = [1e-12, 1e-9];
 
 /// How large a motion is, which its errors are relative to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sizes {
-    /// How far the place goes from where it starts, across e [m].
+    /// How far the place goes from where it starts, across e \[m].
     pub place: f64,
-    /// How far the axis goes from where it starts [rad].
+    /// How far the axis goes from where it starts \[rad].
     pub axis: f64,
-    /// How far φ goes from where it starts [rad].
+    /// How far φ goes from where it starts \[rad].
     pub phi: f64,
 }
 
@@ -64,7 +66,7 @@ impl Sizes {
     }
 }
 
-/// The worst errors of a run, each over the motion's own size [1]. What nobody tells is NaN.
+/// The worst errors of a run, each over the motion's own size \[1]. What nobody tells is NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relative {
     /// Of the place across e, over how far it goes.
@@ -98,13 +100,13 @@ impl Relative {
 /// How far a motion is off.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Distance of the mass centres [m].
+    /// Distance of the mass centres \[m].
     pub r_c: f64,
-    /// Angle between the axes [rad].
+    /// Angle between the axes \[rad].
     pub axis: f64,
-    /// Difference of φ [rad].
+    /// Difference of φ \[rad].
     pub phi: f64,
-    /// Drift of the energy [J], which does not compare with the other motion.
+    /// Drift of the energy \[J], which does not compare with the other motion.
     pub energy: f64,
 }
 
@@ -112,7 +114,7 @@ impl Errors {
     /// Of one point against another.
     pub fn between(point: &Point, exact: &Point) -> Self {
         Self {
-            r_c: length(difference(point.r_c, exact.r_c)),
+            r_c: (point.r_c - exact.r_c).norm(),
             axis: point.tilt(exact),
             phi: point.turn(exact),
             energy: point.residual.abs(),
@@ -138,29 +140,13 @@ impl Errors {
     }
 }
 
-fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn length(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     const EXACT: Point = Point {
-        r_c: [1.0, 2.0, 3.0],
-        axis: [1.0, 0.0, 0.0],
+        r_c: Vector3::new(1.0, 2.0, 3.0),
+        axis: Vector3::new(1.0, 0.0, 0.0),
         turns: 7.0,
         angle: 0.25,
         residual: 0.0,
@@ -169,11 +155,11 @@ mod tests {
     };
 
     #[test]
-    fn exact_errors_of_a_known_difference() {
+    fn errors_of_a_known_difference() {
         let point = Point {
-            r_c: [1.0, 2.0 + 3e-6, 3.0 - 4e-6],
+            r_c: Vector3::new(1.0, 2.0 + 3e-6, 3.0 - 4e-6),
             // An axis need not have length 1, and a small angle keeps its digits.
-            axis: [2.0, 2e-9, 0.0],
+            axis: Vector3::new(2.0, 2e-9, 0.0),
             turns: 6.0,
             angle: 0.25 + std::f64::consts::TAU - 1e-6,
             residual: -2e-7,
@@ -188,8 +174,8 @@ mod tests {
 
     /// A whirl of 20 µm that an upright axis goes with: only the place tells that it is wrong.
     #[test]
-    fn exact_an_error_of_the_place_counts_where_the_axis_does_not_tilt() {
-        let at = |y: f64, z: f64, angle: f64| Point { r_c: [1.0, y, z], angle, turns: 0.0, ..EXACT };
+    fn an_error_of_the_place_counts_where_the_axis_does_not_tilt() {
+        let at = |y: f64, z: f64, angle: f64| Point { r_c: Vector3::new(1.0, y, z), angle, turns: 0.0, ..EXACT };
         let start = at(1e-3, 0.0, 0.0);
         let exact = [at(1e-3, 2e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.0)];
         let wrong = [at(1e-3, 0.8e-5, 3.0), at(1e-3 - 1e-5, 0.0, 100.5)];
@@ -200,13 +186,17 @@ mod tests {
         assert_eq!((off.axis, off.phi), (0.0, 5e-3));
         assert_eq!(off.worst(), off.place);
         // Along e there is no size to compare with.
-        let along = [Point { r_c: [2.0, 1e-3, 2e-5], ..exact[0] }, exact[1]];
+        let along = [Point { r_c: Vector3::new(2.0, 1e-3, 2e-5), ..exact[0] }, exact[1]];
         assert_eq!(Relative::of(&along, &start, &exact, &sizes).worst(), 0.0);
     }
 
     #[test]
-    fn exact_each_error_is_relative_to_its_own_size() {
-        let tilted = |tilt: f64, y: f64| Point { r_c: [0.0, y, 0.0], axis: [tilt.cos(), 0.0, tilt.sin()], ..EXACT };
+    fn each_error_is_relative_to_its_own_size() {
+        let tilted = |tilt: f64, y: f64| Point {
+            r_c: Vector3::y() * y,
+            axis: Vector3::new(tilt.cos(), 0.0, tilt.sin()),
+            ..EXACT
+        };
         let (start, exact) = (tilted(0.5, 0.0), [tilted(0.5 + 1e-4, 0.0), tilted(0.5, 0.0)]);
         let sizes = Sizes::of(&start, &exact);
         let off = Relative::of(&[exact[0], tilted(0.5 - 1e-6, 0.0)], &start, &exact, &sizes);
@@ -217,9 +207,9 @@ mod tests {
     }
 
     #[test]
-    fn exact_what_is_not_told_is_passed_over() {
-        let nan = Point { r_c: [f64::NAN; 3], axis: [f64::NAN; 3], angle: f64::NAN, ..EXACT };
-        let moved = Point { r_c: [1.0, 2.0, 3.5], ..EXACT };
+    fn what_is_not_told_is_passed_over() {
+        let nan = Point { r_c: Vector3::repeat(f64::NAN), axis: Vector3::repeat(f64::NAN), angle: f64::NAN, ..EXACT };
+        let moved = Point { r_c: Vector3::new(1.0, 2.0, 3.5), ..EXACT };
         let sizes = Sizes::of(&EXACT, &[moved]);
         let off = Relative::of(&[nan, Point { angle: f64::NAN, ..EXACT }], &EXACT, &[moved, moved], &sizes);
         assert_eq!((off.place, off.axis), (1.0, 0.0));
@@ -229,8 +219,8 @@ mod tests {
     }
 
     #[test]
-    fn exact_the_end_is_last_and_the_worst_is_largest() {
-        let moved = |x| Point { r_c: [1.0 + x, 2.0, 3.0], ..EXACT };
+    fn the_end_is_last_and_the_worst_is_largest() {
+        let moved = |x| Point { r_c: Vector3::new(1.0 + x, 2.0, 3.0), ..EXACT };
         let unknown = Point { angle: f64::NAN, ..EXACT };
         let [end, worst] = Errors::of(&[moved(0.25), moved(0.5), unknown, moved(0.125)], &[EXACT; 4]);
         assert_eq!((end.r_c, worst.r_c), (0.125, 0.5));

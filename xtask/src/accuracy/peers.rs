@@ -11,6 +11,7 @@ use crate::run::{cargo, fed, run};
 use crate::{paths, python};
 use anyhow::{Context, Result};
 use indicatif::ProgressBar;
+use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
 use split_rotor_model::scene::{Experiment, Scene};
 use std::process::Command;
@@ -151,7 +152,7 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
     let points = reference.points.iter().enumerate().map(|(n, exact)| {
         // What is null is not known.
         let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
-        let vector = |key: &str| std::array::from_fn(|i| number(&line[key][n][i]));
+        let vector = |key: &str| Vector3::from_fn(|i, _| number(&line[key][n][i]));
         let energy = number(&line["energy"][n]);
         Point {
             r_c: vector("r_c"),
@@ -188,8 +189,8 @@ mod tests {
 
     fn reference() -> Reference {
         let point = Point {
-            r_c: [1.0, 0.0, 0.0],
-            axis: [1.0, 0.0, 0.0],
+            r_c: Vector3::x(),
+            axis: Vector3::x(),
             turns: 1.0,
             angle: 0.5,
             residual: 0.0,
@@ -199,13 +200,13 @@ mod tests {
         let errors = Errors { r_c: 0.0, axis: 0.0, phi: 0.0, energy: 0.0 };
         let sizes = Sizes { place: 0.5, axis: 0.0, phi: 0.0 };
         let floor = Relative { place: 0.0, axis: 0.0, phi: 0.0 };
-        let start = Point { r_c: [1.0, 0.5, 0.0], ..point };
+        let start = Point { r_c: Vector3::new(1.0, 0.5, 0.0), ..point };
         let [setting, check] = ["dop853", "dopri5"].map(|method| with_tolerance(method, 1e-14));
         Reference { setting, check, start, points: vec![point; 2], sizes, agreement: [errors; 2], floor }
     }
 
     #[test]
-    fn exact_a_line_of_a_peer_becomes_a_row() {
+    fn a_line_of_a_peer_becomes_a_row() {
         let phi = std::f64::consts::TAU + 0.5 + 1e-6;
         let line = json!({
             "version": "1.0", "method": "RK", "parameter": "step", "value": 0.01, "cpu_time": 0.2, "repeats": 4,
@@ -225,14 +226,14 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_failure_of_a_peer_is_a_row_that_says_why() {
+    fn a_failure_of_a_peer_is_a_row_that_says_why() {
         let line = r#"{"version": "1.0", "method": "RK", "parameter": "step", "value": 1.0, "failure": "it fell"}"#;
         assert_eq!(row("peer", line, &reference()).unwrap().outcome.unwrap_err(), "it fell");
         assert!(row("peer", "{}", &reference()).is_err());
     }
 
     #[test]
-    fn exact_peers_know_the_effects_of_the_scenes() {
+    fn peers_know_the_effects_of_the_scenes() {
         for name in ["paper", "tumbling", "driven"] {
             assert_eq!(refusal(&scenes::find(name).unwrap()), None);
         }

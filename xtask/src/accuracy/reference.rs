@@ -45,13 +45,13 @@ impl Reference {
         Relative::of(points, &self.start, &self.points, &self.sizes)
     }
 
-    /// The largest angle of the axis with e at a communication point [rad].
+    /// The largest angle of the axis with e at a communication point \[rad].
     pub fn largest_tilt(&self) -> f64 {
         let tilt = |point: &Point| point.axis[1].hypot(point.axis[2]).atan2(point.axis[0]);
         self.points.iter().map(tilt).fold(0.0, f64::max)
     }
 
-    /// The largest kinetic energy [J], to which an energy drift compares.
+    /// The largest kinetic energy \[J], to which an energy drift compares.
     pub fn energy_scale(&self) -> f64 {
         self.points.iter().map(|point| point.kinetic).fold(0.0, f64::max)
     }

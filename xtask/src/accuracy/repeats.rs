@@ -12,7 +12,7 @@ const ENOUGH: f64 = 0.1;
 /// Enough, whatever their number [s of CPU time]: a run of a second is not made five times.
 const PATIENCE: f64 = 0.15;
 
-/// Whether so many repeats are enough that took so long together [s].
+/// Whether so many repeats are enough that took so long together \[s].
 fn are_enough(repeats: usize, spent: f64) -> bool {
     spent >= PATIENCE || repeats >= MOST || (repeats >= LEAST && spent >= ENOUGH)
 }
@@ -22,7 +22,7 @@ pub fn rule() -> Value {
     json!({ "least": LEAST, "most": MOST, "enough": ENOUGH, "patience": PATIENCE })
 }
 
-/// Repeats a run that tells its CPU time [s] and took `first` [s] once; the least of them, and how many there were.
+/// Repeats a run that tells its CPU time \[s] and took `first` \[s] once; the least of them, and how many there were.
 pub fn least_time(first: f64, mut run: impl FnMut() -> Result<f64>) -> Result<(f64, usize)> {
     let (mut least, mut spent, mut repeats) = (first, first, 1);
     while !are_enough(repeats, spent) {
@@ -39,14 +39,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_the_least_time_counts() {
+    fn the_least_time_counts() {
         let mut times = [3.0, 1.0, 2.0].into_iter().map(|time| 0.016 * time).cycle();
         let (least, repeats) = least_time(0.04, || Ok(times.next().unwrap())).unwrap();
         assert_eq!((least, repeats), (0.016, LEAST));
     }
 
     #[test]
-    fn exact_short_runs_are_repeated_more_often_than_long_ones() {
+    fn short_runs_are_repeated_more_often_than_long_ones() {
         let repeats = |time| least_time(time, || Ok(time)).unwrap().1;
         assert_eq!(repeats(1e-6), MOST);
         assert_eq!(repeats(ENOUGH / 10.5), 11);

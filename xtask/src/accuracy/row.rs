@@ -38,7 +38,7 @@ pub struct Measured {
     pub end: Errors,
     /// The worst over all points.
     pub worst: Errors,
-    /// The least of all repeats [s].
+    /// The least of all repeats \[s].
     pub cpu_time: f64,
     /// How many repeats.
     pub repeats: usize,
@@ -51,7 +51,7 @@ pub struct Measured {
 }
 
 impl Measured {
-    /// The error of the run: the worst of place across e, axis and φ, each over the motion's own size [1].
+    /// The error of the run: the worst of place across e, axis and φ, each over the motion's own size \[1].
     pub fn error(&self) -> f64 {
         self.relative.worst()
     }
@@ -60,13 +60,13 @@ impl Measured {
 /// What the numbers of a row compare with.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
-    /// Simulated time [s].
+    /// Simulated time \[s].
     pub simulated: f64,
-    /// That of the whole scene [s].
+    /// That of the whole scene \[s].
     pub scene: f64,
-    /// For the relative energy drift [J].
+    /// For the relative energy drift \[J].
     pub energy: f64,
-    /// No smaller error can be told [1].
+    /// No smaller error can be told \[1].
     pub floor: f64,
 }
 
@@ -120,7 +120,7 @@ pub fn csv(rows: &[Row], scale: Scale) -> String {
 pub mod tests {
     use super::*;
 
-    /// A row of ours, or of a peer, with this error [1] and time [s]: that of the place, while the axis is right.
+    /// A row of ours, or of a peer, with this error \[1] and time \[s]: that of the place, while the axis is right.
     pub fn row(tool: &str, method: &str, value: f64, error: f64, cpu_time: f64) -> Row {
         let errors = Errors { r_c: 0.01 * error, axis: 0.0, phi: f64::NAN, energy: error };
         let measured = Measured {
@@ -139,7 +139,7 @@ pub mod tests {
     }
 
     #[test]
-    fn exact_what_is_not_known_stays_empty_and_text_is_quoted() {
+    fn what_is_not_known_stays_empty_and_text_is_quoted() {
         let failed = Row { outcome: Err("a \"word\", and more".into()), ..row("peer", "m", 1e-3, 1.0, 1.0) };
         let scale = Scale { simulated: 10.0, scene: 60.0, energy: 2.0, floor: 1e-9 };
         let text = csv(&[row("split-rotor", "m", 1e-3, 1e-6, 0.5), failed], scale);

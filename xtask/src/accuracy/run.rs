@@ -6,6 +6,7 @@ use super::sweep::AUTO;
 use crate::fmu::{Fmu, Instance, Reference};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
+use nalgebra::Vector3;
 use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::variables::METHODS;
 use split_rotor_model::xml;
@@ -94,7 +95,7 @@ impl<'s> Subject<'s> {
         self.run_through(setting, &ends, f64::INFINITY)
     }
 
-    /// A run through communication points [s], with whether it is read there.
+    /// A run through communication points \[s], with whether it is read there.
     fn run_through(&self, setting: &Setting, stops: &[(f64, bool)], patience: f64) -> Result<Run> {
         let mut instance = self.started(setting)?;
         let start = point(instance.get_real(&self.outputs)?);
@@ -118,7 +119,7 @@ impl<'s> Subject<'s> {
         Ok(Run { start, points, cpu_time, costs: instance.get_real(&self.costs)?, said: instance.said() })
     }
 
-    /// To which of these times [s] such a run comes, from the first on, with this many evaluations or a few more.
+    /// To which of these times \[s] such a run comes, from the first on, with this many evaluations or a few more.
     pub fn reach(&self, setting: &Setting, times: impl IntoIterator<Item = f64>, affordable: f64) -> Result<f64> {
         let mut instance = self.started(setting)?;
         let mut at = self.experiment.start;
@@ -133,7 +134,7 @@ impl<'s> Subject<'s> {
         Ok(at)
     }
 
-    /// The step that this setting begins with [s].
+    /// The step that this setting begins with \[s].
     pub fn first_step(&self, setting: &Setting) -> Result<f64> {
         let [step] = self.started(setting)?.get_real(&references(self.scene, ["solver.next_step"])?)?;
         Ok(step)
@@ -175,5 +176,5 @@ fn references<const N: usize>(scene: &Scene, names: [&str; N]) -> Result<[Refere
 
 fn point(outputs: [f64; OUTPUTS.len()]) -> Point {
     let [x, y, z, t_x, t_y, t_z, turns, angle, residual, energy, kinetic] = outputs;
-    Point { r_c: [x, y, z], axis: [t_x, t_y, t_z], turns, angle, residual, energy, kinetic }
+    Point { r_c: Vector3::new(x, y, z), axis: Vector3::new(t_x, t_y, t_z), turns, angle, residual, energy, kinetic }
 }

@@ -21,12 +21,12 @@ pub fn part(n: usize) -> usize {
     ((n as f64 - 0.9 + 0.8 * jitter) * PARTS as f64 / POINTS as f64) as usize + 1
 }
 
-/// When it is read the `n`th time [s].
+/// When it is read the `n`th time \[s].
 pub fn time(experiment: &Experiment, n: usize) -> f64 {
     end_of_part(experiment, part(n))
 }
 
-/// The end of the `k`th part [s].
+/// The end of the `k`th part \[s].
 pub fn end_of_part(experiment: &Experiment, k: usize) -> f64 {
     let Experiment { start, stop, .. } = *experiment;
     if k == PARTS { stop } else { start + (stop - start) * k as f64 / PARTS as f64 }
@@ -60,13 +60,13 @@ pub fn shorten(subject: &mut Subject) {
     }
 }
 
-/// The stop of runs that are to end where a trial came to [s].
+/// The stop of runs that are to end where a trial came to \[s].
 fn cut(experiment: &Experiment, reached: f64) -> f64 {
     let Experiment { start, stop, .. } = *experiment;
     if reached < stop { start + round(reached - start) } else { stop }
 }
 
-/// One of ten numbers in a power of ten, not longer than this span [s].
+/// One of ten numbers in a power of ten, not longer than this span \[s].
 fn round(span: f64) -> f64 {
     let exponent = span.log10().floor() as i32;
     let digits = ["8", "6", "5", "4", "3", "2.5", "2", "1.5", "1.2", "1"];
@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_it_is_read_at_irregular_times_to_the_very_end() {
+    fn it_is_read_at_irregular_times_to_the_very_end() {
         let parts: Vec<_> = (0..=POINTS).map(part).collect();
         assert_eq!((parts[0], parts[POINTS]), (0, PARTS));
         assert!(parts.is_sorted_by(|a, b| a < b), "{parts:?}");
@@ -106,7 +106,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_span_is_cut_to_a_number_that_a_user_would_type() {
+    fn a_span_is_cut_to_a_number_that_a_user_would_type() {
         let scene = Experiment { start: 3.0, stop: 13.0, step: 0.1, tolerance: 1e-6 };
         assert_eq!([3.7, 12.9, 13.0].map(|reached| cut(&scene, reached)), [3.6, 11.0, 13.0]);
         for (span, cut) in [(2270.0, 2000.0), (0.49, 0.4), (5.0, 5.0), (1e-3, 1e-3), (9.99, 8.0), (123.0, 120.0)] {
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_cut_span_is_told() {
+    fn a_cut_span_is_told() {
         let scene = Experiment { start: 0.0, stop: 60.0, step: 0.01, tolerance: 1e-8 };
         assert_eq!(told(&scene, &scene), None);
         let some = told(&Experiment { stop: 5.0, ..scene }, &scene).unwrap();

@@ -77,24 +77,24 @@ pub fn curves(subject: &Subject) -> Vec<Vec<Setting>> {
     curves
 }
 
-/// The step that `symplectic` would choose at its order for a tolerance of 1e-6 [s].
+/// The step that `symplectic` would choose at its order for a tolerance of 1e-6 \[s].
 fn step_of(subject: &Subject, order: i32) -> Result<f64> {
     subject.first_step(&Setting { order: Some(order), ..with_tolerance(SYMPLECTIC, 1e-6) })
 }
 
-/// The mean step that dop853 takes at a tolerance of 1e-6 [s], 0 where it takes too long.
+/// The mean step that dop853 takes at a tolerance of 1e-6 \[s], 0 where it takes too long.
 fn mean_step(subject: &Subject) -> f64 {
     let Experiment { start, stop, .. } = subject.experiment;
     subject.run(&with_tolerance("dop853", 1e-6), 1, PATIENCE).map_or(0.0, |run| (stop - start) / run.costs[0])
 }
 
-/// What suits a method of this order where one of order 8 takes steps of this size [s] for a tolerance of 1e-6: an error goes as
+/// What suits a method of this order where one of order 8 takes steps of this size \[s] for a tolerance of 1e-6: an error goes as
 /// the step to the power of the order.
 fn like(step: f64, order: i32) -> f64 {
     step * 1e-6_f64.powf(1.0 / f64::from(order) - 1.0 / 8.0)
 }
 
-/// `symplectic` with steps about this one [s], two digits each.
+/// `symplectic` with steps about this one \[s], two digits each.
 fn with_steps(order: i32, step: f64) -> Vec<Setting> {
     let size = |n: i32| format!("{:.1e}", step * 0.5_f64.powf(0.5 * f64::from(n))).parse().expect("a number");
     STEPS.map(|n| Setting { method: SYMPLECTIC, order: Some(order), parameter: STEP, value: size(n) }).collect()
@@ -179,7 +179,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_tolerances_are_those_that_a_user_types() {
+    fn tolerances_are_those_that_a_user_types() {
         let all = tolerances();
         assert_eq!(all[..4], [1e-3, 5e-4, 2e-4, 1e-4]);
         assert_eq!(all[all.len() - 4..], [1e-13, 5e-14, 2e-14, 1e-14]);
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_steps_of_lower_orders_err_as_much_as_those_of_order_8() {
+    fn steps_of_lower_orders_err_as_much_as_those_of_order_8() {
         assert_eq!(like(0.3, 8), 0.3);
         for order in [2, 4, 6] {
             let ratio = like(0.3, order).powi(order) / 0.3_f64.powi(order);
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_beyond_a_run_that_takes_too_long_none_is_tried() {
+    fn beyond_a_run_that_takes_too_long_none_is_tried() {
         let curve: Vec<_> = swept_tolerances().into_iter().map(|value| with_tolerance("m", value)).collect();
         let mut tried = Vec::new();
         let refused = rows(
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_steps_are_those_that_a_user_types() {
+    fn steps_are_those_that_a_user_types() {
         let steps: Vec<_> = with_steps(4, 0.01).iter().map(|setting| setting.value).collect();
         assert_eq!((steps.len(), &steps[..5]), (13, [0.04, 0.028, 0.02, 0.014, 0.01].as_slice()));
         assert!(steps.is_sorted_by(|longer, shorter| longer > shorter));

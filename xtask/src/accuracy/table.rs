@@ -147,13 +147,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn exact_a_setting_is_shown_as_short_as_it_is() {
+    fn a_setting_is_shown_as_short_as_it_is() {
         let at = |value| shown(&row(OURS, "m", value, 1.0, 1.0));
         assert_eq!([1e-7, 2e-13, 10.0 / 997.0].map(at), ["1e-7", "2e-13", "1.0e-2"]);
     }
 
     #[test]
-    fn exact_numbers_have_two_digits() {
+    fn numbers_have_two_digits() {
         let cases = [(4.56e-7, "4.6e-7"), (0.5, "0.50"), (3.52, "3.5"), (31.4, "31"), (0.0, "0"), (1234.0, "1.2e3")];
         for (value, text) in cases {
             assert_eq!(short(value), text);

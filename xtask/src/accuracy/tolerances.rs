@@ -37,7 +37,7 @@ struct Found {
 /// What was measured of a scene.
 struct Measured {
     scene: String,
-    /// Simulated time, and that of the whole scene [s].
+    /// Simulated time, and that of the whole scene \[s].
     spans: [f64; 2],
     /// What cannot be told.
     floor: Relative,
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_row_has_the_worst_error_over_each_tolerance() {
+    fn a_row_has_the_worst_error_over_each_tolerance() {
         let rows: Vec<_> = measured().rows().collect();
         assert_eq!(rows.len(), 16);
         let csv = sheets::csv(&rows);
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn exact_a_table_is_put_between_its_marks() {
+    fn a_table_is_put_between_its_marks() {
         let page = "a\n<!-- other -->\nb\n<!-- end -->\n<!-- tolerances -->\nold\n<!-- end -->\nc\n";
         let made = put(page, MARK, "new\n").unwrap();
         assert_eq!(made, page.replace("old\n", "\nnew\n\n"));

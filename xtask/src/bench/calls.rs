@@ -13,9 +13,9 @@ use std::process::Command;
 struct Line {
     key: String,
     what: String,
-    /// [ns]
+    /// \[ns]
     target: Option<f64>,
-    /// [ns]
+    /// \[ns]
     time: f64,
     /// The functions whose instructions count.
     functions: Vec<String>,

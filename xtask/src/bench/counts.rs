@@ -25,7 +25,7 @@ impl Limit {
 /// Instructions of one call.
 const INSTRUCTIONS: [Limit; 1] = [Limit { scene: "paper", what: "right hand side, equations 12", at_most: 190.0 }];
 
-/// Multiply-adds of a step over those of its method's tableau [1]: so many with this method, which is met.
+/// Multiply-adds of a step over those of its method's tableau \[1]: so many with this method, which is met.
 const ARITHMETIC: (&str, f64) = ("dop853", 1.5);
 
 /// A step that is the method's own arithmetic and nothing else.

@@ -10,7 +10,7 @@ use split_rotor_model::effects;
 use split_rotor_model::scene::Scene;
 use split_rotor_model::variable::Place;
 
-/// fmi2DoStep of the general FMU over that of the scene of the same effects [1].
+/// fmi2DoStep of the general FMU over that of the scene of the same effects \[1].
 const GENERAL: f64 = 1.3;
 
 /// So many sets are drawn.

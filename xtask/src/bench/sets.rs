@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// Effects, each so many times.
 pub type Set = Vec<(&'static Info, usize)>;
 
-/// So likely is an effect in a set [1].
+/// So likely is an effect in a set \[1].
 const LIKELY: f64 = 0.4;
 
 /// The general FMU has so many of a kind.

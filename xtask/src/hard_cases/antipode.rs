@@ -2,11 +2,11 @@
 
 use super::case::{Case, Exact, Phi, follow, of_free, times};
 use super::method::{at, symplectic};
-use crate::oracles::motion::FreeRotor;
-use crate::oracles::rotation;
 use nalgebra::{Vector2, Vector3};
+use oracles::motion::FreeRotor;
+use oracles::rotation;
 
-/// δ [rad], and the bounds of dop853, dopri5, stiff, symplectic and auto.
+/// δ \[rad], and the bounds of dop853, dopri5, stiff, symplectic and auto.
 const PASSAGES: [(f64, [f64; 5]); 5] = [
     (1.0, [2e-11, 2e-9, 2e-7, 1.5e-12, 8e-14]),
     (1e-2, [1e-11, 1e-9, 2e-5, 2e-11, 1.5e-12]),

@@ -2,9 +2,9 @@
 
 use super::case::{Case, Exact, Phi, Setting, body, follow, start, times};
 use super::method::{Method, at, symplectic};
-use crate::oracles::asymmetric::Asymmetric;
-use crate::oracles::rotation;
 use nalgebra::{Vector2, Vector3};
+use oracles::asymmetric::Asymmetric;
+use oracles::rotation;
 use std::f64::consts::TAU;
 
 /// Who knows the answer.

@@ -66,15 +66,15 @@ impl Stage {
 /// The rotor at a communication point.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown {
-    /// Position of the mass centre [m].
+    /// Position of the mass centre \[m].
     pub r_c: Vector3<f64>,
     /// The axis.
     pub axis: Vector3<f64>,
-    /// φ = 2π `turns` + `angle` [rad].
+    /// φ = 2π `turns` + `angle` \[rad].
     pub turns: f64,
     /// See `turns`.
     pub angle: f64,
-    /// What the energy ledger leaves over [J].
+    /// What the energy ledger leaves over \[J].
     pub residual: f64,
 }
 
@@ -129,7 +129,7 @@ impl<'s> Bench<'s> {
 pub struct Rotor<'b> {
     bench: &'b Bench<'b>,
     instance: Instance<'b>,
-    /// The communication point [s].
+    /// The communication point \[s].
     t: f64,
     /// Evaluations that the bench has heard of.
     spent: Cell<f64>,
@@ -150,20 +150,20 @@ impl Rotor<'_> {
         }
     }
 
-    /// Starts a run between these times [s].
+    /// Starts a run between these times \[s].
     pub fn start(&mut self, t: f64, stop: f64) -> Result<()> {
         self.t = t;
         self.instance.initialize(t, stop)
     }
 
-    /// A communication step of `h` [s].
+    /// A communication step of `h` \[s].
     pub fn step(&mut self, h: f64) -> Result<()> {
         self.instance.do_step(self.t, h)?;
         self.t += h;
         Ok(())
     }
 
-    /// A communication step to time `t` [s].
+    /// A communication step to time `t` \[s].
     pub fn advance(&mut self, t: f64) -> Result<()> {
         self.instance.do_step(self.t, t - self.t)?;
         self.t = t;
@@ -198,12 +198,12 @@ impl Rotor<'_> {
         self.instance.journal()
     }
 
-    /// The communication point [s].
+    /// The communication point \[s].
     pub fn time(&self) -> f64 {
         self.t
     }
 
-    /// The communication point [s] as the FMU has it.
+    /// The communication point \[s] as the FMU has it.
     pub fn last_successful_time(&self) -> Result<f64> {
         self.instance.last_successful_time()
     }

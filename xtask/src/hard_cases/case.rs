@@ -2,9 +2,9 @@
 
 use super::bench::{Bench, Shown};
 use super::method::Method;
-use crate::oracles::{motion, rotation};
 use anyhow::Result;
 use nalgebra::{Vector2, Vector3};
+use oracles::{motion, rotation};
 use std::f64::consts::TAU;
 
 /// Runs a case and tells its error.
@@ -58,15 +58,15 @@ impl Found {
 /// What is known of the motion at a time.
 #[derive(Clone, Copy, Debug)]
 pub struct Exact {
-    /// Position of the mass centre [m].
+    /// Position of the mass centre \[m].
     pub r_c: Option<Vector3<f64>>,
     /// The axis.
     pub axis: Vector3<f64>,
-    /// φ [rad].
+    /// φ \[rad].
     pub phi: Phi,
 }
 
-/// What is known of φ [rad].
+/// What is known of φ \[rad].
 #[derive(Clone, Copy, Debug)]
 pub enum Phi {
     /// All of it.
@@ -78,12 +78,12 @@ pub enum Phi {
 }
 
 impl Exact {
-    /// A free rotor at time `t` [s].
+    /// A free rotor at time `t` \[s].
     pub fn of_free(rotor: &motion::FreeRotor, t: f64) -> Self {
         Self { r_c: None, axis: rotor.axis(t), phi: Phi::Whole(rotor.phi_in_closed_form(t)) }
     }
 
-    /// A steady whirl at time `t` [s].
+    /// A steady whirl at time `t` \[s].
     pub fn of_whirl(whirl: &motion::Whirl, t: f64) -> Self {
         Self { r_c: Some(whirl.r_c(t)), axis: rotation::axis(&whirl.gamma(t)), phi: Phi::Whole(whirl.phi(t)) }
     }
@@ -105,12 +105,12 @@ impl Exact {
     }
 }
 
-/// The task to follow a motion that is known: these settings, and what is known at times [s] since the start.
+/// The task to follow a motion that is known: these settings, and what is known at times \[s] since the start.
 pub fn follow(settings: Vec<Setting>, times: Vec<f64>, exact: impl Fn(f64) -> Exact + 'static) -> Task {
     follow_from(0.0, 1.0, settings, times, exact)
 }
 
-/// [`follow`] of a motion that starts at time `start` [s], with errors of axis and place in units of `scale`.
+/// [`follow`] of a motion that starts at time `start` \[s], with errors of axis and place in units of `scale`.
 pub fn follow_from(
     start: f64,
     scale: f64,
@@ -130,7 +130,7 @@ pub fn follow_from(
     })
 }
 
-/// So many times, evenly up to `end` [s].
+/// So many times, evenly up to `end` \[s].
 pub fn times(end: f64, count: u32) -> Vec<f64> {
     (1..=count).map(|n| end * f64::from(n) / f64::from(count)).collect()
 }
@@ -140,7 +140,7 @@ pub fn body(m: f64, axial: f64, transverse: f64, l: f64) -> Vec<Setting> {
     vec![("rotor.m", m), ("rotor.Ja", axial), ("rotor.Jt", transverse), ("rotor.l", l)]
 }
 
-/// The start: r_c [m], v_c [m/s], φ [rad], γ [rad] and ω [rad/s].
+/// The start: r_c \[m], v_c [m/s], φ \[rad], γ \[rad] and ω [rad/s].
 pub fn start(
     r_c: &Vector3<f64>,
     v_c: &Vector3<f64>,

@@ -1,10 +1,10 @@
 //! Free rotors: many turns, shapes at the limit of what can exist, and no springs.
 
 use super::case::{ALL_IT_TAKES, Case, Exact, Phi, body, follow, of_free, start, support, times};
-use super::method::{at, symplectic};
-use crate::oracles::motion::FreeRotor;
-use crate::oracles::rotation;
+use super::method::{at, symplectic, usual};
 use nalgebra::{Vector2, Vector3};
+use oracles::motion::FreeRotor;
+use oracles::rotation;
 use std::f64::consts::TAU;
 
 /// The paper's rotor, nutating: a flattest disk, Ja = 2 Jt.
@@ -122,12 +122,7 @@ fn needle() -> Case {
         hard: "spin and tumble are a million apart in inertia",
         oracle: POINSOT,
         scene: "free_top",
-        methods: vec![
-            (at("dop853", 1e-12), 2e-6),
-            (at("dopri5", 1e-12), 2e-6),
-            (at("stiff", 1e-10), 6e-4),
-            (symplectic(6, 0.1), 3e-6),
-        ],
+        methods: usual([2e-6, 2e-6, 6e-4], [(symplectic(6, 0.1), 3e-6)]),
         mutant: ("start.omega.x", 1.0 + 1e-6),
         task: follow(of_free(&rotor), times(2.0, 50), move |t| Exact::of_free(&rotor, t)),
     }
@@ -140,12 +135,7 @@ fn tilted_disk() -> Case {
         hard: "no body is flatter; it tilts widely",
         oracle: POINSOT,
         scene: "free_top",
-        methods: vec![
-            (at("dop853", 1e-12), 1e-11),
-            (at("dopri5", 1e-12), 3e-9),
-            (at("stiff", 1e-10), 3e-7),
-            (symplectic(6, 0.1), 2e-12),
-        ],
+        methods: usual([1e-11, 3e-9, 3e-7], [(symplectic(6, 0.1), 2e-12)]),
         mutant: ("rotor.Jt", 1.0 + 1e-6),
         task: follow(of_free(&rotor), times(10.0, 50), move |t| Exact::of_free(&rotor, t)),
     }
@@ -162,13 +152,7 @@ fn falling() -> Case {
         hard: "springs of zero must do nothing",
         oracle: "parabola and Poinsot's motion",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 3e-11),
-            (at("dopri5", 1e-12), 4e-9),
-            (at("stiff", 1e-10), 4e-7),
-            (symplectic(6, 0.1), 5e-12),
-            (at("auto", 1e-8), 8e-7),
-        ],
+        methods: usual([3e-11, 4e-9, 4e-7], [(symplectic(6, 0.1), 5e-12), (at("auto", 1e-8), 8e-7)]),
         mutant: ("gravity.g.z", 1.0 + 1e-7),
         task: follow(settings, times(10.0, 50), move |t| Exact {
             r_c: Some(v * t + g * (0.5 * t * t)),
@@ -188,13 +172,7 @@ fn floating() -> Case {
         hard: "nothing to measure an error by",
         oracle: "stays, φ = 50 t",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 4e-12),
-            (at("dopri5", 1e-12), 6e-14),
-            (at("stiff", 1e-10), 1.5e-12),
-            (symplectic(6, 0.1), 5e-12),
-            (at("auto", 1e-8), 3e-12),
-        ],
+        methods: usual([4e-12, 6e-14, 1.5e-12], [(symplectic(6, 0.1), 5e-12), (at("auto", 1e-8), 3e-12)]),
         mutant: ("start.omega.y", 1.0 + 1e-6),
         task: follow(settings, times(100.0, 50), move |t| Exact { r_c: Some(place), axis, phi: Phi::Whole(50.0 * t) }),
     }

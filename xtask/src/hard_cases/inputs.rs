@@ -1,12 +1,12 @@
 //! Steps and spikes of the drive's torque.
 
 use super::case::{Case, Exact, Found, Phi, Setting, start, support, times};
-use super::method::at;
-use crate::oracles::rigid_body::{Moving, RigidBody};
+use super::method::{at, usual};
 use anyhow::Result;
 use nalgebra::{Vector2, Vector3};
+use oracles::rigid_body::RigidBody;
 
-/// A torque [N·m] that is held for a time [s].
+/// A torque [N·m] that is held for a time \[s].
 type Held = (f64, f64);
 
 /// The family.
@@ -27,7 +27,7 @@ fn steps() -> Vec<Held> {
     (0..40).map(|n| (if n % 2 == 0 { 1e4 } else { -1e4 + 10.0 * f64::from(n) }, 0.01)).collect()
 }
 
-/// An impulse of 1 N·m·s within `width` [s], ten times, a tenth of a second between them.
+/// An impulse of 1 N·m·s within `width` \[s], ten times, a tenth of a second between them.
 fn spikes(width: f64) -> Vec<Held> {
     (0..10).flat_map(|n| [(0.0, 0.1), (if n % 2 == 0 { 1.0 } else { -0.5 } / width, width)]).collect()
 }
@@ -69,32 +69,18 @@ fn tilted() -> Case {
         hard: "the joint passes the torque on across the tilt",
         oracle: "a rigid body by quaternions, extrapolated to order 16",
         scene: "driven",
-        methods: vec![(at("dop853", 1e-12), 9e-13), (at("dopri5", 1e-12), 6e-11), (at("stiff", 1e-10), 5e-9)],
+        methods: usual([9e-13, 6e-11, 5e-9], []),
         mutant: ("drive.tau", 1.0 + 1e-6),
         task: Box::new(move |bench| {
-            let free = RigidBody {
-                m: 5.0,
-                Ja: 0.15625,
-                Jt: 0.078125,
-                l: 0.75,
-                g: Vector3::zeros(),
-                c: [0.0; 2],
-                d: [0.0; 2],
-                tau: |_| 0.0,
-                pushed: [Vector3::zeros(); 2],
-            };
-            let mut moving = free.start(Vector3::zeros(), Vector3::zeros(), 0.0, &gamma, &omega);
-            driven(bench, &settings, &spiky, |held| {
-                moving = pushed(&free, &moving, held);
+            let mut body = RigidBody::free(5.0, [0.15625, 0.078125, 0.078125], 0.75);
+            let mut moving = body.start(Vector3::zeros(), Vector3::zeros(), 0.0, gamma, omega);
+            driven(bench, &settings, &spiky, |(tau, time)| {
+                body.tau[0] = tau;
+                moving = body.run(0.0, &moving, time, 8);
                 Exact { r_c: Some(moving.r), axis: moving.axis(), phi: Phi::Whole(moving.phi) }
             })
         }),
     }
-}
-
-/// The body after a torque was held.
-fn pushed(body: &RigidBody, from: &Moving, (tau, time): Held) -> Moving {
-    body.held(tau, from, time, 8)
 }
 
 /// Holds one torque after the other; `exact` is asked after each.

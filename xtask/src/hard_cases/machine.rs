@@ -2,27 +2,27 @@
 
 use super::bench::{Bench, Rotor};
 use super::case::{Found, Task};
-use crate::oracles::machine::{Machine, Pace, Run, Shown};
 use anyhow::{Result, ensure};
 use nalgebra::Vector3;
+use oracles::machine::{Machine, Pace, Run, Shown};
 use std::cell::OnceCell;
 use std::f64::consts::TAU;
 
-/// A step of the oracle errs by so much of the motion [1].
+/// A step of the oracle errs by so much of the motion \[1].
 const STEP: f64 = 1e-13;
 
 /// A rotor, when it is looked at, and what partners do at its ports.
 pub struct Scene {
     /// The rotor.
     pub machine: Machine,
-    /// When it is looked at [s].
+    /// When it is looked at \[s].
     pub times: Vec<f64>,
     /// Springs [N/m] and dampers [N·s/m] at the ports, f = −k r − c v across e, reckoned at each time from what the ports
     /// show there; zero until the first.
     pub partners: Vec<[f64; 2]>,
 }
 
-/// What a partner answers to place [m] and velocity [m/s] of its port: force along y and z [N].
+/// What a partner answers to place \[m] and velocity [m/s] of its port: force along y and z \[N].
 fn answer([r, v]: &[Vector3<f64>; 2], [k, c]: &[f64; 2]) -> [f64; 2] {
     let force = -(r * *k + v * *c);
     [force.y, force.z]
@@ -36,7 +36,7 @@ impl Scene {
 
     /// What the oracle shows at the start and at all times.
     pub fn exact(&self) -> Result<Vec<Shown>> {
-        use crate::oracles::machine::Input::Force;
+        use oracles::machine::Input::Force;
         let mut run = Run::new(&self.machine, Pace::Adaptive(STEP));
         let mut shown = vec![run.show()];
         for t in &self.times {
@@ -84,10 +84,14 @@ impl Scene {
     }
 }
 
-/// A rotor with the settings of a machine, started for a run to `stop` [s].
+/// A rotor with the settings of a machine, started for a run to `stop` \[s].
 pub fn started<'b>(bench: &'b Bench<'b>, machine: &Machine, stop: f64) -> Result<Rotor<'b>> {
-    let mut rotor = bench.rotor(&[])?;
-    for (name, value) in settings(machine) {
+    let mut rotor = bench.rotor(&[("effects.gravity", 0.0), ("effects.support", 0.0)])?;
+    for (name, value) in machine.settings() {
+        let effect = name.split('.').next().unwrap_or_default();
+        if !["rotor", "start"].contains(&effect) {
+            rotor.set(&format!("effects.{effect}"), 1.0)?;
+        }
         rotor.set(&name, value)?;
     }
     rotor.start(0.0, stop)?;
@@ -124,58 +128,4 @@ pub fn error(shown: &[Shown], exact: &[Shown]) -> Found {
         found = found.or(if off == 0.0 { 0.0 } else { off / size }, of);
     }
     found
-}
-
-/// A machine's parameters and its inputs at the start.
-fn settings(machine: &Machine) -> Vec<(String, f64)> {
-    use crate::oracles::machine::Input;
-    let mut all = Vec::new();
-    let mut set = |name: &str, value: f64| all.push((name.to_owned(), value));
-    let Machine { m, Ja, Jt, l, start, .. } = machine;
-    let body = [("m", m), ("Ja", Ja), ("Jt", Jt), ("l", l)];
-    body.iter().for_each(|(name, value)| set(&format!("rotor.{name}"), **value));
-    for (name, v) in [("r_c", start.r_c), ("v_c", start.v_c), ("omega", start.omega)] {
-        ["x", "y", "z"].iter().zip(&v).for_each(|(axis, value)| set(&format!("start.{name}.{axis}"), *value));
-    }
-    set("effects.gravity", f64::from(machine.gravity.is_some()));
-    let gravity = machine.gravity.unwrap_or_default();
-    ["x", "y", "z"].iter().zip(&gravity).for_each(|(axis, value)| set(&format!("gravity.g.{axis}"), *value));
-    set("effects.support", f64::from(machine.support.is_some()));
-    set("effects.drive", f64::from(machine.drive));
-    if let Some(other) = machine.Jt2 {
-        set("effects.asymmetry", 1.0);
-        set("asymmetry.Jt2", other);
-    }
-    for (n, one) in (1..).zip(&machine.unbalances) {
-        set(&format!("effects.unbalance[{n}]"), 1.0);
-        let of = [("mass", one.mass), ("radius", one.radius), ("angle", one.angle), ("position", one.position)];
-        of.iter().for_each(|(name, value)| set(&format!("unbalance[{n}].{name}"), *value));
-    }
-    for (n, bearing) in (1..).zip(&machine.bearings) {
-        set(&format!("effects.bearing[{n}]"), 1.0);
-        set(&format!("bearing[{n}].position"), bearing.position);
-        for (name, [[yy, yz], [zy, zz]]) in [("k", bearing.k), ("c", bearing.c)] {
-            let of = [("yy", yy), ("yz", yz), ("zy", zy), ("zz", zz)];
-            of.iter().for_each(|(axes, value)| set(&format!("bearing[{n}].{name}{axes}"), *value));
-        }
-    }
-    if let Some([d, position]) = machine.rotating_damping {
-        set("effects.rotating_damping", 1.0);
-        set("rotating_damping.d", d);
-        set("rotating_damping.position", position);
-    }
-    if let Some([linear, quadratic]) = machine.drag {
-        set("effects.drag", 1.0);
-        set("drag.linear", linear);
-        set("drag.quadratic", quadratic);
-    }
-    for (n, position) in (1..).zip(&machine.ports) {
-        set(&format!("effects.port[{n}]"), 1.0);
-        set(&format!("port[{n}].position"), *position);
-    }
-    for (input, value) in &machine.inputs {
-        assert_eq!(*input, Input::Torque, "the only input that a case starts with");
-        set("drive.tau", *value);
-    }
-    all
 }

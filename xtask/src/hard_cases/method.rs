@@ -35,7 +35,14 @@ pub fn at(name: &'static str, tolerance: f64) -> Method {
     Method { name, settings: vec![("solver.relative_tolerance", tolerance)] }
 }
 
-/// The composition of this order in steps of `h` [s].
+/// The composition of this order in steps of `h` \[s].
 pub fn symplectic(order: u32, h: f64) -> Method {
     Method { name: "symplectic", settings: vec![("solver.order", f64::from(order)), ("solver.step_size", h)] }
+}
+
+/// The methods that most cases are run with, each with the bound of its error: dop853 and dopri5 at 1e-12, stiff at 1e-10, and
+/// others.
+pub fn usual(bounds: [f64; 3], others: impl IntoIterator<Item = (Method, f64)>) -> Vec<(Method, f64)> {
+    let methods = [at("dop853", 1e-12), at("dopri5", 1e-12), at("stiff", 1e-10)];
+    methods.into_iter().zip(bounds).chain(others).collect()
 }

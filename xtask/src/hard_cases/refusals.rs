@@ -165,7 +165,7 @@ fn too_short_steps() -> Case {
     }
 }
 
-/// Runs to `end` [s], in steps of a hundredth, and must be discarded with this reason; the time reached decides.
+/// Runs to `end` \[s], in steps of a hundredth, and must be discarded with this reason; the time reached decides.
 fn discarded(settings: Vec<Setting>, end: f64, judge: impl Fn(f64) -> Found + 'static, reason: &'static str) -> Task {
     Box::new(move |bench| {
         let mut rotor = bench.rotor(&settings)?;

@@ -3,10 +3,10 @@
 use super::case::{Case, times};
 use super::machine::Scene;
 use super::method::{Method, at, symplectic};
-use crate::oracles::machine::known::{drifting, ordinary};
-use crate::oracles::machine::{Machine, Shown, Start};
 use anyhow::{Result, ensure};
 use nalgebra::Vector3;
+use oracles::machine::known::{drifting, ordinary};
+use oracles::machine::{Machine, Shown, Start};
 
 /// Who knows the answer.
 const ORACLE: &str = "the laws in quaternions, extrapolated to order 22";
@@ -20,7 +20,7 @@ fn with(methods: Vec<Method>, bounds: &[f64]) -> Vec<(Method, f64)> {
     methods.into_iter().zip(bounds.iter().copied()).collect()
 }
 
-/// Every method, that of order 8 in steps of this size [s].
+/// Every method, that of order 8 in steps of this size \[s].
 fn tried(step: f64) -> Vec<Method> {
     vec![
         at("dop853", 1e-8),
@@ -67,7 +67,7 @@ fn run_down() -> Case {
     }
 }
 
-/// Its largest whirl until 3.3 s, looked at each 0.1 ms [m]: from another simulator.
+/// Its largest whirl until 3.3 s, looked at each 0.1 ms \[m]: from another simulator.
 const WHIRL: f64 = 20.492464e-6;
 
 fn whirl_is_known(shown: &[Shown]) -> Result<()> {

@@ -27,7 +27,7 @@ pub struct Row {
     pub mutated: Option<Outcome>,
     /// Evaluations of the right-hand side.
     pub evaluations: f64,
-    /// How long it took [s].
+    /// How long it took \[s].
     pub seconds: f64,
 }
 

@@ -4,10 +4,10 @@ use super::case::{Case, times};
 use super::machine::{Scene, error, started};
 use super::method::{Method, at};
 use crate::fmu::{DISCARD, Refused};
-use crate::oracles::machine::known::ordinary;
-use crate::oracles::machine::{Machine, Start};
 use anyhow::{Context, Result, ensure};
 use nalgebra::Vector3;
+use oracles::machine::known::ordinary;
+use oracles::machine::{Machine, Start};
 
 /// The family.
 pub fn cases() -> Vec<Case> {
@@ -80,7 +80,7 @@ fn asymmetric(bounds: [f64; 5]) -> Case {
     }
 }
 
-/// The ordinary rotor with cross coupling [N/m] that makes it unstable: right until `follow` [s]; beyond, each call ends.
+/// The ordinary rotor with cross coupling [N/m] that makes it unstable: right until `follow` \[s]; beyond, each call ends.
 fn cross_coupled(skew: f64, follow: f64, bounds: [f64; 5]) -> Case {
     let mut machine = ordinary();
     (machine.bearings[0].k[0][1], machine.bearings[0].k[1][0]) = (skew, -skew);

@@ -2,9 +2,8 @@
 
 use super::case::{Case, Exact, follow, of_whirl, times};
 use super::method::{at, symplectic};
-use super::whirl::paper;
-use crate::oracles::motion::Whirl;
-use crate::oracles::numerics::root;
+use oracles::motion::Whirl;
+use oracles::numerics::root;
 
 /// Spin [rad/s]; bounds of dop853, stiff, symplectic and auto where the axis precesses, and of dop853 and symplectic where
 /// it nutates, and there of auto.
@@ -21,8 +20,8 @@ pub fn cases() -> Vec<Case> {
 
 /// The whirl between these rates [rad/s] that goes with the spin [rad/s].
 fn whirl_of(spin: f64, theta: f64, slowest: f64, fastest: f64) -> Whirl {
-    let rate = root(|rate| paper(theta, rate).axial_spin() - spin, slowest, fastest);
-    paper(theta, rate)
+    let rate = root(|rate| Whirl::paper(theta, rate).axial_spin() - spin, slowest, fastest);
+    Whirl::paper(theta, rate)
 }
 
 /// The tilt spring makes the axis precess, slower as it spins faster: Ω ≈ −c2/(Ja ω).

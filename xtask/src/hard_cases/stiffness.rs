@@ -2,8 +2,7 @@
 
 use super::case::{Case, Exact, follow, of_whirl, times};
 use super::method::{at, symplectic};
-use super::whirl::paper;
-use crate::oracles::motion::Whirl;
+use oracles::motion::Whirl;
 
 /// Stiffness c1 [N/m]; bounds of dop853, stiff and auto.
 const STIFFNESSES: [(f64, [f64; 3]); 7] = [
@@ -26,7 +25,7 @@ pub fn cases() -> Vec<Case> {
 
 /// A whirl of half a radian on such a support, 1 s or, where that is 10⁸ evaluations, 0.1 s, at a rate below all of the support's own that are faster.
 fn support(c1: f64, bounds: [f64; 3]) -> Case {
-    let whirl = Whirl { c1, ..paper(0.5, 40.0) };
+    let whirl = Whirl { c1, ..Whirl::paper(0.5, 40.0) };
     let end = if c1 > 1e9 { 0.1 } else { 1.0 };
     let methods = [at("dop853", 1e-12), at("stiff", 1e-10), at("auto", 1e-8)];
     Case {

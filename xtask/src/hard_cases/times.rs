@@ -1,11 +1,11 @@
 //! Late times, tiny and huge communication steps: each counted.
 
 use super::case::{Case, Exact, Found, follow_from, of_whirl, times};
-use super::method::at;
-use super::whirl::paper;
+use super::method::{at, symplectic, usual};
 use anyhow::ensure;
+use oracles::motion::Whirl;
 
-/// Start [s], communication step [s], how many, and the bounds of dop853, stiff and auto. The last two steps are of half a
+/// Start \[s], communication step \[s], how many, and the bounds of dop853, stiff and auto. The last two steps are of half a
 /// microsecond and the least that a double of 10⁹ s can tell.
 const STEPS: [(f64, f64, u32, [f64; 3]); 7] = [
     (0.0, 1e-9, 100_000, [2.5e-15, 2.5e-15, 5e-15]),
@@ -26,28 +26,22 @@ pub fn cases() -> Vec<Case> {
 
 /// From t = 10⁹ s, where a double knows the time to 1.2e-7 s, in quarters of a second.
 fn late() -> Case {
-    let whirl = paper(0.1, 100.0);
+    let whirl = Whirl::paper(0.1, 100.0);
     Case {
         name: "start at t = 10⁹ s, 10 s in quarters".into(),
         hard: "a double knows that time to 1.2e-7 s",
         oracle: "steady whirl in closed form (ORACLES.md 1)",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 7e-12),
-            (at("dopri5", 1e-12), 8e-10),
-            (at("stiff", 1e-10), 6e-8),
-            (super::method::symplectic(8, 1.0 / 1024.0), 1.5e-10),
-            (at("auto", 1e-8), 2e-7),
-        ],
+        methods: usual([7e-12, 8e-10, 6e-8], [(symplectic(8, 1.0 / 1024.0), 1.5e-10), (at("auto", 1e-8), 2e-7)]),
         mutant: ("support.c2", 1.0 + 1e-5),
         task: follow_from(1e9, 1.0, of_whirl(&whirl), times(10.0, 40), move |t| Exact::of_whirl(&whirl, t)),
     }
 }
 
-/// So many communication steps of `h` [s] from time `from` [s]; each must be done.
+/// So many communication steps of `h` \[s] from time `from` \[s]; each must be done.
 fn steps(from: f64, h: f64, count: u32, bounds: [f64; 3]) -> Case {
     let methods = [at("dop853", 1e-12), at("stiff", 1e-10), at("auto", 1e-8)];
-    let whirl = paper(0.1, 100.0);
+    let whirl = Whirl::paper(0.1, 100.0);
     let settings = of_whirl(&whirl);
     Case {
         name: format!("{count} communication steps of {h:.3e} s from t = {from:e} s"),

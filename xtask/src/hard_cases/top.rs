@@ -1,13 +1,13 @@
 //! Lagrange's top on an elastic pivot: steady, asleep, waking, and as its pivot becomes rigid.
 
 use super::case::{Case, Exact, Found, Setting, body, follow, of_whirl, start, support, times};
-use super::method::at;
-use crate::oracles::motion::Whirl;
-use crate::oracles::numerics::log_slope;
-use crate::oracles::rotation;
-use crate::oracles::top::{Lagrange, Upright};
+use super::method::{at, usual};
 use anyhow::Result;
 use nalgebra::{Complex, ComplexField, Vector2, Vector3};
+use oracles::motion::Whirl;
+use oracles::numerics::log_slope;
+use oracles::rotation;
+use oracles::top::{Lagrange, Upright};
 
 /// The paper's rotor on its rod, upright on a pivot of 10⁴ N/m.
 const UPRIGHT: Upright = Upright { m: 5.0, Ja: 0.15625, Jt: 0.078125, l: 0.75, c1: 1e4, g: 9.81, spin: 0.0 };
@@ -18,14 +18,14 @@ pub fn cases() -> Vec<Case> {
 }
 
 fn steady() -> Case {
-    let Upright { m, Ja, Jt, l, c1, g, .. } = UPRIGHT;
-    let whirl = Whirl { m, Ja, Jt, l, c1, c2: 0.0, g, theta: 0.6, rate: 6.0 };
+    let Upright { c1, g, .. } = UPRIGHT;
+    let whirl = Whirl { c1, c2: 0.0, g, ..Whirl::paper(0.6, 6.0) };
     Case {
         name: "Lagrange's top, steady at 0.6 rad".into(),
         hard: "gravity, spin and an elastic pivot balance",
         oracle: "steady whirl in closed form (ORACLES.md 4)",
         scene: "paper",
-        methods: vec![(at("dop853", 1e-12), 2e-12), (at("dopri5", 1e-12), 3e-12), (at("stiff", 1e-10), 3e-10)],
+        methods: usual([2e-12, 3e-12, 3e-10], []),
         mutant: ("gravity.g.x", 1.0 + 1e-6),
         task: follow(of_whirl(&whirl), times(2.0, 50), move |t| Exact::of_whirl(&whirl, t)),
     }
@@ -63,7 +63,7 @@ fn waking(part: f64) -> Case {
     }
 }
 
-/// The motion e^(iΩt) of an upright top from a tilt θ [rad], up to `end` [s]; the error in units of the present tilt.
+/// The motion e^(iΩt) of an upright top from a tilt θ \[rad], up to `end` \[s]; the error in units of the present tilt.
 fn small_motion(top: Upright, rate: Complex<f64>, theta: f64, end: f64) -> super::case::Task {
     let Upright { m, Ja, Jt, l, c1, g, spin } = top;
     let at_time = move |t: f64| (rate * Complex::i() * t).exp() * theta;
@@ -111,7 +111,7 @@ fn rigid() -> Case {
     }
 }
 
-/// The largest difference of cos θ from a rigid pivot's, over 1 s [1].
+/// The largest difference of cos θ from a rigid pivot's, over 1 s \[1].
 fn from_lagrange(bench: &super::bench::Bench, c1: f64) -> Result<f64> {
     let Upright { m, Ja, Jt, l, g, .. } = UPRIGHT;
     let (theta, spin) = (0.6, 150.0);

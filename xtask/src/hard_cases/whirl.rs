@@ -1,20 +1,15 @@
 //! Steady whirl of the paper's rotor on its springs, at any tilt.
 
 use super::case::{ALL_IT_TAKES, Case, Exact, follow, follow_from, of_whirl, start, support, times};
-use super::method::{at, symplectic};
-use crate::oracles::motion::{Whirl, small_whirl};
+use super::method::{at, symplectic, usual};
 use nalgebra::{Vector2, Vector3};
+use oracles::motion::{Whirl, small_whirl};
 use std::f64::consts::TAU;
 
 /// The closed form of all of these.
 const STEADY: &str = "steady whirl in closed form (ORACLES.md 1)";
 
-/// The paper's rotor without gravity, whirling at this tilt [rad] and rate [rad/s].
-pub fn paper(theta: f64, rate: f64) -> Whirl {
-    Whirl { m: 5.0, Ja: 0.15625, Jt: 0.078125, l: 0.75, c1: 2000.0, c2: 500.0, g: 0.0, theta, rate }
-}
-
-/// Tilt [rad] of a whirl at 100 rad/s, and the bounds of dop853, dopri5, stiff and symplectic.
+/// Tilt \[rad] of a whirl at 100 rad/s, and the bounds of dop853, dopri5, stiff and symplectic.
 const TILTS: [(f64, [f64; 4]); 9] = [
     (0.1, [2e-13, 3e-11, 3e-8, 1.5e-11]),
     (0.5, [6e-12, 1e-9, 2e-6, 8e-10]),
@@ -34,7 +29,7 @@ pub fn cases(whole: bool) -> Vec<Case> {
 }
 
 fn tilted(theta: f64, bounds: [f64; 4]) -> Case {
-    let whirl = paper(theta, 100.0);
+    let whirl = Whirl::paper(theta, 100.0);
     let methods = [at("dop853", 1e-14), at("dopri5", 1e-13), at("stiff", 1e-10), symplectic(8, 5e-4)];
     // Whole periods and a third: a phase error must show in every component.
     let times = (1..=100).map(|n| (f64::from(n) - 2.0 / 3.0) * TAU / 100.0).collect();
@@ -60,13 +55,7 @@ fn upright() -> Case {
         hard: "0/0 in every formula of the rotation",
         oracle: "stays upright, φ = 50 t",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 3e-13),
-            (at("dopri5", 1e-12), 3e-13),
-            (at("stiff", 1e-10), 4e-13),
-            (symplectic(6, 1e-2), 5e-13),
-            (at("auto", 1e-8), 3e-13),
-        ],
+        methods: usual([3e-13, 3e-13, 4e-13], [(symplectic(6, 1e-2), 5e-13), (at("auto", 1e-8), 3e-13)]),
         mutant: ("gravity.g.x", -1.0),
         task: follow(settings, times(10.0, 50), move |t| Exact {
             r_c: Some(rest),
@@ -93,21 +82,15 @@ fn vanishing(theta: f64) -> Case {
         hard: "underflow",
         oracle: "stays upright, φ = 50 t",
         scene: "paper",
-        methods: vec![
-            (at("dop853", 1e-12), 2e-13),
-            (at("dopri5", 1e-12), 2e-13),
-            (at("stiff", 1e-10), 4e-13),
-            (symplectic(6, 1e-2), 5e-13),
-            (at("auto", 1e-8), 2e-13),
-        ],
+        methods: usual([2e-13, 2e-13, 4e-13], [(symplectic(6, 1e-2), 5e-13), (at("auto", 1e-8), 2e-13)]),
         mutant: ("start.omega.x", 1.0 + 1e-9),
         task: follow(settings, times(10.0, 50), upright),
     }
 }
 
-/// The slow whirl of the paper's rotor at 50 rad/s, with this tilt [rad].
+/// The slow whirl of the paper's rotor at 50 rad/s, with this tilt \[rad].
 fn slow(theta: f64) -> Whirl {
-    paper(theta, small_whirl(&paper(0.0, 0.0), 50.0)[2])
+    Whirl::paper(theta, small_whirl(&Whirl::paper(0.0, 0.0), 50.0)[2])
 }
 
 /// A small tilt to its own digits: errors in units of it.
@@ -121,14 +104,14 @@ fn small() -> Case {
         hard: "digits of what is next to nothing",
         oracle: STEADY,
         scene: "paper",
-        methods: vec![(at("dop853", 1e-12), 8e-12), (at("dopri5", 1e-12), 6e-11), (at("stiff", 1e-10), 8e-9)],
+        methods: usual([8e-12, 6e-11, 8e-9], []),
         mutant: ("support.c1", 1.0 + 1e-6),
         task: follow_from(0.0, 1e-8, settings, times(10.0, 50), move |t| Exact::of_whirl(&whirl, t)),
     }
 }
 
 fn long(whole: bool) -> Case {
-    let whirl = paper(0.1, 100.0);
+    let whirl = Whirl::paper(0.1, 100.0);
     let turns = if whole { 1e6 } else { 1e4 };
     // In full, a tolerance of 1e-8 loses the phase of the whirl altogether, so `auto` is judged by the shortened case.
     let methods = if whole {

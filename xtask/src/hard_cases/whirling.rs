@@ -1,12 +1,11 @@
 //! Resonance, and whirl that damping or cross coupling drives.
 
 use super::case::{Case, Exact, Phi, Setting, follow_from, times};
-use super::method::{Method, at};
-use crate::oracles::cross_coupling::CrossCoupling;
-use crate::oracles::jeffcott::Jeffcott;
-use crate::oracles::numerics::exp;
-use crate::oracles::rotating_damping::RotatingDamping;
+use super::method::{Method, at, usual};
 use nalgebra::{Complex, Normed, Vector3};
+use oracles::forward_whirl::ForwardWhirl;
+use oracles::jeffcott::Jeffcott;
+use oracles::numerics::exp;
 
 /// The family, with the bounds of [`unbalanced`] and of [`methods`].
 pub fn cases() -> Vec<Case> {
@@ -20,7 +19,7 @@ pub fn cases() -> Vec<Case> {
     ]
 }
 
-/// A place across the axis [m].
+/// A place across the axis \[m].
 fn across(z: Complex<f64>) -> Option<Vector3<f64>> {
     Some(Vector3::new(0.0, z.re, z.im))
 }
@@ -36,14 +35,14 @@ fn unbalanced(name: &str, speed: f64, acceleration: f64, bounds: [f64; 3]) -> Ca
         hard: "resonance: the phase decides how far the whirl grows",
         oracle: "Duhamel's integral",
         scene: "jeffcott",
-        methods: [at("dop853", 1e-12), at("dopri5", 1e-12), at("stiff", 1e-10)].into_iter().zip(bounds).collect(),
+        methods: usual(bounds, []),
         mutant: ("imposed_speed.w", 1.0 + 1e-5),
         task: follow_from(0.0, rotor.eccentricity, settings, times(10.0, 50), exact),
     }
 }
 
-/// Mass [kg], stiffness [N/m] and damping at rest [N·s/m] of the scene's rotor.
-const ROTOR: (f64, f64, f64) = (5.0, 2000.0, 4.0);
+/// The scene's rotor with nothing that drives its whirl.
+const ROTOR: ForwardWhirl = ForwardWhirl { m: 5.0, k: 2000.0, c: 4.0, d: 0.0, s: 0.0 };
 
 /// The forward whirl z = z₀ e^(λt) of that rotor for 10 s; errors in units of its largest size. So small that what it takes from the
 /// spin does not count.
@@ -74,8 +73,7 @@ fn methods(bounds: [f64; 4]) -> Vec<(Method, f64)> {
 
 /// Damping that turns with the rotor drives its whirl above 40 rad/s.
 fn internal(spin: f64, what: &str, bounds: [f64; 4]) -> Case {
-    let (m, k, c) = ROTOR;
-    let [rate, _] = RotatingDamping { m, k, c, d: 4.0 }.rates(spin);
+    let [rate, _] = ForwardWhirl { d: 4.0, ..ROTOR }.rates(spin);
     let name = format!("rotating damping at {spin} rad/s: forward whirl {what}");
     let settings = vec![("start.omega.x", spin), ("rotating_damping.d", 4.0)];
     let mutant = ("rotating_damping.d", 1.0 + 1e-4);
@@ -84,8 +82,7 @@ fn internal(spin: f64, what: &str, bounds: [f64; 4]) -> Case {
 
 /// Cross coupling of 80 N/m and more drives it without any spin.
 fn crossed(s: f64, what: &str, bounds: [f64; 4]) -> Case {
-    let (m, k, c) = ROTOR;
-    let [rate, _] = CrossCoupling { m, k, c }.rates(s);
+    let [rate, _] = ForwardWhirl { s, ..ROTOR }.rates(0.0);
     let name = format!("cross coupling of {s} N/m: forward whirl {what}");
     let half = 0.5 * s;
     let settings = vec![

@@ -79,7 +79,7 @@ pub trait Block {
     fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN];
     /// What they count with until they have been larger.
     fn own_nominal(&self) -> [f64; MOST_OWN];
-    /// Hears that a communication step begins at time `t` [s].
+    /// Hears that a communication step begins at time `t` \[s].
     fn step_from(&mut self, t: f64);
     /// Hears where one ended.
     fn step_to(&mut self, end: &Motion<f64>);
@@ -89,7 +89,7 @@ pub trait Block {
     fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal));
     /// Whether a variable is calculated from the rates of the state too.
     fn asks_rates(&self, row: usize) -> bool;
-    /// The value of a variable, an input's at time `t` [s], a calculated one's of what is switched off zero; None where there is
+    /// The value of a variable, an input's at time `t` \[s], a calculated one's of what is switched off zero; None where there is
     /// none, or nothing is shown.
     fn value(&self, row: usize, t: f64, motion: Option<&Motion<f64>>, rates: Option<&Rates<f64>>) -> Option<f64>;
     /// The same of a calculated one with its derivative.

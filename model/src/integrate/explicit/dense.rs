@@ -14,7 +14,7 @@ const ROUGH: f64 = 100.0;
 const MOST: f64 = 1e5;
 
 impl<const N: usize> Explicit<N> {
-    /// The state at a time `t` [s] within the last step.
+    /// The state at a time `t` \[s] within the last step.
     pub fn dense(&mut self, system: &impl System<N>, t: f64) -> [f64; N] {
         if t == self.segment.t || self.segment.h == 0.0 {
             return self.segment.y;
@@ -59,7 +59,7 @@ impl<const N: usize> Explicit<N> {
         self.segment.rough = self.roughness(system) > ROUGH;
     }
 
-    /// The last term of the polynomial in the middle of the step, in units of the tolerance [1].
+    /// The last term of the polynomial in the middle of the step, in units of the tolerance \[1].
     fn roughness(&self, system: &impl System<N>) -> f64 {
         let Segment { h, y, r, .. } = &self.segment;
         let terms = self.terms();

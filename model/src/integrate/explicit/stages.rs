@@ -115,7 +115,7 @@ impl<const N: usize> Explicit<N> {
         combined
     }
 
-    /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance [1].
+    /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance \[1].
     #[inline(always)]
     fn error_norm<P: Pair, F: System<N>, const ALL: bool>(&self, system: &F, seen: &Squares<N>) -> f64 {
         let weights = self.weights(system, self.h, seen);

@@ -6,14 +6,14 @@ use nalgebra::Complex;
 
 /// Both systems of a step of one size.
 pub struct Collocation<const N: usize> {
-    /// Size of the step [s].
+    /// Size of the step \[s].
     pub h: f64,
     real: Lu<f64, N>,
     complex: Lu<Complex<f64>, N>,
 }
 
 impl<const N: usize> Collocation<N> {
-    /// For a step of size `h` [s] of a system that depends on the first `size` components.
+    /// For a step of size `h` \[s] of a system that depends on the first `size` components.
     pub fn new(jacobian: &[[f64; N]; N], h: f64, size: usize) -> Self {
         let (gamma, pair) = (GAMMA / h, PAIR / h);
         let real = std::array::from_fn(|i| {

@@ -1,0 +1,144 @@
+//! Extrapolated inputs: a polynomial of their degree is followed exactly, late or not; what a master says wins; and what is
+//! remembered goes with the state.
+
+use crate::harness::named::Named;
+use crate::harness::within;
+
+/// An upright rotor with a shaft, whose speed is the integral of the torque over Ja.
+fn rotor(order: u32, lag: f64) -> Named {
+    let mut named = Named::written(&format!(
+        "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.drive]\n\
+         [effects.extrapolation]\norder = {order}\nlag = {lag:?}\n[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n"
+    ));
+    named.start();
+    named
+}
+
+/// τ(t) [N·m] and its integral, of a degree.
+fn torque(degree: u32, t: f64) -> [f64; 2] {
+    let powers = [1.0, t, t * t, t * t * t];
+    let coefficients = [2.0, -3.0, 5.0];
+    let sum = |from: usize| {
+        (0..=degree as usize)
+            .map(|n| coefficients[n] * powers[n + from] / if from == 1 { (n + 1) as f64 } else { 1.0 })
+            .sum()
+    };
+    [sum(0), sum(1)]
+}
+
+/// Communication points of any distance from one another [s].
+const POINTS: [f64; 9] = [0.0, 0.1, 0.25, 0.3, 0.5, 0.7, 0.75, 1.0, 1.1];
+
+/// Gains of speed over steps, relative to the torque's over the step [1]: measured 2.5e-13.
+const GAIN: f64 = 1e-12;
+
+/// What is told at a point is the value of so many steps before, between points by interpolation.
+#[test]
+fn exact_a_polynomial_of_its_degree_is_followed_however_late() {
+    for (order, lag) in (0..=2).flat_map(|order| [0.0, 0.25, 1.0, 1.5, 2.0, 3.0].map(|lag| (order, lag))) {
+        let mut named = rotor(order, lag);
+        let tau = named.place("drive.tau");
+        let (whole, part) = (f64::floor(lag) as usize, f64::fract(lag));
+        let late = |k: usize| {
+            let [to, from] = [whole, whole + 1].map(|n| POINTS[k.saturating_sub(n)]);
+            to + part * (from - to)
+        };
+        for k in 0..POINTS.len() - 1 {
+            named.simulation.set_input(tau, torque(order, late(k))[0]);
+            let before = named.get("omega_phi");
+            named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
+            let gained = (named.get("omega_phi") - before) * 0.15625;
+            let [from, to] = [k, k + 1].map(|k| torque(order, POINTS[k])[1]);
+            // As soon as there are values enough.
+            if k as f64 >= f64::from(order) + lag.ceil() {
+                within(&format!("order {order}, lag {lag}, step {k}"), (gained - (to - from)).abs(), GAIN);
+            }
+        }
+    }
+}
+
+/// The speed that late values of τ = sin 5t lead to in steps that alternate 1 : 10, against the exact one at the end of each
+/// step, relative to its largest [1]: measured 7.8e-4.
+const ALTERNATING: f64 = 2e-3;
+
+#[test]
+fn exact_late_values_belong_to_the_points_that_they_are_of() {
+    let mut named = rotor(2, 1.0);
+    let tau = named.place("drive.tau");
+    let (mut t, mut before, mut worst) = (0.0, 0.0, 0.0_f64);
+    for k in 0..200 {
+        named.simulation.set_input(tau, libm::sin(5.0 * before));
+        before = t;
+        t += if k % 2 == 0 { 1e-3 } else { 1e-2 };
+        named.simulation.advance(t).expect("a possible motion");
+        let exact = (1.0 - libm::cos(5.0 * t)) / (5.0 * 0.15625);
+        worst = worst.max((named.get("omega_phi") - exact).abs() * (2.5 * 0.15625));
+    }
+    within("alternating", worst, ALTERNATING);
+}
+
+#[test]
+fn derivatives_that_are_sent_win() {
+    let mut named = rotor(2, 0.0);
+    let tau = named.place("drive.tau");
+    for k in 0..5 {
+        named.simulation.set_input(tau, torque(2, POINTS[k])[0]);
+        named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
+    }
+    let before = named.get("omega_phi");
+    named.simulation.set_input(tau, 4.0);
+    named.simulation.set_input_derivative(tau, 1, 0.0);
+    named.simulation.advance(POINTS[6]).expect("a possible motion");
+    let gained = (named.get("omega_phi") - before) * 0.15625;
+    within("held", (gained - 4.0 * (POINTS[6] - POINTS[5])).abs(), GAIN);
+}
+
+#[test]
+fn what_is_remembered_goes_with_the_state() {
+    let steps = |named: &mut Named, from: usize| -> Vec<u64> {
+        let tau = named.place("drive.tau");
+        let one = |k: usize| {
+            named.simulation.set_input(tau, torque(2, POINTS[k])[0] + libm::sin(9.0 * POINTS[k]));
+            named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
+            named.get("omega_phi").to_bits()
+        };
+        (from..POINTS.len() - 1).map(one).collect()
+    };
+    let mut one = rotor(2, 1.0);
+    let all = steps(&mut one, 0);
+    let mut other = rotor(2, 1.0);
+    let tau = other.place("drive.tau");
+    for k in 0..4 {
+        other.simulation.set_input(tau, torque(2, POINTS[k])[0] + libm::sin(9.0 * POINTS[k]));
+        other.simulation.advance(POINTS[k + 1]).expect("a possible motion");
+    }
+    let bytes = split_rotor_model::stored::to_bytes(&mut other.simulation);
+    steps(&mut other, 4);
+    let mut restored = rotor(0, 0.0);
+    split_rotor_model::stored::from_bytes(&mut restored.simulation, &bytes).expect("whole");
+    assert_eq!(steps(&mut restored, 4), all[4..]);
+    // A step that is done again is the same.
+    let saved = one.simulation.clone();
+    one.simulation.advance(1.3).expect("a possible motion");
+    let once = one.get("omega_phi").to_bits();
+    one.simulation = saved;
+    one.simulation.advance(1.3).expect("a possible motion");
+    assert_eq!(one.get("omega_phi").to_bits(), once);
+}
+
+#[test]
+fn order_zero_is_to_hold() {
+    let run = |text: &str| {
+        let mut named = Named::written(&format!(
+            "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.drive]\n{text}"
+        ));
+        named.start();
+        let tau = named.place("drive.tau");
+        for k in 0..POINTS.len() - 1 {
+            named.simulation.set_input(tau, torque(2, POINTS[k])[0]);
+            named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
+        }
+        named.get("omega_phi").to_bits()
+    };
+    assert_eq!(run(""), run("[effects.extrapolation]\n"));
+}

@@ -1,0 +1,171 @@
+//! Starts and steps at the edge of what can be done: tiny communication steps, late times, a rotor at rest, a start at the
+//! singular point, absurd forces, impossible parameters.
+
+use crate::harness::{Method, Scene, Supported, at, largest, times, within};
+use nalgebra::{Vector2, Vector3};
+use split_rotor_model::body::Body;
+use split_rotor_model::integrate::Fault;
+use split_rotor_model::variables::Reading;
+
+/// Position [m], axis [1] and φ [rad] of two readings: the largest difference.
+fn distance(a: &Reading, b: &Reading) -> f64 {
+    largest([
+        (a.motion.at.r - b.motion.at.r).norm(),
+        (a.motion.axis() - b.motion.axis()).norm(),
+        (a.motion.phi() - b.motion.phi()).abs(),
+    ])
+}
+
+/// Every number that an instant shows is finite.
+fn assert_finite(reading: &Reading) {
+    let motion = &reading.motion;
+    let numbers = motion.at.r.iter().chain(&motion.at.v).chain(&motion.at.k).chain(&motion.at.gamma);
+    assert!(numbers.chain(motion.axis()).chain(&motion.omega).all(|x| x.is_finite()), "{motion:?}");
+    assert!(reading.motion.phi().is_finite() && reading.ledger.total().is_finite());
+}
+
+// ------------------------------------------------------------------------------------------ communication steps
+
+#[test]
+fn communication_step_changes_nothing() {
+    // The solver steps on its own account: where a communication point falls changes no bit of what it answers.
+    for method in Method::PAIRS {
+        for damping in [0.0, 2.0] {
+            let scene = Scene { method, d1: damping, ..Scene::paper() };
+            let direct = scene.run::<Supported>([10.0])[0];
+            for step in [1e-2, 0.1, 1.0, 2.5] {
+                let mut simulation = scene.started::<Supported>();
+                let parts = (10.0 / step) as u32;
+                let readings: Vec<_> = times(10.0, parts).map(|t| at(&mut simulation, t)).collect();
+                let reached = &readings[parts as usize];
+                assert_eq!(reached.motion.at, direct.motion.at, "{method:?}, steps of {step} s");
+                assert_eq!((reached.motion.angle(), reached.ledger), (direct.motion.angle(), direct.ledger));
+                assert_eq!(reached.cost.steps, direct.cost.steps);
+            }
+        }
+    }
+}
+
+#[test]
+fn tiny_communication_steps() {
+    // 1e-9 s, 2000 of them, and each instant asked for by itself.
+    let scene = Scene::paper();
+    let mut simulation = scene.started::<Supported>();
+    at(&mut simulation, 0.3);
+    for i in 1..=2000 {
+        let t = 0.3 + 1e-9 * f64::from(i);
+        let reading = at(&mut simulation, t);
+        if i % 500 == 0 {
+            assert_eq!(reading.motion.at, scene.run::<Supported>([t])[0].motion.at, "t = {t}");
+        }
+    }
+    // Not advancing at all is no step.
+    let (before, t) = (at(&mut simulation, 0.31), 0.31);
+    assert_eq!(at(&mut simulation, t).motion.at, before.motion.at);
+}
+
+// ---------------------------------------------------------------------------------------------------- late times
+
+/// Start [s], and the motion from there against that from 0 [m, 1, rad], over 2 s: measured 2.1e-13 and 5.7e-14, because a
+/// step spans what the rounded times span. At 1e9 s a double knows the time to 1.2e-7 s.
+const LATE: [(f64, f64); 3] = [(1e6, 6e-13), (-1e6, 6e-13), (1e9, 2e-13)];
+
+#[test]
+fn regress_late_start() {
+    let scene = Scene::paper();
+    let early = scene.run::<Supported>(times(2.0, 8));
+    for (start, allowed) in LATE {
+        let mut simulation = scene.simulation::<Supported>();
+        simulation.start(start, None).unwrap();
+        // Quarters of a second are whole doubles at any of these times.
+        let late: Vec<_> = times(2.0, 8).map(|t| at(&mut simulation, start + t)).collect();
+        late.iter().for_each(assert_finite);
+        let worst = largest(early.iter().zip(&late).map(|(a, b)| distance(a, b)));
+        within(&format!("start at {start:e} s"), worst, allowed);
+    }
+}
+
+// --------------------------------------------------------------------------------------------------------- at rest
+
+#[test]
+fn exact_resting_rotor_rests() {
+    let scene = Scene { omega: Vector3::zeros(), ..Scene::free() };
+    for method in Method::PAIRS {
+        let mut simulation = Scene { method, ..scene.clone() }.started::<()>();
+        let reading = at(&mut simulation, 1e3);
+        assert_eq!(reading.motion.at.r, Vector3::zeros());
+        assert_eq!((reading.motion.angle().turns, reading.motion.angle().remainder), (0.0, 0.0));
+        assert!(reading.cost.steps < 100.0, "{:?}", reading.cost);
+    }
+}
+
+// -------------------------------------------------------------------------------------------- the singular point
+
+#[test]
+fn regress_start_beyond_the_limit() {
+    // |γ| ≤ π may be asked for; under a law that ends at 3.1 rad it cannot be moved, but can be read.
+    let scene = Scene { gamma: Vector2::new(0.0, 3.12), c2: 1e-300, ..Scene::free() };
+    let mut simulation = scene.started::<Supported>();
+    assert!(matches!(simulation.advance(0.1), Err(Fault::Refused { t: 0.0, .. })));
+    assert_finite(simulation.read().unwrap());
+}
+
+// ------------------------------------------------------------------------------------------------- absurd forces
+
+#[test]
+fn regress_a_start_whose_energy_overflows_is_invalid() {
+    let aside = Scene { r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
+    for (scene, name) in [
+        (Scene { omega: Vector3::new(1e200, 1e200, 0.0), ..aside.clone() }, "start.omega.x"),
+        (Scene { g: Vector3::new(0.0, -f64::MAX, 0.0), ..aside.clone() }, "gravity.g.y"),
+    ] {
+        let invalid = scene.simulation::<Supported>().start(0.0, None).expect_err("impossible");
+        assert!(invalid.variable.starts_with(name), "{}", invalid.variable);
+    }
+}
+
+#[test]
+fn regress_forces_that_would_take_for_ever_are_faults() {
+    let stretched = Scene { r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
+    let mut scenes = [1e20, 1e80, 1e140, 1e160, 1e300, f64::MAX].map(|c1| Scene { c1, ..stretched.clone() }).to_vec();
+    scenes.push(Scene { c2: 1e300, gamma: Vector2::new(0.0, 0.5), ..stretched });
+    for scene in scenes {
+        let fault = scene.started::<Supported>().advance(1000.0).expect_err("more than 10¹² steps");
+        assert!(matches!(fault, Fault::Spent { .. } | Fault::Underflow { .. } | Fault::NotFinite { .. }), "{fault:?}");
+    }
+}
+
+// ---------------------------------------------------------------------------------------- impossible parameters
+
+#[test]
+fn regress_impossible_parameters_are_named() {
+    let paper = Scene::paper();
+    let body = paper.body;
+    let with = |body: Body| Scene { body, ..paper.clone() };
+    let cases = [
+        ("rotor.m", with(Body { m: 0.0, ..body })),
+        ("rotor.m", with(Body { m: -1.0, ..body })),
+        ("rotor.m", with(Body { m: f64::NAN, ..body })),
+        ("rotor.Ja", with(Body { Ja: 0.0, ..body })),
+        ("rotor.Ja", with(Body { Ja: 2.001 * body.Jt, ..body })),
+        ("rotor.Jt", with(Body { Jt: f64::INFINITY, ..body })),
+        ("rotor.l", with(Body { l: f64::NAN, ..body })),
+        ("start.r_c.z", Scene { r_c: Vector3::new(0.0, 0.0, f64::INFINITY), ..paper.clone() }),
+        ("start.omega.x", Scene { omega: Vector3::new(f64::NAN, 0.0, 0.0), ..paper.clone() }),
+        ("|start.gamma|", Scene { gamma: Vector2::new(2.5, 2.5), ..paper.clone() }),
+        ("gravity.g.y", Scene { g: Vector3::new(0.0, f64::NAN, 0.0), ..paper.clone() }),
+        ("support.c1", Scene { c1: -1.0, ..paper.clone() }),
+        ("support.d2", Scene { d2: f64::NEG_INFINITY, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: 0.0, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: 1e-15, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: f64::NAN, ..paper.clone() }),
+        ("solver.relative_tolerance", Scene { tolerance: 1.0, ..paper.clone() }),
+    ];
+    for (variable, scene) in cases {
+        let mut simulation = scene.simulation::<Supported>();
+        let invalid = simulation.start(0.0, None).expect_err(variable);
+        assert_eq!(invalid.variable, variable);
+        assert!(invalid.to_string().contains(variable) && invalid.to_string().contains("must be"), "{invalid}");
+        assert!(simulation.read().is_err(), "nothing to read either");
+    }
+}

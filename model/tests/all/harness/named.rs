@@ -1,0 +1,134 @@
+//! The project's own scenes, as their files have them, over the list of all effects.
+
+use nalgebra::Vector3;
+use oracles::machine::Machine;
+use split_rotor_model::scene::Scene;
+use split_rotor_model::simulation::{Any, Integrator, Simulation};
+use split_rotor_model::variable::Place;
+use split_rotor_model::variables::Variable;
+use std::path::Path;
+
+/// A scene of the folder `scenes`, and its simulation.
+pub struct Named {
+    /// What its file says.
+    pub scene: Scene,
+    /// Over the list of all effects.
+    pub simulation: Any,
+}
+
+/// The names of all scenes.
+pub fn names() -> Vec<String> {
+    Scene::names(&folder())
+}
+
+/// The names of the scenes that name an adaptive method. The others are too stiff, too fast or too long for differences, and for
+/// most other methods.
+pub fn gentle() -> Vec<String> {
+    let is_gentle = |name: &String| ![1.0, 4.0].contains(&Named::new(name, Integrator::Method).get("solver.method"));
+    names().into_iter().filter(is_gentle).collect()
+}
+
+fn folder() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
+}
+
+/// Names of parameters and inputs and their values as a scene's TOML.
+pub fn toml(settings: &[(String, f64)]) -> String {
+    let (mut text, mut last) = (String::new(), "");
+    for (name, value) in settings {
+        let (of, name) = name.split_once('.').expect("a name of an effect or of the rotor");
+        if of != last {
+            last = of;
+            text += &match of.split_once('[') {
+                Some((kind, _)) => format!("[[effects.{kind}]]\n"),
+                None if ["rotor", "start"].contains(&of) => format!("[{of}]\n"),
+                None => format!("[effects.{of}]\n"),
+            };
+        }
+        text += &format!("{name} = {value:?}\n");
+    }
+    text
+}
+
+impl Named {
+    /// The scene `rotor`, which has all effects, as this machine, not yet started.
+    pub fn general(machine: &Machine) -> Self {
+        let mut named = Self::new("rotor", Integrator::Method);
+        ["gravity", "support"].iter().for_each(|effect| named.set(&format!("effects.{effect}"), 0.0));
+        for (name, value) in machine.settings() {
+            let effect = name.split('.').next().unwrap_or_default();
+            if !["rotor", "start"].contains(&effect) {
+                named.set(&format!("effects.{effect}"), 1.0);
+            }
+            named.set(&name, value);
+        }
+        named
+    }
+
+    /// The scene of this name, not yet started.
+    pub fn new(name: &str, integrator: Integrator) -> Self {
+        Self::of(Scene::find(name, &folder()).unwrap_or_else(|error| panic!("{error}")), integrator)
+    }
+
+    /// The scene of this text, not yet started.
+    pub fn written(text: &str) -> Self {
+        Self::written_for(text, Integrator::Method)
+    }
+
+    /// The same, for who integrates it.
+    pub fn written_for(text: &str, integrator: Integrator) -> Self {
+        let scene = Scene::parse(Path::new("test.toml"), text).unwrap_or_else(|error| panic!("{error}"));
+        Self::of(scene, integrator)
+    }
+
+    fn of(scene: Scene, integrator: Integrator) -> Self {
+        let simulation = Simulation::with(integrator, scene.parameters());
+        Self { scene, simulation }
+    }
+
+    /// The variable of this name.
+    pub fn variable(&self, name: &str) -> &Variable {
+        self.scene.variables.iter().find(|variable| variable.name == name).unwrap_or_else(|| panic!("no {name}"))
+    }
+
+    /// Where the variable of this name stands.
+    pub fn place(&self, name: &str) -> Place {
+        self.variable(name).place
+    }
+
+    /// Sets a parameter or an input.
+    pub fn set(&mut self, name: &str, value: f64) {
+        let place = self.place(name);
+        assert!(
+            self.simulation.set_parameter(place, value) || self.simulation.set_input(place, value),
+            "{name} cannot be set"
+        );
+    }
+
+    /// The value of a variable.
+    pub fn get(&mut self, name: &str) -> f64 {
+        let place = self.place(name);
+        self.at(place)
+    }
+
+    /// The value of the variable at this place.
+    pub fn at(&mut self, place: Place) -> f64 {
+        self.simulation.get(place).expect("possible parameters").expect("a variable")
+    }
+
+    /// What all variables show, as bits.
+    pub fn bits(&mut self) -> Vec<u64> {
+        let places: Vec<_> = self.scene.variables.iter().map(|variable| variable.place).collect();
+        places.into_iter().map(|place| self.at(place).to_bits()).collect()
+    }
+
+    /// The value of a vector that is shown.
+    pub fn vector(&mut self, name: &str) -> Vector3<f64> {
+        Vector3::from(["x", "y", "z"].map(|axis| self.get(&format!("{name}.{axis}"))))
+    }
+
+    /// Starts at time 0.
+    pub fn start(&mut self) {
+        self.simulation.start(0.0, None).expect("a possible scene");
+    }
+}

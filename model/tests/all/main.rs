@@ -1,0 +1,45 @@
+//! The tests of the model in one program: it is linked once, and the list of all effects is compiled once.
+
+mod harness;
+
+mod arc;
+mod asymmetric;
+mod auto;
+mod bearing;
+mod between_steps;
+mod charts;
+mod composition;
+mod crossing;
+mod dependencies;
+mod dependencies_of_draws;
+mod derivatives;
+mod drive;
+mod each_method;
+mod endless;
+mod exchange;
+mod extrapolation;
+mod free_flow;
+mod functions;
+mod general;
+mod hard_starts;
+mod honest_tolerance;
+mod imposed_speed;
+mod invariants;
+mod ledger;
+mod motion;
+mod order;
+mod ordinary;
+mod paper;
+mod port;
+mod power;
+mod random_scenes;
+mod rotation;
+mod scenes;
+mod series;
+mod signal;
+mod stiff;
+mod stored;
+mod symplectic;
+mod tangents;
+mod traced;
+mod turns;

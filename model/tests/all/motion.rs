@@ -1,0 +1,239 @@
+//! Whole runs against motions in closed form (`oracles/src/motion.rs`); the gallery (`cargo xtask hard-cases`) has more of them.
+
+use crate::harness::{Scene, Supported, at, largest, times, within};
+use nalgebra::{SMatrix, Vector2, Vector3};
+use oracles::motion::{Oscillator, Whirl, small_whirl};
+use oracles::numerics::root;
+use oracles::rotation;
+use split_rotor_model::body::Body;
+use split_rotor_model::dual::Dual;
+use split_rotor_model::state::COORDINATES;
+use split_rotor_model::variables::Reading;
+use std::f64::consts::TAU;
+
+// ------------------------------------------------------------------------------------------------- steady whirl
+
+fn scene_of(whirl: &Whirl) -> Scene {
+    Scene {
+        body: Body { m: whirl.m, Ja: whirl.Ja, Jt: whirl.Jt, l: whirl.l },
+        r_c: whirl.r_c(0.0),
+        v_c: whirl.v_c(0.0),
+        gamma: whirl.gamma(0.0),
+        omega: whirl.omega(0.0),
+        g: Vector3::new(-whirl.g, 0.0, 0.0),
+        c1: whirl.c1,
+        c2: whirl.c2,
+        tolerance: 1e-12,
+        ..Scene::paper()
+    }
+}
+
+/// Errors of r_c [m], of the axis [1] and of φ [rad].
+fn whirl_errors(whirl: &Whirl, t: f64, reading: &Reading) -> [f64; 3] {
+    let motion = &reading.motion;
+    [
+        (motion.at.r - whirl.r_c(t)).norm(),
+        (motion.axis() - rotation::axis(&whirl.gamma(t))).norm(),
+        (reading.motion.phi() - whirl.phi(t)).abs(),
+    ]
+}
+
+/// Tilt [rad]; errors of r_c [m], axis [1] and φ [rad] over 100 whirl periods at the tightest tolerance, 1e-14: a third of
+/// what is allowed, at most 3.3e-10. At the middle tilts the error grows with the square of the time, and at 1e-12 is
+/// 3.5e-8 at worst. From 2 rad on the motion is in the chart from −e.
+const WHIRLS: [(f64, [f64; 3]); 9] = [
+    (0.1, [3e-14, 1e-13, 2e-13]),
+    (0.5, [1.3e-13, 4e-12, 5.5e-12]),
+    (1.0, [1.7e-12, 5.5e-11, 4.5e-11]),
+    (1.25, [1.1e-11, 3.5e-10, 2.6e-10]),
+    (1.5, [2.3e-11, 7.5e-10, 5.5e-10]),
+    (1.75, [1.1e-12, 3.5e-11, 2.5e-11]),
+    (2.0, [1.9e-12, 6e-11, 8e-11]),
+    (2.5, [7e-13, 2.3e-11, 7.6e-11]),
+    (3.0, [1.7e-14, 5.4e-13, 7e-12]),
+];
+
+#[test]
+fn exact_steady_whirl_at_any_tilt() {
+    let period = TAU / 100.0;
+    for (theta, allowed) in WHIRLS {
+        let whirl = Whirl::paper(theta, 100.0);
+        let mut simulation = Scene { tolerance: 1e-14, ..scene_of(&whirl) }.started::<Supported>();
+        let mut worst = [0.0; 3];
+        for i in 1..=100 {
+            // Whole periods and a third: a phase error must show in every component.
+            let t = (f64::from(i) - 2.0 / 3.0) * period;
+            let reading = at(&mut simulation, t);
+            let errors = whirl_errors(&whirl, t, &reading);
+            worst = std::array::from_fn(|n| largest([worst[n], errors[n]]));
+        }
+        for (n, name) in ["r_c", "axis", "phi"].into_iter().enumerate() {
+            within(&format!("theta = {theta}, {name}"), worst[n], allowed[n]);
+        }
+    }
+}
+
+// ------------------------------------------------------------------------------------------------- small whirl
+
+/// Frequencies of small motions about a state at which only the axis spins [rad/s], in order.
+fn frequencies(scene: &Scene, y: &[f64; COORDINATES]) -> Vec<f64> {
+    let duals: [Dual<COORDINATES>; COORDINATES] = std::array::from_fn(|n| Dual::variable(y[n], n));
+    let rates = scene.rates(&duals);
+    let jacobian = SMatrix::<f64, COORDINATES, COORDINATES>::from_fn(|row, column| rates[row].eps[column]);
+    let eigenvalues = jacobian.complex_eigenvalues();
+    // Zero comes several times, and so with half the digits only.
+    let whirls: Vec<_> = eigenvalues.iter().filter(|value| value.im > 1.0).collect();
+    within("damping", largest(whirls.iter().map(|value| value.re.abs())), DAMPING);
+    let mut frequencies: Vec<_> = whirls.iter().map(|value| value.im).collect();
+    frequencies.sort_by(f64::total_cmp);
+    frequencies
+}
+
+/// Real part of the eigenvalues of an undamped rotor [rad/s]: measured 7.5e-14.
+const DAMPING: f64 = 3e-13;
+/// Frequencies of the Jacobian against the frequency equation, relative [1]: measured 1.7e-14.
+const FREQUENCY: f64 = 6e-14;
+
+#[test]
+fn exact_small_whirl_frequencies() {
+    for spin in [0.0, 50.0, 300.0] {
+        let scene = Scene { omega: Vector3::x() * spin, g: Vector3::zeros(), ..Scene::paper() };
+        let mut exact: Vec<_> = small_whirl(&Whirl::paper(0.0, 100.0), spin).into_iter().map(f64::abs).collect();
+        exact.push((scene.c1 / scene.body.m).sqrt());
+        exact.sort_by(f64::total_cmp);
+        let computed = frequencies(&scene, &scene.state());
+        assert_eq!(computed.len(), exact.len(), "{computed:?}");
+        for (computed, exact) in computed.iter().zip(&exact) {
+            within("frequency", (computed / exact - 1.0).abs(), FREQUENCY);
+        }
+    }
+}
+
+/// The modes about the sag to five or six digits (ORACLES.md 5) [rad/s].
+const SAGGED: [f64; 5] = [10.363, 11.684, 20.0, 104.519, 203.198];
+
+#[test]
+fn literature_modes_about_the_sag() {
+    let scene = Scene::paper();
+    let (weight, l) = (scene.body.m * 9.81, scene.body.l);
+    // c2 θ = m g l cos θ, the spring at a carries the weight; the axis sags towards −z: γ about +y.
+    let theta = root(|theta| scene.c2 * theta - weight * l * libm::cos(theta), 0.0, 1.0);
+    within("sag", (theta - 0.0734).abs(), 0.00005);
+    let gamma = Vector2::new(theta, 0.0);
+    let axis = rotation::axis(&gamma);
+    let r_c = axis * l - Vector3::z() * (weight / scene.c1);
+    let sagged = Scene { gamma, r_c, omega: axis * 50.0, ..scene };
+    let y = sagged.state();
+    // At rest but for φ.
+    within("rates at rest", largest(sagged.rates(&y)[..COORDINATES - 1].iter().map(|rate| rate.abs())), AT_REST);
+    for (computed, printed) in frequencies(&sagged, &y).into_iter().zip(SAGGED) {
+        within("mode", (computed - printed).abs(), 0.0005);
+    }
+}
+
+/// Rates of the sagged rotor [SI units], of forces of 50 N: measured 4.4e-14.
+const AT_REST: f64 = 1.4e-13;
+
+// ------------------------------------------------------------------------------------------------ damped decay
+
+/// Damping [N·s/m]; error of position [m] and velocity [m/s] of a damped oscillation of 0.1 m, over 2 s at a tolerance
+/// of 1e-12. Overdamped, the step is held by stability, and the dense output is far worse than the ends of the steps.
+/// Measured 1.5e-13 and 3.1e-12, 2.0e-14 and 5.2e-13, 1.1e-11 and 1.0e-9.
+const DECAY: [(f64, f64, f64); 3] = [(8.0, 5e-13, 1e-11), (200.0, 6e-14, 2e-12), (500.0, 4e-11, 1.1e-8)];
+/// Error of the energies [J], of 200 J: measured 6.0e-11.
+const DECAY_ENERGY: f64 = 2e-10;
+
+#[test]
+fn exact_damped_decay_of_the_displacement() {
+    // l = 0: the support acts at the mass centre. Under-, critically and overdamped (2√(c m) = 200).
+    for (d1, position, velocity) in DECAY {
+        let start = Vector3::new(0.1, -0.05, 0.08);
+        let rate = Vector3::new(-1.0, 2.0, 0.5);
+        let scene = Scene {
+            body: Body { l: 0.0, ..Scene::paper().body },
+            r_c: start,
+            v_c: rate,
+            g: Vector3::zeros(),
+            d1,
+            tolerance: 1e-12,
+            ..Scene::paper()
+        };
+        let axes: [Oscillator; 3] =
+            std::array::from_fn(|n| Oscillator { m: scene.body.m, d: d1, c: scene.c1, x: start[n], v: rate[n] });
+        let spin_energy = 0.5 * scene.body.Ja * 2500.0;
+        for (t, reading) in times(2.0, 40).zip(scene.run::<Supported>(times(2.0, 40))) {
+            let ledger = &reading.ledger;
+            let left: f64 = axes.iter().map(|axis| axis.energy(t)).sum();
+            let lost = axes.iter().map(|axis| axis.energy(0.0)).sum::<f64>() - left;
+            let error = |of: usize, value: &Vector3<f64>| {
+                largest((0..3).map(|n| (value[n] - <[f64; 2]>::from(axes[n].at(t))[of]).abs()))
+            };
+            within(&format!("r_c, d1 = {d1}"), error(0, &reading.motion.at.r), position);
+            within(&format!("v_c, d1 = {d1}"), error(1, &reading.motion.at.v), velocity);
+            within("total", (ledger.total() - left - spin_energy).abs(), DECAY_ENERGY);
+            within("dissipated", (ledger.dissipated - lost).abs(), DECAY_ENERGY);
+        }
+    }
+}
+
+/// Error of the tilt [rad] of a damped swing from 2.5 rad, over 2 s at a tolerance of 1e-12: measured 2.4e-12.
+const SWING: f64 = 8e-12;
+
+/// Error of the energy lost in it [J], of 16 J: measured 3.5e-12.
+const SWING_ENERGY: f64 = 1e-11;
+
+#[test]
+fn exact_damped_decay_of_a_large_tilt() {
+    // Without spin and with l = 0 the tilt swings in a plane: Jt θ̈ + d2 θ̇ + c2 θ = 0 at any θ.
+    let (theta, azimuth) = (2.5, 0.7);
+    let direction = Vector2::new(libm::cos(azimuth), libm::sin(azimuth));
+    let scene = Scene {
+        body: Body { l: 0.0, ..Scene::paper().body },
+        r_c: Vector3::zeros(),
+        gamma: direction * theta,
+        omega: Vector3::zeros(),
+        g: Vector3::zeros(),
+        c2: 5.0,
+        d2: 0.06,
+        tolerance: 1e-12,
+        ..Scene::paper()
+    };
+    let exact = Oscillator { m: scene.body.Jt, d: scene.d2, c: scene.c2, x: theta, v: 0.0 };
+    for (t, reading) in times(2.0, 80).zip(scene.run::<Supported>(times(2.0, 80))) {
+        within("tilt", (reading.motion.tilt.gamma() - direction * exact.at(t).0).norm(), SWING);
+        within("phi", libm::remainder(reading.motion.phi(), TAU).abs(), SWING);
+        let lost = exact.energy(0.0) - exact.energy(t);
+        within("dissipated", (reading.ledger.dissipated - lost).abs(), SWING_ENERGY);
+    }
+}
+
+// ------------------------------------------------------------------------------------------------- swept solid angle
+
+/// φ against spin plus swept solid angle [rad], by Simpson's rule over 0.2 ms: measured 5.6e-11.
+const SOLID_ANGLE: f64 = 1.7e-10;
+
+#[test]
+fn exact_phi_is_spin_plus_solid_angle() {
+    // eq. 19 on the supported rotor, which has no closed form: the sweep of the axis as the run shows it.
+    let scene = Scene {
+        gamma: Vector2::new(0.3, -0.4),
+        omega: Vector3::new(40.0, 6.0, -3.0),
+        tolerance: 1e-12,
+        ..Scene::paper()
+    };
+    let (end, parts) = (2.0, 20_000_u32);
+    let readings = scene.run::<Supported>(times(end, parts));
+    // (1 − cos θ)dψ/dt = e·(t×dt/dt)/(1 + cos θ)
+    let sweep = |reading: &Reading| {
+        let axis = reading.motion.axis();
+        axis.cross(&reading.motion.omega.cross(axis)).x / (1.0 + axis.x)
+    };
+    let spin = readings[0].motion.omega.dot(readings[0].motion.axis());
+    let mut angle = 0.0;
+    for (n, three) in readings.windows(3).enumerate().step_by(2) {
+        angle += (sweep(&three[0]) + 4.0 * sweep(&three[1]) + sweep(&three[2])) * end / f64::from(parts) / 3.0;
+        let t = end * (n + 2) as f64 / f64::from(parts);
+        within("phi", (three[2].motion.phi() - spin * t - angle).abs(), SOLID_ANGLE);
+    }
+    assert!(angle.abs() > 1.0, "the solid angle counts: {angle}");
+}

@@ -1,0 +1,124 @@
+//! What every visitor brings, of the general rotor: 12 kg on two bearings with an unbalance, run up from rest; and 12 kg on one soft
+//! bearing that is dropped and whirls on.
+
+use crate::harness::named::Named;
+use crate::harness::{largest, within};
+use nalgebra::Vector3;
+pub use oracles::machine::known::ordinary;
+use oracles::machine::{Bearing, Machine, Start};
+
+/// When the ordinary rotor, which goes from rest through its critical speeds, has run up [s].
+pub const RUN_UP: f64 = 3.3;
+
+/// When of a drop by 2 mm nothing is left [s].
+pub const DROPPED: f64 = 5.0;
+
+/// A rotor that is dropped, and whirls at 3.36 µm in the end.
+pub fn dropped() -> Machine {
+    let k = [[1e5, 0.0], [0.0, 1e5]];
+    Machine {
+        gravity: Some(Vector3::z() * -9.81),
+        start: Start { omega: Vector3::x() * 1000.0, ..Start::default() },
+        bearings: vec![Bearing { k, c: k.map(|row| row.map(|k| 2e-3 * k)), ..Bearing::default() }],
+        drive: false,
+        inputs: Vec::new(),
+        ..ordinary()
+    }
+}
+
+/// [kg]
+const WHOLE: f64 = 12.002;
+
+/// A machine by this method, at this tolerance [1], not yet started.
+pub fn by(machine: &Machine, method: f64, tolerance: f64) -> Named {
+    let mut named = Named::general(machine);
+    named.set("solver.method", method);
+    named.set("solver.relative_tolerance", tolerance);
+    named
+}
+
+/// auto, dopri5, dop853 and stiff.
+const ADAPTIVE: [f64; 4] = [1.0, 2.0, 3.0, 5.0];
+const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
+
+/// The largest distance of r_c [m] from this z [m] that is shown from time `from` to the end [s], each 0.1 ms.
+fn largest_whirl((machine, end): (&Machine, f64), z: f64, from: f64, method: f64, tolerance: f64) -> f64 {
+    let mut named = by(machine, method, tolerance);
+    named.simulation.start_until(0.0, None, Some(end)).expect("a possible scene");
+    let first = (from * 1e4).round() as u32;
+    let radius = |i: u32| {
+        named.simulation.advance(f64::from(i) * 1e-4).expect("a possible motion");
+        let [y, z] = [named.get("r_c.y"), named.get("r_c.z") - z];
+        (y * y + z * z).sqrt()
+    };
+    largest((first.max(1)..=(end * 1e4).round() as u32).map(radius))
+}
+
+/// What an error may be at a tolerance [1].
+fn allowed(tolerance: f64) -> f64 {
+    match tolerance {
+        1e-3 => 0.1,
+        1e-4 => 0.01,
+        _ => 100.0 * tolerance,
+    }
+}
+
+/// Errors of the largest whirl, of the whirl itself, at all tolerances by all methods; what an outside check found it to be is within
+/// half its last digit.
+fn whirls_as_it_should(machine: (&Machine, f64), z: f64, from: f64, known: f64, digit: f64) {
+    let exact = largest_whirl(machine, z, from, 3.0, 1e-13);
+    within("from what is known", (exact - known).abs(), 0.5 * digit);
+    for method in ADAPTIVE {
+        for tolerance in TOLERANCES {
+            let error = (largest_whirl(machine, z, from, method, tolerance) / exact - 1.0).abs();
+            within(&format!("{method} at {tolerance:e}"), error, allowed(tolerance));
+        }
+    }
+}
+
+#[test]
+fn an_ordinary_rotor_whirls_as_it_should_at_any_tolerance() {
+    whirls_as_it_should((&ordinary(), RUN_UP), 0.0, 0.0, 20.492_464e-6, 1e-12);
+}
+
+#[test]
+fn a_dropped_rotor_whirls_on_as_it_should_at_any_tolerance() {
+    let sag = -WHOLE * 9.81 / 1e5;
+    whirls_as_it_should((&dropped(), DROPPED), sag, 4.9, 3.36e-6, 1e-8);
+}
+
+/// What is coupled across drives the ordinary rotor's whirl.
+pub fn unstable(cross: f64) -> Machine {
+    let mut machine = ordinary();
+    (machine.bearings[0].k[0][1], machine.bearings[0].k[1][0]) = (cross, -cross);
+    machine
+}
+
+/// How fast the unstable whirl grows [1/s], by the eigenvalues of the rotor at rest, which another program found.
+const GROWTH: [(f64, f64); 2] = [(1e7, 245.481_702_9), (1e8, 2_705.799_231)];
+
+#[test]
+fn regress_an_unstable_rotor_is_told_of_and_ends() {
+    for (cross, growth) in GROWTH {
+        for method in ADAPTIVE {
+            let mut named = by(&unstable(cross), method, 1e-4);
+            named.set("solver.max_evaluations", 1e6);
+            named.simulation.start_until(0.0, None, Some(6.0)).expect("a possible scene");
+            let (found, t) = named.simulation.growth().expect("a motion that grows");
+            println!("{method}: {found} 1/s from {t} s, {:?}", named.simulation.advance(6.0));
+            within("growth", (found / growth - 1.0).abs(), 1e-3);
+        }
+    }
+}
+
+#[test]
+fn a_stable_rotor_is_not_called_unstable() {
+    for (machine, end) in [(ordinary(), RUN_UP), (dropped(), DROPPED)] {
+        let mut named = by(&machine, 1.0, 1e-4);
+        named.simulation.start_until(0.0, None, Some(end)).expect("a possible scene");
+        for i in 1..=100 {
+            named.simulation.advance(end * f64::from(i) / 100.0).expect("a possible motion");
+            assert_eq!(named.simulation.growth(), None);
+        }
+    }
+}

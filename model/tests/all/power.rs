@@ -1,0 +1,97 @@
+//! What every effect must keep, with any parameters and inputs, in any motion of either chart: the power of its load is what
+//! it supplies, less what it loses and what its potential gains. A new effect needs no word about it.
+
+use crate::harness::{Random, Scene, largest, within};
+use nalgebra::{Vector2, Vector3};
+use split_rotor_model::body::{Inertia, Shape};
+use split_rotor_model::dual::Tangent;
+use split_rotor_model::effects::{Act, All, CATALOGUE, Effects, Info};
+use split_rotor_model::rotation::Chart;
+use split_rotor_model::scalar::Scalar;
+use split_rotor_model::state::{Coordinates, Kinematics};
+use split_rotor_model::variable::{Bound, Place, Role};
+
+/// So many motions in each chart.
+const SAMPLES: u32 = 400;
+
+/// The powers' sum over the largest of them [1]: measured 1.5e-14.
+const BALANCE: f64 = 5e-14;
+
+/// The effect alone, with random parameters and inputs.
+fn drawn(info: &Info, random: &mut Random) -> All {
+    let mut effects = All::default();
+    let block = Place::effect_block(info.number, 1);
+    effects.switch_on(block);
+    for (row, meta) in (info.metas)().into_iter().enumerate() {
+        let place = Place { block, row };
+        match meta.role {
+            Role::Parameter { bound: Bound::Finite, .. } => {
+                effects.set_parameter(place, random.within(-1.0, 1.0));
+            }
+            Role::Parameter { .. } => {
+                effects.set_parameter(place, random.within(1.0, 2.0));
+            }
+            Role::Input { .. } => effects.signal_mut(place).expect("an input").set(0.0, random.within(-2.0, 2.0)),
+            _ => {}
+        }
+    }
+    effects
+}
+
+fn motion(chart: Chart, random: &mut Random) -> Coordinates<f64> {
+    let mut vector = |size: f64| Vector3::from_fn(|_, _| random.within(-size, size));
+    let (r, v, k) = (vector(1.0), vector(3.0), vector(4.0));
+    let (theta, psi) = (random.within(0.3, if chart == Chart::FromE { 2.5 } else { 2.2 }), random.within(-3.0, 3.0));
+    let gamma = Vector2::new(libm::cos(psi), libm::sin(psi)) * theta;
+    Coordinates { r, v, k, gamma, phi: random.within(-3.0, 3.0) }
+}
+
+/// The paper's rotor of another Jt2, with a mass on it.
+fn asymmetric() -> Inertia {
+    let mut shape = Shape::of(Scene::paper().body);
+    shape.Jt2 = Some(0.1);
+    shape.add(0.5, &Vector3::new(0.2, 0.1, -0.15));
+    shape.inertia()
+}
+
+/// The same motion, its place moving with time.
+fn moving(motion: &Kinematics<f64>) -> Kinematics<Tangent> {
+    let at = &motion.at;
+    let still = |v: &Vector3<f64>| v.map(|x| Tangent::along(x, 0.0));
+    Kinematics::new(
+        motion.body,
+        motion.tilt.chart(),
+        Coordinates {
+            r: at.r.zip_map(&at.v, Tangent::along),
+            v: still(&at.v),
+            k: still(&at.k),
+            gamma: at.gamma.zip_map(&motion.gamma_rate(), Tangent::along),
+            phi: Tangent::along(at.phi, motion.phi_rate()),
+        },
+    )
+}
+
+#[test]
+fn exact_power_of_each_effect() {
+    for info in CATALOGUE {
+        let mut random = Random(u64::from(info.number));
+        let (mut worst, mut worked) = (0.0, 0.0);
+        for sample in 0..2 * SAMPLES {
+            let chart = if sample % 2 == 0 { Chart::FromE } else { Chart::FromMinusE };
+            let effects = drawn(info, &mut random);
+            let body = if sample % 4 < 2 { Scene::paper().body.into() } else { asymmetric() };
+            let motion = Kinematics::new(body, chart, motion(chart, &mut random));
+            let own: [f64; All::FACTS.own] = std::array::from_fn(|_| random.within(-2.0, 2.0));
+            let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own);
+            let load = load + damping;
+            let [of_potential] = effects.act(&moving(&motion), &own.map(Tangent::constant)).stored.eps;
+            let powers = [load.force.dot(&motion.v_c()), load.moment.dot(&motion.omega), of_potential, loss, -supply];
+            let size = largest(powers.map(f64::abs)).max(1.0);
+            worst = largest([worst, powers.iter().sum::<f64>().abs() / size]);
+            worked = largest([worked, size]);
+            assert!(loss >= 0.0, "{} loses {loss:e} W", info.name);
+            assert!(effects.works() || (loss == 0.0 && supply == 0.0), "{} works and denies it", info.name);
+        }
+        within(&format!("{}, of up to {worked:.0} W", info.name), worst, BALANCE);
+    }
+}

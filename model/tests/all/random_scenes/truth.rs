@@ -1,0 +1,189 @@
+//! What a scene's motion is, how far it goes, and how it grows what is off at the start.
+
+use super::play::play;
+use super::trial::Trial;
+use nalgebra::Vector3;
+use oracles::machine::{Machine, Pace, Run, Shown};
+use oracles::rotation;
+use std::f64::consts::TAU;
+
+/// Place across e [m], axis [rad], φ [rad].
+pub type Measures = [f64; 3];
+
+/// The reference motion and what follows from it.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// At the start and at each point.
+    pub shown: Vec<Shown>,
+    /// How far the motion goes.
+    pub sizes: Measures,
+    /// By how much it differs from that in steps twice as long, over the sizes.
+    pub own_error: Measures,
+    /// A: by how many tolerances it shifts where the start is off by one.
+    pub growth: f64,
+    /// Evaluations that it took in all.
+    pub evaluations: usize,
+}
+
+/// Why a scene is drawn anew.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unfit {
+    /// The axis comes too near to −e, 1 + e·t.
+    TiltsOver(f64),
+    /// It grows what is off at the start by more than is judged.
+    Grows(f64),
+    /// It turns more often than is judged.
+    Spins(f64),
+    /// The reference errs by too much to judge by it, over the sizes.
+    Unsure(f64),
+    /// The reference does not get on.
+    Runaway,
+}
+
+/// A step of the reference errs by so much of the motion's size [1].
+const STEP: f64 = 1e-13;
+
+/// By how much of the sizes the start is off, to see what becomes of it [1].
+const OFF: f64 = 1e-6;
+
+/// A beyond this is not judged.
+const MOST_GROWTH: f64 = 1e4;
+
+/// The reference may err by so much of the sizes and of A [1]: a tenth of what is allowed at the smallest tolerance.
+const SURE: f64 = 3e-9;
+
+/// Revolutions beyond this are not judged.
+const MOST_TURNS: f64 = 1e4;
+
+/// The nearest that an axis may come to −e, 1 + e·t: there φ has no limit, and with a joint the motion has none; a joint's laws
+/// end at 3.1 rad.
+const NEAREST: [f64; 2] = [1e-3, 0.06];
+
+impl Truth {
+    /// Of a scene; why it is not fit.
+    pub fn of(trial: &Trial) -> Result<Self, Unfit> {
+        Self::with(trial, OFF)
+    }
+
+    /// The same, A seen with a start that is off by this part of the sizes [1].
+    pub fn with(trial: &Trial, off_by: f64) -> Result<Self, Unfit> {
+        let mut coarse = Run::new(&trial.machine, Pace::Adaptive(STEP));
+        let in_long_steps = play(trial, &mut coarse).map_err(|_| Unfit::Runaway)?;
+        let nearest = NEAREST[usize::from(has_joint(&trial.machine))];
+        if coarse.nearest() < nearest {
+            return Err(Unfit::TiltsOver(coarse.nearest()));
+        }
+        let steps = coarse.taken();
+        let mut fine = Run::new(&trial.machine, Pace::Like(steps.clone(), 2));
+        let shown = play(trial, &mut fine).map_err(|_| Unfit::Runaway)?;
+        let judged = trial.judged();
+        let sizes = sizes(&shown, judged);
+        if sizes[2] > TAU * MOST_TURNS {
+            return Err(Unfit::Spins(sizes[2] / TAU));
+        }
+        let mut off = Run::new(&moved(&trial.machine, &shown, off_by), Pace::Like(steps, 1));
+        let shifted = play(trial, &mut off).map_err(|_| Unfit::Runaway)?;
+        let shifts = differences(&shifted, &in_long_steps, judged);
+        let growth = largest(over(shifts, sizes)) / off_by;
+        if growth.is_nan() || growth > MOST_GROWTH {
+            return Err(Unfit::Grows(growth));
+        }
+        let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
+        let own = largest(own_error);
+        if own.is_nan() || own > SURE * growth.max(1.0) {
+            return Err(Unfit::Unsure(own));
+        }
+        Ok(Self {
+            sizes,
+            own_error,
+            growth,
+            evaluations: coarse.evaluations() + fine.evaluations() + off.evaluations(),
+            shown,
+        })
+    }
+}
+
+/// Whether a law acts along n or follows γ, which have no limit at −e.
+fn has_joint(machine: &Machine) -> bool {
+    let springs = machine.bearings.iter().any(|bearing| bearing.tilt[0] != 0.0);
+    machine.drive || machine.imposed_speed || springs || machine.support.is_some_and(|support| support.c[1] != 0.0)
+}
+
+impl Trial {
+    /// The first point that is judged.
+    fn judged(&self) -> usize {
+        1 + self.points.iter().position(|t| *t >= self.judged_from).expect("a point that is judged")
+    }
+}
+
+/// The largest, or NaN where there is one.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |most, value| if value > most || value.is_nan() { value } else { most })
+}
+
+fn across(v: &Vector3<f64>) -> f64 {
+    libm::hypot(v.y, v.z)
+}
+
+/// How far place and axis go from the first point that counts, and φ from the start, but 1 rad at least.
+fn sizes(shown: &[Shown], judged: usize) -> Measures {
+    let from = if judged == 1 { &shown[0] } else { &shown[judged] };
+    [
+        largest(shown[judged..].iter().map(|now| across(&(now.r_c - from.r_c)))),
+        largest(shown[judged..].iter().map(|now| angle(&now.axis, &from.axis))),
+        largest(shown[judged..].iter().map(|now| (now.phi - shown[0].phi).abs())).max(1.0),
+    ]
+}
+
+fn angle(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
+    libm::atan2(a.cross(b).norm(), a.dot(b))
+}
+
+/// The largest differences between two motions.
+pub fn differences(a: &[Shown], b: &[Shown], judged: usize) -> Measures {
+    let pairs = || a.iter().zip(b).skip(judged);
+    [
+        largest(pairs().map(|(a, b)| across(&(a.r_c - b.r_c)))),
+        largest(pairs().map(|(a, b)| angle(&a.axis, &b.axis))),
+        largest(pairs().map(|(a, b)| (a.phi - b.phi).abs())),
+    ]
+}
+
+impl Truth {
+    /// The largest differences from another motion.
+    pub fn differences(&self, trial: &Trial, other: &[Shown]) -> Measures {
+        differences(&self.shown, other, trial.judged())
+    }
+}
+
+/// Each over its size; nothing over nothing is nothing.
+pub fn over(measures: Measures, sizes: Measures) -> Measures {
+    std::array::from_fn(|n| if measures[n] == 0.0 { 0.0 } else { measures[n] / sizes[n] })
+}
+
+/// The machine with a start that is off by a part of how far each went, in directions that favour none.
+fn moved(machine: &Machine, shown: &[Shown], by: f64) -> Machine {
+    let first = &shown[0];
+    let went = |of: fn(&Shown) -> Vector3<f64>| {
+        let ways = shown.iter().map(|now| of(now) - of(first));
+        ways.fold([0.0_f64; 2], |[along, over], way| [along.max(way.x.abs()), over.max(across(&way))])
+    };
+    let off = |[along, over]: [f64; 2], azimuth: f64| {
+        Vector3::new(along, over * libm::cos(azimuth), over * libm::sin(azimuth)) * by
+    };
+    let [place, speed, turning] = [went(|now| now.r_c), went(|now| now.v_c), went(|now| now.omega.cross(&now.axis))];
+
+    let tilt = largest(shown.iter().map(|now| angle(&now.axis, &first.axis)));
+    let mut moved = machine.clone();
+    let start = &mut moved.start;
+    start.r_c += off(place, 0.7);
+    start.v_c += off(speed, 2.9);
+    // The rate of the axis, ω = ω_a t + t×dt/dt. Not its spin: that would be off for ever, while a method keeps what nothing
+    // brakes or drives.
+    start.omega += first.axis.cross(&off(turning, 4.4));
+    // About an axis across t, so that it tilts by so much.
+    let side = first.axis.cross(&Vector3::new(0.3, 0.8, -0.5)).normalize();
+    let axis = rotation::rodrigues(&(side * (tilt * by))) * first.axis;
+    start.gamma = rotation::gamma(&axis);
+    moved
+}

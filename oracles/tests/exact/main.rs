@@ -1,0 +1,9 @@
+//! Every exact answer against something that it was not made from.
+
+mod elliptic;
+mod fixed;
+mod motion;
+mod numerics;
+mod paper;
+mod rigid_body;
+mod top;
