@@ -155,11 +155,12 @@ fn shown(rotor: &Parameters<All>, chart: Chart, state: &[f64; N], numbers: &[f64
     Instant::new(motion, *state, &rotor.effects, 0.0, Cost::default()).moving(numbers, 0.0, &rotor.effects)
 }
 
-/// Which switches are on: as many as go together, asked from the first effect on and from the last.
+/// Which switches are on: as many as go together, so often that each effect is on once.
 fn switched(scene: &Scene) -> Vec<Vec<Place>> {
     let excludes = |a: &Info, b: &Info| a.excludes.contains(&b.name) || b.excludes.contains(&a.name);
     let together = |mut on: Vec<(&'static Info, u32)>, one: &(&'static Info, u32)| {
-        if !on.iter().any(|other| excludes(one.0, other.0)) {
+        let is_on = |other: &(&Info, u32)| (other.0.number, other.1) == (one.0.number, one.1);
+        if !on.iter().any(|other| is_on(other) || excludes(one.0, other.0)) {
             on.push(*one);
         }
         on
@@ -167,10 +168,14 @@ fn switched(scene: &Scene) -> Vec<Vec<Place>> {
     let places = |on: Vec<(&Info, u32)>| {
         on.into_iter().map(|(info, index)| Place::switch(Place::effect_block(info.number, index))).collect()
     };
-    let forwards = scene.effects.iter().fold(Vec::new(), together);
-    let backwards = scene.effects.iter().rfold(Vec::new(), together);
-    // Without switches all effects act, and go together.
-    if scene.general { vec![places(forwards), places(backwards)] } else { vec![places(forwards)] }
+    let mut sets: Vec<Vec<(&'static Info, u32)>> = Vec::new();
+    for one in &scene.effects {
+        let is_on = |set: &Vec<(&Info, u32)>| set.iter().any(|(info, _)| info.number == one.0.number);
+        if !sets.iter().any(is_on) {
+            sets.push(scene.effects.iter().fold(vec![*one], together));
+        }
+    }
+    if sets.is_empty() { vec![Vec::new()] } else { sets.into_iter().map(places).collect() }
 }
 
 /// Each part of γ \[rad], so that the motion starts in the first chart, and stays in either.

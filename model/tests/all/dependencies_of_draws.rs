@@ -3,10 +3,9 @@
 use crate::harness::Random;
 use crate::harness::named::{Named, names};
 use split_rotor_model::dependencies::Dependencies;
-use split_rotor_model::simulation::Integrator;
-use split_rotor_model::state::{WITH_WORK, Whole};
+use split_rotor_model::simulation::{Any, Integrator};
 use split_rotor_model::variable::{Bound, Kind, Place, Role};
-use split_rotor_model::variables::{Variable, state_place};
+use split_rotor_model::variables::Variable;
 
 /// So many rotors and motions are drawn, in both charts.
 const SAMPLES: usize = 64;
@@ -107,16 +106,19 @@ impl Judge {
     /// Changes each state and input of a motion.
     fn look_later(&mut self, named: &mut Named, random: &mut Random) {
         named.start();
-        let mut state: Whole<f64> = std::array::from_fn(|_| random.within(-2.0, 2.0));
+        let mut state: [f64; Any::STATES] = std::array::from_fn(|_| random.within(-2.0, 2.0));
         if !moves_to(named, &state) {
             return;
         }
         let before = values(named);
-        for n in 0..WITH_WORK {
+        let is_state = |(_, v): &(usize, &Variable)| named.simulation.is_state(v.place);
+        let states: Vec<_> =
+            named.scene.variables.iter().enumerate().filter(is_state).map(|(index, _)| index).collect();
+        for n in 0..Any::STATES {
             let old = std::mem::replace(&mut state[n], random.within(-2.0, 2.0));
-            let index = named.scene.variables.iter().position(|variable| variable.place == state_place(n));
-            if let (true, Some(index)) = (moves_to(named, &state), index) {
-                self.changed(true, index, &before, named);
+            // States of effects that this scene has not stand last.
+            if let (true, Some(index)) = (moves_to(named, &state), states.get(n)) {
+                self.changed(true, *index, &before, named);
             }
             state[n] = old;
         }
@@ -133,7 +135,7 @@ impl Judge {
 }
 
 /// Moves to a state; whether it can be calculated there.
-fn moves_to(named: &mut Named, state: &Whole<f64>) -> bool {
+fn moves_to(named: &mut Named, state: &[f64; Any::STATES]) -> bool {
     named.simulation.exchange().expect("it was started for a host").set_state(state);
     named.simulation.admits().is_ok()
 }
