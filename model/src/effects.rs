@@ -36,6 +36,9 @@ pub type Row<E> = variable::Row<E, Seen>;
 /// An effect has at most so many states of its own.
 pub const MOST_OWN: usize = 6;
 
+/// The effects of a list have at most so many indicators together.
+pub const MOST_INDICATORS: usize = 16;
+
 /// A law and its variables. All vectors in the inertial frame O.
 pub trait Effect: Clone + Default + Send + 'static {
     /// Its variables, named within its block; new ones go to the end, for a value reference is a place in this list.
@@ -43,6 +46,9 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// How many states of its own it has, at most [`MOST_OWN`]: numbers that are integrated with the motion.
     const OWN: usize = 0;
+
+    /// How many [indicators](Effect::indicator) it has.
+    const INDICATORS: usize = 0;
 
     /// Whether it can lose energy or be supplied with it, with any parameters. To forget to deny it costs time, not
     /// energy.
@@ -93,6 +99,14 @@ pub trait Effect: Clone + Default + Send + 'static {
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
         None
     }
+
+    /// An indicator, by its number: where it changes its sign, there is an event, and the law [switches](Effect::switch).
+    fn indicator(&self, _n: usize, _motion: &Motion<f64>) -> f64 {
+        1.0
+    }
+
+    /// Goes on where the indicators have these signs: the law keeps its branch until it hears of others.
+    fn switch(&mut self, _positive: &[bool]) {}
 
     /// Its own states where the motion begins; those beyond [`Effect::OWN`] do not count.
     fn own_at_start(&self, _start: &Motion<f64>) -> [f64; MOST_OWN] {
@@ -196,6 +210,8 @@ pub struct Info {
     pub could_work: bool,
     /// Whether it can impose a speed.
     pub imposes: bool,
+    /// How many indicators of events it has.
+    pub indicators: usize,
     /// The effects after it that cannot act beside it.
     pub excludes: &'static [&'static str],
 }
@@ -275,6 +291,7 @@ macro_rules! catalogue {
             metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,
             imposes: <$module::$type as Effect>::IMPOSES,
+            indicators: <$module::$type as Effect>::INDICATORS,
             excludes: <$module::$type as Effect>::EXCLUDES,
         }),*];
 
@@ -321,4 +338,5 @@ catalogue! {
     11 imposed_speed ImposedSpeed one;
     12 extrapolation Extrapolation one;
     13 motor Motor one;
+    14 rub Rub several;
 }

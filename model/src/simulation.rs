@@ -2,6 +2,7 @@
 //! what the communication point shows.
 
 mod auto;
+mod events;
 mod exchange;
 mod growth;
 mod integration;
@@ -193,7 +194,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let Some(Run::Method(integration)) = &mut self.run else {
             panic!("no run of a method was started");
         };
-        integration.advance(&self.parameters.effects, t)?;
+        integration.advance(&mut self.parameters.effects, t)?;
         if E::FACTS.imposes && self.parameters.effects.imposed::<f64>(t).is_some() {
             self.tell_of_step();
         }

@@ -32,6 +32,8 @@ pub struct Facts {
     pub count: usize,
     /// How many states they have of their own.
     pub own: usize,
+    /// How many indicators of events they have.
+    pub indicators: usize,
     /// Whether any of them has a switch.
     pub switched: bool,
     /// Whether any of them can lose energy or be supplied with it, with any parameters.
@@ -149,6 +151,28 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
             }
             nominal[from..][..count].copy_from_slice(&block.own_nominal()[..count]);
             from += count;
+        });
+    }
+
+    /// Their indicators, in their order; 1 of those that are switched off.
+    fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]) {
+        let (mut from, mut first) = (0, 0);
+        for block in self.blocks() {
+            let (kind, motion) = (block.kind(), Motion::new(motion, &own[from..][..block.kind().own]));
+            for n in 0..kind.indicators {
+                all[first + n] = if block.is_active() { block.indicator(n, &motion) } else { 1.0 };
+            }
+            (from, first) = (from + kind.own, first + kind.indicators);
+        }
+    }
+
+    /// Go on where their indicators have these signs.
+    fn switch(&mut self, positive: &[bool]) {
+        let mut first = 0;
+        self.for_each(|block| {
+            let count = block.kind().indicators;
+            block.hear_signs(&positive[first..][..count]);
+            first += count;
         });
     }
 
@@ -272,6 +296,7 @@ impl Effects for () {
     const FACTS: Facts = Facts {
         count: 0,
         own: 0,
+        indicators: 0,
         switched: false,
         could_work: false,
         shapes: false,
@@ -329,6 +354,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         Facts {
             count: 1 + rest.count,
             own: H::Effect::OWN + rest.own,
+            indicators: H::Effect::INDICATORS + rest.indicators,
             switched: H::SWITCHED || rest.switched,
             could_work: H::Effect::COULD_WORK || rest.could_work,
             shapes: H::Effect::SHAPES || rest.shapes,

@@ -1,6 +1,7 @@
 //! A method at work on a rotor: charts, whole turns of φ, and the answer at any time of the last step.
 
 use super::auto::Auto;
+use super::events::{Events, indicators};
 use super::growth::Watch;
 use super::method::Method;
 use super::plan::Plan;
@@ -37,12 +38,13 @@ pub(super) struct Integration<const N: usize> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
     watch: Watch,
+    events: Events,
     /// Where an input was set since the last communication step.
     held: Option<Held<N>>,
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, tolerance, most, last, t, stop, total_at_start, tilted, watch, held
+    frame, method, auto, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -107,6 +109,9 @@ const LONGEST_TILT: f64 = 1.0;
 /// The azimuth of γ from −e \[rad] advances by about so much at most in a step, so that its turns can be counted.
 const LONGEST_WHIRL: f64 = 1.0;
 
+/// So often laws may switch without a step between.
+const MOST_SWITCHES: u32 = 32;
+
 /// Where the ledger leaves over more than this part of all energy that there is, was, came and went, a method without an
 /// error estimate has lost the motion \[1].
 const LOST: f64 = 0.1;
@@ -127,7 +132,7 @@ impl<const N: usize> Integration<N> {
     ) -> Self {
         let t = instant.reading.motion.t;
         let tolerance = tolerance(setup, effects, start, t);
-        let Motion { frame, state: y, .. } = *start;
+        let Motion { frame, state: y, events, .. } = *start;
         let plan = Plan::new(&setup.solver, effects);
         let method = Method::start(plan, tolerance, &frame.under(effects), t, y);
         let last = LastStep { chart: frame.chart, turns: frame.turns, gamma: gamma(&y), closest: None };
@@ -141,6 +146,7 @@ impl<const N: usize> Integration<N> {
             t,
             stop: span.map_or(f64::INFINITY, |span| t + span),
             total_at_start: instant.reading.ledger.total_at_start,
+            events,
             ..Self::blank()
         };
         integration.watch_tilt(effects, last.gamma);
@@ -162,6 +168,7 @@ impl<const N: usize> Integration<N> {
             total_at_start: 0.0,
             tilted: false,
             watch: Watch::default(),
+            events: Events::default(),
             held: None,
         }
     }
@@ -201,7 +208,7 @@ impl<const N: usize> Integration<N> {
     }
 
     /// Moves the communication point to time `t` \[s]. On a fault it stands at the last time reached.
-    pub(super) fn advance<E: Effects>(&mut self, effects: &E, t: f64) -> Result<(), Fault> {
+    pub(super) fn advance<E: Effects>(&mut self, effects: &mut E, t: f64) -> Result<(), Fault> {
         assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
         let until = if self.held.is_some() { t } else { self.stop.max(t) };
@@ -213,13 +220,14 @@ impl<const N: usize> Integration<N> {
         if !matches!(self.method, Method::Composed(_)) {
             return self.run_to(effects, t, until);
         }
-        let before = (self.t, self.method.clone(), self.last, self.frame);
+        let before = (self.t, self.method.clone(), self.last, self.frame, self.events);
         let outcome = self.run_to(effects, t, until);
         // Where the motion is lost, what stands in its way has another cause.
         if self.keeps_energy(effects) {
             return outcome;
         }
-        (self.t, self.method, self.last, self.frame) = before;
+        (self.t, self.method, self.last, self.frame, self.events) = before;
+        self.events.tell(effects);
         Err(Fault::Refused { t: self.t, reason: TOO_LONG })
     }
 
@@ -247,16 +255,30 @@ impl<const N: usize> Integration<N> {
 
     /// Steps up to time `t` \[s] or past it, but not past `until` \[s]; the communication point is then there, or where steps
     /// came to.
-    fn run_to<E: Effects>(&mut self, effects: &E, t: f64, until: f64) -> Result<(), Fault> {
+    fn run_to<E: Effects>(&mut self, effects: &mut E, t: f64, until: f64) -> Result<(), Fault> {
         let most = self.method.cost().evaluations + self.most;
         self.method.limit_step(AHEAD * (t - self.t));
+        let mut switched = 0;
         while self.method.time() < t {
             if let Some(auto) = &mut self.auto
                 && auto.is_due()
             {
                 self.method.adapt(auto, self.tolerance, &self.frame.under(effects));
             }
-            if let Err(fault) = self.step(effects, most, until) {
+            if self.events.is_due() {
+                self.events.switch(effects);
+                let y = *self.method.state();
+                self.method.go_on_from(&self.frame.under(effects), y);
+            }
+            let before = self.method.time();
+            // Laws that switch to and fro in one place must still go on.
+            let outcome = if switched < MOST_SWITCHES {
+                self.step_to_event(effects, most, until)
+            } else {
+                self.step(effects, most, until)
+            };
+            switched = if self.method.time() > before { 0 } else { switched + 1 };
+            if let Err(fault) = outcome {
                 self.t = self.method.time();
                 return Err(fault);
             }
@@ -284,6 +306,9 @@ impl<const N: usize> Integration<N> {
     /// Where inputs were set, goes on from the communication point under these effects.
     fn go_back<E: Effects>(&mut self, effects: &E) -> Result<(), Fault> {
         let Some(held) = self.held.take() else { return Ok(()) };
+        if self.t < self.method.time() {
+            self.events.forget();
+        }
         let y = self.jumped(effects, &held);
         (self.frame.chart, self.frame.turns) = (held.chart, held.turns);
         self.method.go_back(&self.frame.under(effects), self.t, y);
@@ -333,6 +358,31 @@ impl<const N: usize> Integration<N> {
             // dβ/dt = e·(γ×dγ/dt)/|γ|²
             self.method.limit_step(LONGEST_WHIRL * at.norm_squared() / at.perp(&rate).abs());
         }
+    }
+
+    /// A step, or the part of it up to the first event.
+    fn step_to_event<E: Effects>(&mut self, effects: &E, most: f64, until: f64) -> Result<(), Fault> {
+        let before = (E::FACTS.indicators > 0).then(|| (self.method.clone(), self.last));
+        self.step(effects, most, until)?;
+        let Some((method, last)) = before else { return Ok(()) };
+        let (from, to, rotor) = (self.method.start_time(), self.method.time(), self.frame.under(effects));
+        let method_now = &mut self.method;
+        let found = self.events.first::<E>(from, to, |t| {
+            let y = if t == to { *method_now.state() } else { method_now.dense(&rotor, t) };
+            indicators(effects, &rotor.motion(t, &y), &y)
+        });
+        let Some((t, number)) = found else { return Ok(()) };
+        if t < to {
+            (self.method, self.last) = (method, last);
+            // A law that has just switched may have to switch back.
+            if self.method.time() + 0.1 * (t - self.method.time()) > self.method.time() {
+                self.step(effects, most, t)?;
+            }
+        }
+        if self.method.time() >= t || self.method.time() == from {
+            self.events.expect(number);
+        }
+        Ok(())
     }
 
     fn step<E: Effects>(&mut self, effects: &E, most: f64, until: f64) -> Result<(), Fault> {

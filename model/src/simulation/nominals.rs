@@ -31,7 +31,7 @@ const UNKNOWN: f64 = 1e-6;
 
 impl<const N: usize> Nominals<N> {
     /// Of a motion that starts at time `t` \[s].
-    pub(super) fn of<E: Effects>(effects: &E, Motion { frame, state, own_nominal }: &Motion<N>, t: f64) -> Self {
+    pub(super) fn of<E: Effects>(effects: &E, Motion { frame, state, own_nominal, .. }: &Motion<N>, t: f64) -> Self {
         let rotor = frame.under(effects);
         let (rates, slopes) = (rotor.rates_of_all(t, state), rotor.jacobian(t, state));
         let (rates, slopes) = (rigid(&rates), slopes.map(|slopes| rotated(slopes, own(N))));

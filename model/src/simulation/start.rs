@@ -1,5 +1,6 @@
 //! From parameters to the motion at the start and the tolerance of its integration.
 
+use super::events::Events;
 use super::nominals::Nominals;
 use crate::effects::Effects;
 use crate::integrate::{Cost, Tolerance};
@@ -16,6 +17,8 @@ pub(crate) struct Motion<const N: usize> {
     pub state: [f64; N],
     /// What the own states count with until they have been larger.
     pub own_nominal: [f64; N],
+    /// On which side the effects' indicators are.
+    pub events: Events,
 }
 
 impl<const N: usize> Motion<N> {
@@ -52,7 +55,8 @@ impl<const N: usize> Motion<N> {
         let mut own_nominal = [0.0; N];
         let count = own(N);
         parameters.effects.begin(&motion, &mut state[..count], &mut own_nominal[..count]);
-        Self { frame, state, own_nominal }
+        let events = Events::begin(&mut parameters.effects, &motion, &state);
+        Self { frame, state, own_nominal, events }
     }
 
     /// What it shows at time `t` \[s], under the effects that heard of it.

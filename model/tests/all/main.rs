@@ -34,6 +34,7 @@ mod port;
 mod power;
 mod random_scenes;
 mod rotation;
+mod rub;
 mod scenes;
 mod series;
 mod signal;

@@ -5,7 +5,7 @@ use crate::harness::{Random, Scene, largest, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::body::{Inertia, Shape};
 use split_rotor_model::dual::Tangent;
-use split_rotor_model::effects::{Act, All, CATALOGUE, Effects, Info};
+use split_rotor_model::effects::{Act, All, CATALOGUE, Effects, Info, MOST_INDICATORS};
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::scalar::Scalar;
 use split_rotor_model::state::{Coordinates, Kinematics};
@@ -78,9 +78,12 @@ fn exact_power_of_each_effect() {
         let (mut worst, mut worked) = (0.0, 0.0);
         for sample in 0..2 * SAMPLES {
             let chart = if sample % 2 == 0 { Chart::FromE } else { Chart::FromMinusE };
-            let effects = drawn(info, &mut random);
+            let mut effects = drawn(info, &mut random);
             let body = if sample % 4 < 2 { Scene::paper().body.into() } else { asymmetric() };
             let motion = Kinematics::new(body, chart, motion(chart, &mut random));
+            let mut sides = [0.0; MOST_INDICATORS];
+            effects.indicators(&motion, &[0.0; All::FACTS.own], &mut sides);
+            effects.switch(&sides.map(|side| side > 0.0));
             let own: [f64; All::FACTS.own] = std::array::from_fn(|_| random.within(-2.0, 2.0));
             let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own);
             let load = load + damping;

@@ -25,6 +25,8 @@ pub struct Kind {
     pub switched: bool,
     /// How many states of its own it has.
     pub own: usize,
+    /// How many indicators of events it has.
+    pub indicators: usize,
     /// Whether it can act on the rotor.
     pub pushes: bool,
     /// Whether what it does follows φ.
@@ -73,6 +75,10 @@ pub trait Block {
     fn follows_speed(&self) -> bool;
     /// The first of its parameters whose value is not possible.
     fn check(&self) -> Result<(), Invalid>;
+    /// One of its indicators.
+    fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64;
+    /// Goes on where its indicators have these signs.
+    fn hear_signs(&mut self, positive: &[bool]);
     /// Hears where the motion begins.
     fn begin(&mut self, start: &Motion<f64>);
     /// Its own states there.

@@ -47,6 +47,7 @@ pub trait Member: Block + Clone + Default + Send + Stored + 'static {
         block: Place::effect_block(Self::Effect::NUMBER, Self::INDEX),
         switched: Self::SWITCHED,
         own: Self::Effect::OWN,
+        indicators: Self::Effect::INDICATORS,
         pushes: Self::Effect::PUSHES,
         follows_phi: Self::Effect::FOLLOWS_PHI,
         extrapolates: Self::Effect::EXTRAPOLATES,
@@ -202,6 +203,14 @@ impl<M: Member> Block for M {
         }
         let within = |invalid: Invalid| Invalid { variable: M::KIND.full_name(&invalid.variable), ..invalid };
         effect.check().map_err(within)
+    }
+
+    fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64 {
+        self.effect().indicator(n, motion)
+    }
+
+    fn hear_signs(&mut self, positive: &[bool]) {
+        self.effect_mut().switch(positive);
     }
 
     fn begin(&mut self, start: &Motion<f64>) {

@@ -1,0 +1,166 @@
+//! `rub`: contact of a station with a ring around it, with Coulomb friction.
+
+use super::{Act, Effect, Motion, Row, Wrench};
+use crate::scalar::Scalar;
+use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE};
+use crate::variable::{Bound, output, parameter};
+use nalgebra::Vector3;
+
+/// A ring on the stator line, which the shaft touches where it is as far off the line as the gap.
+#[derive(Clone, Debug, Default)]
+pub struct Rub {
+    /// Where it is, along t from c \[m].
+    pub position: f64,
+    /// Radial gap between shaft and ring \[m].
+    pub gap: f64,
+    /// Stiffness of the ring [N/m].
+    pub stiffness: f64,
+    /// Damping of the ring [N·s/m].
+    pub damping: f64,
+    /// Coefficient of friction \[1].
+    pub friction: f64,
+    /// Radius of the shaft there \[m].
+    pub radius: f64,
+    /// Speed of sliding at which friction has reached tanh 1 of its strength [m/s].
+    pub v0: f64,
+    /// Whether the ring presses on the shaft, 1 or 0: the branch of the law.
+    pressed: f64,
+}
+
+/// What a contact is made of.
+struct Contact<S: Scalar> {
+    /// r̂, away from the stator line, and t̂ = e×r̂ \[1].
+    outward: Vector3<S>,
+    along: Vector3<S>,
+    /// How far the shaft is in the ring \[m], and the rate of that [m/s].
+    depth: S,
+    rate: S,
+    /// Normal force \[N].
+    normal: S,
+    /// Speed of sliding [m/s], and the part of the friction that it has \[1].
+    sliding: S,
+    part: S,
+}
+
+impl Rub {
+    /// Away from the stator line, depth and its rate.
+    #[inline(always)]
+    fn approach<S: Scalar>(&self, motion: &Motion<S>) -> (Vector3<S>, S, S) {
+        let (r, v) = (motion.station(self.position), motion.station_velocity(self.position));
+        let (q, rate) = (Vector3::new(S::zero(), r.y, r.z), Vector3::new(S::zero(), v.y, v.z));
+        // Near the line nothing touches, and a direction is not needed.
+        let least = S::constant(0.25 * self.gap * self.gap);
+        let distance = q.dot(&q).max(least).sqrt();
+        let outward = q * (S::one() / distance);
+        // eq. 97: δ = |q| − g, dδ/dt = r̂·dq/dt
+        (outward, distance - S::constant(self.gap), outward.dot(&rate))
+    }
+
+    /// k δ + c dδ/dt \[N].
+    #[inline(always)]
+    fn pressure<S: Scalar>(&self, depth: S, rate: S) -> S {
+        depth * S::constant(self.stiffness) + rate * S::constant(self.damping)
+    }
+
+    #[inline(always)]
+    fn contact<S: Scalar>(&self, motion: &Motion<S>) -> Contact<S> {
+        let (outward, depth, rate) = self.approach(motion);
+        let along = Vector3::new(S::zero(), -outward.z, outward.y);
+        let v = motion.station_velocity(self.position);
+        // eq. 97: N = k δ + c dδ/dt while the ring presses
+        let normal = S::zero().where_less(S::constant(self.pressed), self.pressure(depth, rate), S::zero());
+        // eq. 98: v_t = t̂·dq/dt + R ω_φ
+        let sliding = along.dot(&v) + motion.omega_phi() * S::constant(self.radius);
+        let part = (sliding * S::constant(1.0 / self.v0)).tanh();
+        Contact { outward, along, depth, rate, normal, sliding, part }
+    }
+
+    /// Force on the rotor at the station \[N].
+    #[inline(always)]
+    fn force<S: Scalar>(&self, contact: &Contact<S>) -> Vector3<S> {
+        let friction = contact.normal * contact.part * S::constant(self.friction);
+        // eq. 98: F = −N r̂ − μ N tanh(v_t/v₀) t̂
+        -(contact.outward * contact.normal + contact.along * friction)
+    }
+}
+
+impl Effect for Rub {
+    const ROWS: &'static [Row<Self>] = &[
+        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        parameter!(gap, &METRE, None, Bound::Positive, "radial gap between shaft and ring"),
+        parameter!(stiffness, &NEWTON_PER_METRE, Some(0.0), Bound::NotNegative, "stiffness of the ring"),
+        parameter!(damping, &NEWTON_SECOND_PER_METRE, Some(0.0), Bound::NotNegative, "damping of the ring"),
+        parameter!(friction, &ONE, Some(0.0), Bound::NotNegative, "coefficient of friction"),
+        parameter!(radius, &METRE, None, Bound::NotNegative, "radius of the shaft at the ring"),
+        parameter!(v0, &METRE_PER_SECOND, None, Bound::Positive, "speed of sliding below which friction fades"),
+        output!("F.y", &NEWTON, "force of the ring on the rotor at the station, along y", |r, m| {
+            r.force(&r.contact(m)).y
+        }),
+        output!("F.z", &NEWTON, "force of the ring on the rotor at the station, along z", |r, m| {
+            r.force(&r.contact(m)).z
+        }),
+        output!("contact", &ONE, "1 while the ring presses on the shaft, else 0", |r, m| {
+            let (zero, one) = (Scalar::constant(0.0), Scalar::constant(1.0));
+            Scalar::where_less(zero, r.contact(m).normal, one, zero)
+        }),
+    ];
+
+    const INDICATORS: usize = 2;
+
+    // It touches, or it does not.
+    const ANALYTIC: bool = false;
+
+    #[inline(always)]
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
+        let contact = self.contact(motion);
+        let Contact { depth, rate, normal, sliding, part, .. } = contact;
+        let friction = normal * part * S::constant(self.friction);
+        // eq. 98: M = −μ N R tanh(v_t/v₀) n
+        let couple = Wrench::couple(motion.joint_axis() * (friction * S::constant(-self.radius)));
+        let stiffness = S::constant(self.stiffness);
+        let within = depth.positive_part();
+        let pressed = S::zero().where_less(S::constant(self.pressed), depth, within);
+        Act {
+            load: Wrench::at_station(motion, self.position, self.force(&contact)) + couple,
+            // eq. 99: V = ½ k δ² where δ > 0
+            stored: within * within * (stiffness * S::constant(0.5)),
+            // eq. 99: P = (N − k δ) dδ/dt + μ N v_t tanh(v_t/v₀)
+            loss: (normal - pressed * stiffness) * rate + friction * sliding,
+            ..Act::none()
+        }
+    }
+
+    fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64 {
+        let (_, depth, rate) = self.approach(motion);
+        match n {
+            0 => depth,
+            // eq. 97: where δ > 0, the ring lets go as N = 0
+            _ if depth > 0.0 => self.pressure(depth, rate),
+            _ => 1.0,
+        }
+    }
+
+    fn switch(&mut self, positive: &[bool]) {
+        self.pressed = f64::from(positive.iter().all(|positive| *positive));
+    }
+
+    fn begin(&mut self, _start: &Motion<f64>) {
+        self.pressed = 0.0;
+    }
+
+    fn memory(&mut self) -> &mut [f64] {
+        std::slice::from_mut(&mut self.pressed)
+    }
+
+    fn remembers_rightly(&self) -> bool {
+        self.pressed == 0.0 || self.pressed == 1.0
+    }
+
+    fn needs_gamma(&self) -> bool {
+        self.friction != 0.0 && self.radius != 0.0 && self.pressed != 0.0
+    }
+
+    fn works(&self) -> bool {
+        self.damping != 0.0 || self.friction != 0.0
+    }
+}

@@ -1,0 +1,182 @@
+//! Events of effects: where an indicator changes its sign, a law goes on as another one.
+//!
+//! A law keeps its branch through a step, so that the step is smooth; where an indicator has changed its sign on the way, the step
+//! ends there, and the law switches before the next one begins.
+
+use crate::effects::{Effects, MOST_INDICATORS};
+use crate::scalar::ulp;
+use crate::state::{Kinematics, own};
+use crate::stored::stored;
+
+/// The values of all indicators of a list.
+pub(super) type Indicators = [f64; MOST_INDICATORS];
+
+/// On which side each indicator is.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Events {
+    /// Whether it is positive, as the laws have it.
+    positive: [bool; MOST_INDICATORS],
+    /// The number of the one that changes its sign where the last step ended.
+    due: Option<u32>,
+}
+
+stored!(Events { positive, due });
+
+/// A step is looked at in so many places.
+const PLACES: u32 = 16;
+
+/// A contact shorter than the way between two of them is looked for where an indicator comes as near to zero as this part of what it
+/// is there \[1].
+const NEAR: f64 = 0.5;
+
+impl Events {
+    /// Of a motion that begins, of whose sides the effects hear.
+    pub(super) fn begin<E: Effects, const N: usize>(
+        effects: &mut E,
+        motion: &Kinematics<f64>,
+        state: &[f64; N],
+    ) -> Self {
+        let mut events = Self::default();
+        events.take_sides(effects, motion, state);
+        events
+    }
+
+    /// Takes the sides that the indicators have now, of which the effects hear; whether any is another one.
+    pub(super) fn take_sides<E: Effects, const N: usize>(
+        &mut self,
+        effects: &mut E,
+        motion: &Kinematics<f64>,
+        state: &[f64; N],
+    ) -> bool {
+        if E::FACTS.indicators == 0 {
+            return false;
+        }
+        let before = std::mem::replace(&mut self.positive, indicators(effects, motion, state).map(|z| z > 0.0));
+        effects.switch(&self.positive);
+        before != self.positive
+    }
+
+    /// Whether a law must switch before the motion goes on.
+    pub(super) fn is_due(&self) -> bool {
+        self.due.is_some()
+    }
+
+    /// The next step begins elsewhere.
+    pub(super) fn forget(&mut self) {
+        self.due = None;
+    }
+
+    /// A law must switch where the motion is now.
+    pub(super) fn expect(&mut self, number: u32) {
+        self.due = Some(number);
+    }
+
+    /// The law switches that must.
+    pub(super) fn switch<E: Effects>(&mut self, effects: &mut E) {
+        let due = self.due.take().and_then(|number| self.positive.get_mut(number as usize));
+        if let Some(positive) = due {
+            *positive = !*positive;
+            effects.switch(&self.positive);
+        }
+    }
+
+    /// The effects take the sides that are known.
+    pub(super) fn tell<E: Effects>(&self, effects: &mut E) {
+        if E::FACTS.indicators > 0 {
+            effects.switch(&self.positive);
+        }
+    }
+
+    /// When \[s] the first indicator changes its sign between the times `from` and `to` \[s], and its number; `at` tells their values.
+    pub(super) fn first<E: Effects>(
+        &self,
+        from: f64,
+        to: f64,
+        mut at: impl FnMut(f64) -> Indicators,
+    ) -> Option<(f64, u32)> {
+        let place = |n: u32| if n == PLACES { to } else { from + (to - from) * f64::from(n) / f64::from(PLACES) };
+        // What is positive is on its side.
+        let sided = |z: Indicators, n: usize| if self.positive[n] { z[n] } else { -z[n] };
+        let mut before = [(from, at(from)); 2];
+        for n in 1..=PLACES {
+            let now = (place(n), at(place(n)));
+            let mut found: Option<(f64, u32)> = None;
+            for number in 0..E::FACTS.indicators {
+                let [first, middle, last] = [before[0], before[1], now].map(|(t, z)| (t, sided(z, number)));
+                let mut side = |t: f64| sided(at(t), number);
+                let crossed = if last.1 < 0.0 {
+                    Some((middle.0, last.0))
+                } else if first.0 < middle.0 && middle.1 <= first.1 && middle.1 < NEAR * last.1.max(first.1) {
+                    lowest(first.0, last.0, &mut side).map(|low| (first.0, low))
+                } else {
+                    None
+                };
+                if let Some((good, bad)) = crossed {
+                    let t = zero(good, bad, side);
+                    if found.is_none_or(|(earliest, _)| t < earliest) {
+                        found = Some((t, number as u32));
+                    }
+                }
+            }
+            if found.is_some() {
+                return found;
+            }
+            before = [before[1], now];
+        }
+        None
+    }
+}
+
+/// The values of all indicators.
+pub(super) fn indicators<E: Effects, const N: usize>(
+    effects: &E,
+    motion: &Kinematics<f64>,
+    state: &[f64; N],
+) -> Indicators {
+    let mut all = [1.0; MOST_INDICATORS];
+    effects.indicators(motion, &state[..own(N)], &mut all);
+    all
+}
+
+/// Where a function that is positive at both ends is negative between them, if it is, by golden sections.
+fn lowest(mut low: f64, mut high: f64, at: &mut impl FnMut(f64) -> f64) -> Option<f64> {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    const SECTIONS: u32 = 40;
+    for _ in 0..SECTIONS {
+        let [a, b] = [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let [at_a, at_b] = [at(a), at(b)];
+        if at_a < 0.0 || at_b < 0.0 {
+            return Some(if at_a < 0.0 { a } else { b });
+        }
+        if at_a < at_b {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    None
+}
+
+/// Where a function changes its sign between a time where it is on its side and one where it is not: the first time at which it is
+/// not, to rounding (regula falsi, Illinois's variant: Dowell and Jarratt 1971).
+fn zero(mut good: f64, mut bad: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
+    const TRIES: u32 = 200;
+    let (mut above, mut below) = (at(good).max(0.0), at(bad).min(0.0));
+    for n in 0..TRIES {
+        if (bad - good).abs() <= 2.0 * ulp(bad) {
+            break;
+        }
+        let part = above / (above - below);
+        // Where the chord does not help, halves do.
+        let part = if n % 4 == 3 || !(part > 0.0 && part < 1.0) { 0.5 } else { part };
+        let t = good + part * (bad - good);
+        let t = if t <= good || t >= bad { 0.5 * (good + bad) } else { t };
+        let z = at(t);
+        if z < 0.0 {
+            (bad, below, above) = (t, z, 0.5 * above);
+        } else {
+            (good, above, below) = (t, z, 0.5 * below);
+        }
+    }
+    bad
+}
