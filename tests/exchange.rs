@@ -108,16 +108,34 @@ fn exact_phi_begins_with_all_its_turns() {
 }
 
 #[test]
-fn fmi_the_solver_counts_nothing_and_there_are_no_event_indicators() {
+fn fmi_the_solver_counts_nothing() {
     let mut instance = somewhere();
     tilt(&mut instance, 0.5, ASIDE);
     assert_eq!(instance.completed_integrator_step(), Ok(false));
     let spent =
         ["steps", "rejected", "evaluations", "error_estimate", "next_step"].map(|name| format!("solver.{name}"));
     assert_eq!(values(&mut instance, &spent), [0.0; 5]);
-    // SAFETY: a live instance; no element is written.
-    let status = unsafe { fmi2GetEventIndicators(instance.component(), std::ptr::null_mut(), 0) };
-    assert_eq!(status, Status::Ok);
+}
+
+#[test]
+fn fmi_indicators_change_their_sign_where_an_event_is_due() {
+    let mut instance = somewhere();
+    let signs = |instance: &mut Instance, theta: Real, psi: Real| {
+        tilt(instance, theta, psi);
+        let mut values = [Real::NAN; Simulation::INDICATORS];
+        // SAFETY: a live instance, and room for all indicators.
+        let status =
+            unsafe { fmi2GetEventIndicators(instance.component(), values.as_mut_ptr(), Simulation::INDICATORS) };
+        assert_eq!(status, Status::Ok);
+        assert!(values.iter().all(|value| value.is_finite()), "{values:?}");
+        values.map(|value| value > 0.0)
+    };
+    let within = signs(&mut instance, 1.99, ASIDE);
+    assert!(within.iter().all(|positive| *positive));
+    // Beyond the border, and beyond what a completed step may be: a host tries such states until it has found the event.
+    for theta in [2.01, 3.0] {
+        assert!(!signs(&mut instance, theta, ASIDE)[0], "{theta}");
+    }
 }
 
 #[test]

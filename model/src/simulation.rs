@@ -16,7 +16,7 @@ use exchange::Exchange;
 pub use exchange::Settled;
 pub use tangents::Tangents;
 
-use crate::effects::{Effects, InputSet, follows_all_inputs};
+use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::{Fault, Refusal};
@@ -59,6 +59,12 @@ enum Run<const N: usize> {
     Exchange(Exchange<N>),
 }
 
+/// So many indicators of events are always there: of the chart, two of γ, and of the limit.
+pub const ALWAYS_INDICATED: usize = 4;
+
+/// Until it locates an event, a host may try states beyond the chart: to nearly 2π \[rad] their rates are smooth.
+const TRIAL: f64 = 6.0;
+
 /// A rotor of any scene.
 #[cfg(feature = "scenes")]
 pub type Any = Simulation<crate::effects::All, { numbers_of_state::<crate::effects::All>() }>;
@@ -80,6 +86,12 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     pub const STATES: usize = {
         assert!(N == numbers_of_state::<E>(), "N is numbers_of_state::<E>()");
         N - if E::FACTS.could_work { 0 } else { WITH_WORK - COORDINATES }
+    };
+
+    /// How many indicators of events a host sees: [`ALWAYS_INDICATED`] and those of the effects.
+    pub const INDICATORS: usize = ALWAYS_INDICATED + {
+        assert!(E::FACTS.indicators <= MOST_INDICATORS, "MOST_INDICATORS is less than this list has");
+        E::FACTS.indicators
     };
 
     /// A simulation with these parameters.
@@ -358,14 +370,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     pub fn exchange(&mut self) -> Option<Hosted<'_, E, N>> {
         let Some(Run::Exchange(exchange)) = &mut self.run else { return None };
         self.instant = None;
-        Some(Hosted { exchange, effects: &self.parameters.effects })
+        Some(Hosted { exchange, effects: &mut self.parameters.effects })
     }
 
     /// Whether anything can be calculated of the present state; always, where a method of ours reached it.
     #[inline(always)]
     pub fn admits(&self) -> Result<(), Refusal> {
         match &self.run {
-            Some(Run::Exchange(exchange)) => exchange.admits(&self.parameters.effects),
+            Some(Run::Exchange(exchange)) => exchange.admits(&self.parameters.effects, rotor::LIMIT),
             _ => Ok(()),
         }
     }
@@ -373,6 +385,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// What each continuous state of the host's counts with, in its unit.
     pub fn nominals(&self) -> [f64; N] {
         Self::to_host(self.own_nominals())
+    }
+
+    /// Whether rates and indicators can be calculated of the present state, which may be one that a host only tries.
+    pub fn admits_trial(&self) -> Result<(), Refusal> {
+        match &self.run {
+            Some(Run::Exchange(exchange)) => exchange.admits(&self.parameters.effects, TRIAL),
+            _ => Ok(()),
+        }
     }
 
     /// Whether a continuous state stands at this place.
@@ -420,7 +440,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 /// A motion that a host integrates, under its effects.
 pub struct Hosted<'s, E, const N: usize> {
     exchange: &'s mut Exchange<N>,
-    effects: &'s E,
+    effects: &'s mut E,
 }
 
 impl<E: Effects, const N: usize> Hosted<'_, E, N> {
@@ -439,6 +459,11 @@ impl<E: Effects, const N: usize> Hosted<'_, E, N> {
     /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
     pub fn complete_step(&mut self) -> bool {
         self.exchange.complete_step(self.effects)
+    }
+
+    /// The indicators of events, [`Simulation::INDICATORS`] of them.
+    pub fn indicators(&self) -> impl Iterator<Item = f64> {
+        self.exchange.indicators(self.effects)
     }
 
     /// An event begins.

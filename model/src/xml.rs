@@ -3,7 +3,7 @@
 use crate::dependencies::Dependencies;
 use crate::log::{self, Category};
 use crate::scene::Scene;
-use crate::simulation::{Any, Integrator};
+use crate::simulation::{ALWAYS_INDICATED, Any, Integrator};
 use crate::state::{GAMMA, PHI, SUPPLIED};
 use crate::variable::units::Unit;
 use crate::variable::{Bound, Enumeration, Kind, Role};
@@ -39,6 +39,7 @@ fn render(scene: &Scene, guid: &str) -> String {
 fn write(out: &mut Out, scene: &Scene, guid: &str) -> io::Result<()> {
     out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let version = env!("CARGO_PKG_VERSION");
+    let indicators = ALWAYS_INDICATED + scene.effects.iter().map(|(info, _)| info.indicators).sum::<usize>();
     let attributes = [
         ("fmiVersion", "2.0"),
         ("modelName", &scene.name),
@@ -48,7 +49,7 @@ fn write(out: &mut Out, scene: &Scene, guid: &str) -> io::Result<()> {
         ("license", env!("CARGO_PKG_LICENSE")),
         ("generationTool", &format!("split-rotor {version}")),
         ("variableNamingConvention", "structured"),
-        ("numberOfEventIndicators", "0"),
+        ("numberOfEventIndicators", &indicators.to_string()),
     ];
     out.create_element("fmiModelDescription").with_attributes(attributes).write_inner_content(|out| {
         let common = [

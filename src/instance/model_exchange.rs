@@ -24,6 +24,9 @@ impl Instance {
                     .into()
             });
         }
+        if settled.law {
+            self.tell(Category::Events, || "a law of an effect goes on as another one".into());
+        }
         if settled.work {
             self.tell(Category::Events, || "the imposed speed jumped: its work is booked as supplied".into());
         }
@@ -83,7 +86,7 @@ impl Instance {
     /// Reads the rates of the continuous states.
     pub fn derivatives(&mut self, derivatives: Room<f64>) -> Reply {
         check_number(derivatives.len())?;
-        self.memory.simulation.admits()?;
+        self.memory.simulation.admits_trial()?;
         let rates = self.memory.simulation.rates()?;
         if rates.iter().any(|rate| !rate.is_finite()) {
             return Err(Failure::Discard("a force or a rate is infinite or not a number".into()));
@@ -101,12 +104,19 @@ impl Instance {
         Ok(())
     }
 
-    /// Reads the event indicators, of which there are none.
-    pub fn event_indicators(&self, n: usize) -> Reply {
-        if n == 0 {
-            return Ok(());
+    /// Reads the event indicators.
+    pub fn event_indicators(&mut self, indicators: Room<f64>) -> Reply {
+        let n = indicators.len();
+        if n != Simulation::INDICATORS {
+            let message = format!("ni = {n} must be {}, the number of event indicators", Simulation::INDICATORS);
+            return Err(Failure::Error(message));
         }
-        Err(Failure::Error(format!("ni = {n} must be 0: there are no event indicators")))
+        self.memory.simulation.admits_trial()?;
+        let Some(exchange) = self.memory.simulation.exchange() else {
+            return Err(Failure::Error("there is no motion yet".into()));
+        };
+        indicators.iter_mut().zip(exchange.indicators()).for_each(|(room, indicator)| _ = room.write(indicator));
+        Ok(())
     }
 }
 

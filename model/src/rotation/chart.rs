@@ -53,6 +53,11 @@ impl Chart {
         }
     }
 
+    /// How far a motion at this γ \[rad] is from where it should go on in the other chart [rad²].
+    pub fn before_border(self, gamma: Vector2<f64>) -> f64 {
+        Self::SWITCH * Self::SWITCH - gamma.norm_squared()
+    }
+
     /// Whether a motion at this γ \[rad] should go on in the other chart.
     pub fn is_left_at(self, gamma: Vector2<f64>) -> bool {
         gamma.norm_squared() > Self::SWITCH * Self::SWITCH

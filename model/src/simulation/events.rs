@@ -56,6 +56,16 @@ impl Events {
         before != self.positive
     }
 
+    /// Whether an indicator is now on another side.
+    pub(super) fn would_change<E: Effects, const N: usize>(
+        &self,
+        effects: &E,
+        motion: &Kinematics<f64>,
+        state: &[f64; N],
+    ) -> bool {
+        E::FACTS.indicators > 0 && indicators(effects, motion, state).map(|z| z > 0.0) != self.positive
+    }
+
     /// Whether a law must switch before the motion goes on.
     pub(super) fn is_due(&self) -> bool {
         self.due.is_some()

@@ -1,5 +1,6 @@
 //! A motion that somebody else integrates: states, rates, and the events at which its chart changes.
 
+use super::events::{Events, indicators};
 use super::growth::Watch;
 use super::start::Motion;
 use crate::effects::Effects;
@@ -7,7 +8,7 @@ use crate::energy::kinetic;
 use crate::integrate::{Cost, Refusal};
 use crate::rotation::Chart;
 use crate::rotation::chart::crossed_exactly;
-use crate::rotor::{Frame, LIMIT};
+use crate::rotor::Frame;
 use crate::state::{Coordinates, GAMMA, PHI, SUPPLIED, rigid, rigid_mut};
 use crate::stored::stored;
 use crate::variables::{Instant, LARGEST_PHI, Parameters};
@@ -30,9 +31,10 @@ pub struct Exchange<const N: usize> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
     watch: Watch,
+    events: Events,
 }
 
-stored!(Exchange<const N: usize> { frame, t, state, completed, at_event, total_at_start, tilted, watch });
+stored!(Exchange<const N: usize> { frame, t, state, completed, at_event, total_at_start, tilted, watch, events });
 
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
@@ -54,10 +56,12 @@ pub struct Settled {
     pub chart: bool,
     /// The work supplied, by a jump of an imposed speed.
     pub work: bool,
+    /// Laws of effects: they go on as others.
+    pub law: bool,
 }
 
 impl Settled {
-    /// Whether anything did.
+    /// Whether a state did.
     pub fn any(self) -> bool {
         self.chart || self.work
     }
@@ -69,9 +73,9 @@ const PIECES: u32 = 32;
 impl<const N: usize> Exchange<N> {
     /// From a motion that shows `reading` at its start.
     pub(super) fn start<E: Effects>(effects: &E, start: &Motion<N>, instant: &Instant<N>) -> Self {
-        let Motion { frame, state, .. } = *start;
+        let Motion { frame, state, events, .. } = *start;
         let (total_at_start, t) = (instant.reading.ledger.total_at_start, instant.reading.motion.t);
-        let mut exchange = Self { frame, t, state, total_at_start, ..Self::blank() };
+        let mut exchange = Self { frame, t, state, total_at_start, events, ..Self::blank() };
         exchange.completed = exchange.here(effects);
         exchange.at_event = Some(exchange.kinetic(effects));
         exchange.watch_tilt(effects);
@@ -90,6 +94,7 @@ impl<const N: usize> Exchange<N> {
             total_at_start: 0.0,
             tilted: false,
             watch: Watch::default(),
+            events: Events::default(),
         }
     }
 
@@ -129,14 +134,14 @@ impl<const N: usize> Exchange<N> {
     }
 
     /// Whether anything can be calculated of the present state.
-    pub(super) fn admits<E: Effects>(&self, effects: &E) -> Result<(), Refusal> {
+    pub(super) fn admits<E: Effects>(&self, effects: &E, reach: f64) -> Result<(), Refusal> {
         if !self.state.iter().all(|number| number.is_finite()) {
             return Err(Refusal("a state is infinite or not a number"));
         }
         if rigid(&self.state)[PHI].abs() > LARGEST_PHI {
             return Err(Refusal("phi of the continuous states is so large that its whole turns cannot be counted"));
         }
-        self.frame.under(effects).reaches(gamma(&self.state), LIMIT)
+        self.frame.under(effects).reaches(gamma(&self.state), reach)
     }
 
     /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
@@ -145,7 +150,19 @@ impl<const N: usize> Exchange<N> {
         self.completed = self.here(effects);
         self.watch_tilt(effects);
         self.watch.look(&self.frame.under(effects), self.t, &self.state);
-        self.frame.chart.is_left_at(self.completed.gamma)
+        let motion = self.frame.under(effects).motion(self.t, &self.state);
+        self.events.would_change(effects, &motion, &self.state) || self.frame.chart.is_left_at(self.completed.gamma)
+    }
+
+    /// The indicators of events: of the chart, of γ about −e, of the limit of a law that follows γ, and of the effects. Where one
+    /// changes its sign, the host is to come to an event.
+    pub(super) fn indicators<E: Effects>(&self, effects: &E) -> impl Iterator<Item = f64> {
+        let gamma = gamma(&self.state);
+        let about = if self.frame.chart == Chart::FromMinusE { [gamma.x, gamma.y] } else { [1.0; 2] };
+        let limit = if effects.needs_gamma() { self.frame.before_limit(gamma) } else { 1.0 };
+        let motion = self.frame.under(effects).motion(self.t, &self.state);
+        let of_effects = indicators(effects, &motion, &self.state).into_iter().take(E::FACTS.indicators);
+        [self.frame.chart.before_border(gamma), about[0], about[1], limit].into_iter().chain(of_effects)
     }
 
     /// An event begins.
@@ -160,8 +177,14 @@ impl<const N: usize> Exchange<N> {
 
     /// At an event: goes on in the other chart where this one is left, and books the work of a jump. What of the state
     /// that changed.
-    pub(super) fn settle<E: Effects>(&mut self, effects: &E) -> Settled {
-        let settled = Settled { work: self.book_jump(effects), chart: self.settle_chart(effects) };
+    pub(super) fn settle<E: Effects>(&mut self, effects: &mut E) -> Settled {
+        let work = self.book_jump(effects);
+        // A host that completes no steps comes here where γ has gone on by a quarter of a turn.
+        self.frame.turns = self.turns(effects);
+        self.completed = self.here(effects);
+        let motion = self.frame.under(effects).motion(self.t, &self.state);
+        let law = self.events.take_sides(effects, &motion, &self.state);
+        let settled = Settled { work, law, chart: self.settle_chart(effects) };
         if self.at_event.is_some() {
             self.enter_event(effects);
         }

@@ -43,8 +43,10 @@ export! {
     /// Reads the rates of the continuous states.
     fmi2GetDerivatives(instance, rates: *mut Real, n: Size) { instance.derivatives(room(rates, n, "derivatives")?) }
 
-    /// Reads the event indicators, of which there are none.
-    fmi2GetEventIndicators(instance, _indicators: *mut Real, n: Size) { instance.event_indicators(n) }
+    /// Reads the event indicators.
+    fmi2GetEventIndicators(instance, indicators: *mut Real, n: Size) {
+        instance.event_indicators(room(indicators, n, "eventIndicators")?)
+    }
 
     /// Reads the continuous states.
     fmi2GetContinuousStates(instance, x: *mut Real, n: Size) { instance.continuous_states(room(x, n, "x")?) }
