@@ -13,6 +13,7 @@ use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 
 const STATES: usize = Simulation::STATES;
+const INDICATORS: usize = Simulation::INDICATORS;
 
 /// A function, called with arguments that are right.
 struct Call {
@@ -65,7 +66,7 @@ calls! {
     fmi2SetTime(0.04);
     fmi2SetContinuousStates([0.0; STATES].as_ptr(), STATES);
     fmi2GetDerivatives([0.0; STATES].as_mut_ptr(), STATES);
-    fmi2GetEventIndicators(null_mut(), 0);
+    fmi2GetEventIndicators([0.0; INDICATORS].as_mut_ptr(), INDICATORS);
     fmi2GetContinuousStates([0.0; STATES].as_mut_ptr(), STATES);
     fmi2GetNominalsOfContinuousStates([0.0; STATES].as_mut_ptr(), STATES);
     fmi2SetRealInputDerivatives(inputs().as_ptr(), inputs().len(), [1; 64].as_ptr(), [0.0; 64].as_ptr());

@@ -387,6 +387,18 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         Self::to_host(self.own_nominals())
     }
 
+    /// The indicators of events of a motion that a host integrates or will integrate: the first [`Simulation::INDICATORS`] count.
+    pub fn indicators(&self) -> Result<[f64; ALWAYS_INDICATED + MOST_INDICATORS], Invalid> {
+        let effects = &self.parameters.effects;
+        if let Some(Run::Exchange(exchange)) = &self.run {
+            return Ok(exchange.indicators(effects));
+        }
+        self.parameters.check()?;
+        let mut parameters = self.parameters.clone();
+        let (start, instant) = self.at_start(&mut parameters, 0.0)?;
+        Ok(Exchange::start(&parameters.effects, &start, &instant).indicators(&parameters.effects))
+    }
+
     /// Whether rates and indicators can be calculated of the present state, which may be one that a host only tries.
     pub fn admits_trial(&self) -> Result<(), Refusal> {
         match &self.run {
@@ -459,11 +471,6 @@ impl<E: Effects, const N: usize> Hosted<'_, E, N> {
     /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
     pub fn complete_step(&mut self) -> bool {
         self.exchange.complete_step(self.effects)
-    }
-
-    /// The indicators of events, [`Simulation::INDICATORS`] of them.
-    pub fn indicators(&self) -> impl Iterator<Item = f64> {
-        self.exchange.indicators(self.effects)
     }
 
     /// An event begins.

@@ -112,10 +112,7 @@ impl Instance {
             return Err(Failure::Error(message));
         }
         self.memory.simulation.admits_trial()?;
-        let Some(exchange) = self.memory.simulation.exchange() else {
-            return Err(Failure::Error("there is no motion yet".into()));
-        };
-        indicators.iter_mut().zip(exchange.indicators()).for_each(|(room, indicator)| _ = room.write(indicator));
+        fill(indicators, &self.memory.simulation.indicators()?[..Simulation::INDICATORS]);
         Ok(())
     }
 }

@@ -9,6 +9,7 @@ use split_rotor::exports::*;
 use split_rotor::scene::Simulation;
 
 const STATES: usize = Simulation::STATES;
+const INDICATORS: usize = Simulation::INDICATORS;
 
 type Get = unsafe extern "C" fn(Component, *mut Real, Size) -> Status;
 
@@ -38,8 +39,11 @@ impl Actor {
                 self.vector(source, "fmi2GetNominalsOfContinuousStates", fmi2GetNominalsOfContinuousStates, may);
             }
             _ => {
-                let n = source.of(&[0, 0, 1, STATES]);
-                let told = Told { function: "fmi2GetEventIndicators", may: if n == 0 { OK } else { ERROR } };
+                let n = source.of(&[0, 1, INDICATORS, STATES]);
+                let told = Told {
+                    function: "fmi2GetEventIndicators",
+                    may: if n == INDICATORS { OK_OR_DISCARD } else { ERROR },
+                };
                 let mut values = [0.5; STATES];
                 // SAFETY: a live instance, and room for at least as many as told.
                 self.call(&told, |i| unsafe { fmi2GetEventIndicators(i.component(), values.as_mut_ptr(), n) });

@@ -1,9 +1,10 @@
 //! A motion that somebody else integrates: states, rates, and the events at which its chart changes.
 
+use super::ALWAYS_INDICATED;
 use super::events::{Events, indicators};
 use super::growth::Watch;
 use super::start::Motion;
-use crate::effects::Effects;
+use crate::effects::{Effects, MOST_INDICATORS};
 use crate::energy::kinetic;
 use crate::integrate::{Cost, Refusal};
 use crate::rotation::Chart;
@@ -156,13 +157,16 @@ impl<const N: usize> Exchange<N> {
 
     /// The indicators of events: of the chart, of γ about −e, of the limit of a law that follows γ, and of the effects. Where one
     /// changes its sign, the host is to come to an event.
-    pub(super) fn indicators<E: Effects>(&self, effects: &E) -> impl Iterator<Item = f64> {
+    pub(super) fn indicators<E: Effects>(&self, effects: &E) -> [f64; ALWAYS_INDICATED + MOST_INDICATORS] {
         let gamma = gamma(&self.state);
         let about = if self.frame.chart == Chart::FromMinusE { [gamma.x, gamma.y] } else { [1.0; 2] };
         let limit = if effects.needs_gamma() { self.frame.before_limit(gamma) } else { 1.0 };
         let motion = self.frame.under(effects).motion(self.t, &self.state);
-        let of_effects = indicators(effects, &motion, &self.state).into_iter().take(E::FACTS.indicators);
-        [self.frame.chart.before_border(gamma), about[0], about[1], limit].into_iter().chain(of_effects)
+        let mut all = [0.0; ALWAYS_INDICATED + MOST_INDICATORS];
+        let (always, of_effects) = all.split_at_mut(ALWAYS_INDICATED);
+        always.copy_from_slice(&[self.frame.chart.before_border(gamma), about[0], about[1], limit]);
+        of_effects.copy_from_slice(&indicators(effects, &motion, &self.state));
+        all
     }
 
     /// An event begins.
