@@ -20,6 +20,7 @@ impl<'m, S: Scalar> Motion<'m, S> {
     }
 
     /// For what imposes a speed, and so must know all of the motion.
+    #[cfg(imposed_speed)]
     #[inline(always)]
     pub(super) fn whole(&self) -> &'m Kinematics<S> {
         self.kinematics
