@@ -71,7 +71,8 @@ impl Motor {
                 (0.5 * (slow + fast), 0.5 * (slow - fast) / s)
             } else {
                 let (x, decay) = (s * t, libm::exp(-a * t));
-                let [even, odd] = if square < 0.0 { [libm::cos(x), libm::sin(x)] } else { [libm::cosh(x), libm::sinh(x)] };
+                let [even, odd] =
+                    if square < 0.0 { [libm::cos(x), libm::sin(x)] } else { [libm::cosh(x), libm::sinh(x)] };
                 (decay * even, decay * t * if x > 0.0 { odd / x } else { 1.0 })
             };
             (d0 * even + (first + a * d0) * odd, first * even - (a * first + d0 / (lag * time)) * odd, first)
