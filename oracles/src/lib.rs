@@ -8,6 +8,7 @@ pub mod extrapolation;
 pub mod fixed;
 pub mod forward_whirl;
 pub mod jeffcott;
+pub mod limited_power;
 pub mod machine;
 pub mod motion;
 pub mod numerics;

@@ -27,6 +27,7 @@ mod imposed_speed;
 mod invariants;
 mod ledger;
 mod motion;
+mod motor;
 mod order;
 mod ordinary;
 mod paper;

@@ -2,6 +2,7 @@
 
 mod elliptic;
 mod fixed;
+mod limited_power;
 mod motion;
 mod numerics;
 mod paper;
