@@ -33,14 +33,17 @@ pub struct Frame {
     pub chart: Chart,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
-    /// Whether one of its effects works: asked once, not in each evaluation.
+    /// Whether one of its effects works, and how many own states those have that are switched off: asked once, not in each
+    /// evaluation.
     works: bool,
+    idle: u32,
 }
 
 impl Frame {
     /// Of a body under effects that stay switched as they are, φ beyond these `turns`.
     pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
-        Self { body, chart, turns, works: effects.works() }
+        let active: usize = effects.active().map(|block| block.kind().own).sum();
+        Self { body, chart, turns, works: effects.works(), idle: (E::FACTS.own - active) as u32 }
     }
 
     /// The rotor under these effects.
@@ -70,11 +73,12 @@ impl Frame {
 
 impl Stored for Frame {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { body, chart, turns, works } = self;
+        let Self { body, chart, turns, works, idle } = self;
         body.walk(walk)?;
         chart.walk(walk)?;
         whole(turns, walk)?;
-        works.walk(walk)
+        works.walk(walk)?;
+        idle.walk(walk)
     }
 }
 
@@ -289,6 +293,10 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
 
     fn depended_on(&self) -> usize {
         own(N) + if E::FACTS.follows_phi && self.effects.follows_phi() { COORDINATES } else { PHI }
+    }
+
+    fn differentiated(&self) -> usize {
+        System::<N>::depended_on(self).saturating_sub(self.frame.idle as usize)
     }
 
     #[inline(always)]

@@ -295,7 +295,7 @@ impl<const N: usize> Stiff<N> {
 
     /// The Jacobian for a step of size h.
     fn differentiate(&mut self, system: &impl Differentiable<N>) -> [[f64; N]; N] {
-        self.cost.evaluations += system.depended_on() as f64;
+        self.cost.evaluations += system.differentiated() as f64;
         // In the middle of the step, where the method is going: there it serves all stages.
         let ahead = self.extrapolated_at(0.5);
         system.jacobian(self.t + 0.5 * self.h, &std::array::from_fn(|n| self.y[n] + ahead[n]))
