@@ -33,9 +33,10 @@ pub struct Frame {
     pub chart: Chart,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
-    /// Whether one of its effects works, and how many own states those have that are switched off: asked once, not in each
-    /// evaluation.
+    /// Whether one of its effects works, whether one has events, and how many own states those have that are switched off: asked
+    /// once, not in each evaluation.
     works: bool,
+    events: bool,
     idle: u32,
 }
 
@@ -43,7 +44,8 @@ impl Frame {
     /// Of a body under effects that stay switched as they are, φ beyond these `turns`.
     pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
         let active: usize = effects.active().map(|block| block.kind().own).sum();
-        Self { body, chart, turns, works: effects.works(), idle: (E::FACTS.own - active) as u32 }
+        let events = effects.active().any(|block| block.kind().indicators > 0);
+        Self { body, chart, turns, works: effects.works(), events, idle: (E::FACTS.own - active) as u32 }
     }
 
     /// The rotor under these effects.
@@ -65,6 +67,11 @@ impl Frame {
         self.works
     }
 
+    /// Whether one of its effects has events.
+    pub fn has_events(&self) -> bool {
+        self.events
+    }
+
     /// Whether it can be that of a body under these effects: what was saved may have been altered.
     pub fn is_of<E: Effects>(&self, body: &Inertia, effects: &E) -> bool {
         *self == Self::new(*body, effects, self.chart, self.turns)
@@ -73,11 +80,12 @@ impl Frame {
 
 impl Stored for Frame {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { body, chart, turns, works, idle } = self;
+        let Self { body, chart, turns, works, events, idle } = self;
         body.walk(walk)?;
         chart.walk(walk)?;
         whole(turns, walk)?;
         works.walk(walk)?;
+        events.walk(walk)?;
         idle.walk(walk)
     }
 }

@@ -362,7 +362,7 @@ impl<const N: usize> Integration<N> {
 
     /// A step, or the part of it up to the first event.
     fn step_to_event<E: Effects>(&mut self, effects: &E, most: f64, until: f64) -> Result<(), Fault> {
-        let before = (E::FACTS.indicators > 0).then(|| (self.method.clone(), self.last));
+        let before = (E::FACTS.indicators > 0 && self.frame.has_events()).then(|| (self.method.clone(), self.last));
         self.step(effects, most, until)?;
         let Some((method, last)) = before else { return Ok(()) };
         let (from, to, rotor) = (self.method.start_time(), self.method.time(), self.frame.under(effects));
