@@ -116,7 +116,10 @@ impl Events {
                 let mut side = |t: f64| sided(at(t), number);
                 let crossed = if last.1 < 0.0 {
                     Some((middle.0, last.0))
-                } else if first.0 < middle.0 && middle.1 <= first.1 && middle.1 < NEAR * last.1.max(first.1) {
+                } else if first.0 < middle.0
+                    && middle.1 <= first.1
+                    && (middle.1 < NEAR * last.1 || middle.1 < NEAR * first.1)
+                {
                     lowest(first.0, last.0, &mut side).map(|low| (first.0, low))
                 } else {
                     None
@@ -171,7 +174,8 @@ fn lowest(mut low: f64, mut high: f64, at: &mut impl FnMut(f64) -> f64) -> Optio
 /// not, to rounding (regula falsi, Illinois's variant: Dowell and Jarratt 1971).
 fn zero(mut good: f64, mut bad: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
     const TRIES: u32 = 200;
-    let (mut above, mut below) = (at(good).max(0.0), at(bad).min(0.0));
+    let positive = |z: f64| if z > 0.0 { z } else { 0.0 };
+    let (mut above, mut below) = (positive(at(good)), -positive(-at(bad)));
     for n in 0..TRIES {
         if (bad - good).abs() <= 2.0 * ulp(bad) {
             break;
