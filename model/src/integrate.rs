@@ -37,6 +37,11 @@ pub trait System<const N: usize> {
         Self::DEPENDED_ON.min(N)
     }
 
+    /// So many of these neither change nor change anything, as the system is now.
+    fn idle(&self) -> usize {
+        0
+    }
+
     /// f(t, y); where not `ALL` is solved, of the first [`System::ALWAYS`] components, and zeros of the others.
     fn rates<const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N];
 

@@ -283,6 +283,10 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
         own(N) + if E::FACTS.follows_phi && self.effects.follows_phi() { COORDINATES } else { PHI }
     }
 
+    fn idle(&self) -> usize {
+        self.effects.idle().min(own(N))
+    }
+
     #[inline(always)]
     fn solves_all(&self) -> bool {
         self.frame.works

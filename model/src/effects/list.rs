@@ -91,6 +91,11 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         }
     }
 
+    /// How many own states belong to those that do not act.
+    fn idle(&self) -> usize {
+        self.blocks().filter(|block| !block.is_active()).map(|block| block.kind().own).sum()
+    }
+
     /// What they make of the body.
     fn shape(&self, body: &mut Shape) {
         self.active().for_each(|block| block.shape(body));
