@@ -1,4 +1,4 @@
-//! The exported symbols of FMI 2.0, each one call through [`super::guard`].
+//! The exported symbols of FMI 2.0, each one call through `guard`.
 #![allow(unsafe_code)]
 #![allow(non_snake_case, reason = "the names of the standard")]
 #![allow(

@@ -65,7 +65,7 @@ def names_of(fmu, *causalities):
 def calculated(fmu):
     """The outputs, the states and their derivatives."""
     if fmu.scene in project.GENERAL:
-        pytest.skip("its switches are tried in model/tests/named/exact_dependencies.rs")
+        pytest.skip("its switches are tried in model/tests/all/dependencies.rs")
     return names_of(fmu, "output", "local")
 
 

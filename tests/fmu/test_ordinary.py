@@ -1,5 +1,5 @@
 """An ordinary machine at a host's ordinary settings, in the general FMU, by fmpy's CVode: 12 kg on two bearings with an
-unbalance, run up from rest. By our own methods: model/tests/named/ordinary.rs."""
+unbalance, run up from rest. By our own methods: model/tests/all/ordinary.rs."""
 
 import numpy as np
 import pytest

@@ -156,10 +156,10 @@ impl Effect for Extrapolation {
 
 #[cfg(test)]
 mod tests {
+    use super::super::drive::Drive;
     use super::super::list::Called;
     use super::super::list::follows_all_inputs;
     use super::super::port::Port;
-    use super::super::drive::Drive;
     use super::*;
     use crate::effects::Effects;
     use crate::stored::{Damaged, from_bytes, to_bytes};

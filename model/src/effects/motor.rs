@@ -67,9 +67,12 @@ impl Effect for Motor {
             "time in which the torque follows its characteristic; 0: at once"
         ),
         input!(command, &ONE, 1.0, "part of the stall torque that is asked for"),
-        output!("tau", &NEWTON_METRE, "torque of the motor on the rotor, passed on by a constant-velocity joint", |m, s| {
-            m.torque(s)
-        }),
+        output!(
+            "tau",
+            &NEWTON_METRE,
+            "torque of the motor on the rotor, passed on by a constant-velocity joint",
+            |m, s| { m.torque(s) }
+        ),
         own!(state 0, "state.tau", &NEWTON_METRE, "torque that follows the characteristic"),
         own!(rate 0, "der(state.tau)", &NEWTON_METRE_PER_SECOND, "rate of the torque that follows the characteristic"),
     ];

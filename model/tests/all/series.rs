@@ -1,5 +1,5 @@
 //! The polynomials of `rotation/series.rs`, and what the motion makes of them, against exact rationals
-//! (`oracles/fixed.rs`).
+//! (`oracles/src/fixed.rs`).
 
 use crate::harness::{largest, within};
 use nalgebra::{Vector2, Vector3};
