@@ -46,7 +46,7 @@ fn what_it_takes_in_each_scene_and_why() {
     const EXACT: &str = "auto takes symplectic: nothing acts on the rotor";
     const PAIR: &str = "auto takes dop853, and stiff as long as stability alone would hold dop853 to short steps";
     const COLLOCATION: &str = "auto goes on with stiff from t = ";
-    const TAKEN: [(&str, &str); 15] = [
+    const TAKEN: [(&str, &str); 16] = [
         ("coupled", PAIR),
         ("driven", PAIR),
         ("dzhanibekov", EXACT),
@@ -58,6 +58,7 @@ fn what_it_takes_in_each_scene_and_why() {
         ("overhung", "auto goes on with "),
         ("paper", PAIR),
         ("rotor", PAIR),
+        ("rubbing", "auto "),
         ("run_up", PAIR),
         ("stiff_support", COLLOCATION),
         ("tumbling", EXACT),
