@@ -54,7 +54,7 @@ impl Frame {
         Rotor { frame: self, effects }
     }
 
-    /// How far a motion at this γ \[rad] of the chart is from where a law that follows γ has no limit nearby [rad²].
+    /// How far a motion at this γ \[rad] of the chart is from where a law that follows γ has no limit nearby \[rad²].
     pub(crate) fn before_limit(&self, gamma: Vector2<f64>) -> f64 {
         match self.chart {
             Chart::FromE => LIMIT * LIMIT - gamma.norm_squared(),

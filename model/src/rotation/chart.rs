@@ -53,7 +53,7 @@ impl Chart {
         }
     }
 
-    /// How far a motion at this γ \[rad] is from where it should go on in the other chart [rad²].
+    /// How far a motion at this γ \[rad] is from where it should go on in the other chart \[rad²].
     pub fn before_border(self, gamma: Vector2<f64>) -> f64 {
         Self::SWITCH * Self::SWITCH - gamma.norm_squared()
     }
