@@ -27,6 +27,8 @@ PICTURES = {
     "overhung": figures.spin,
     "paper": figures.trajectory,
     "rotor": figures.energy,
+    "rubbing": figures.orbits,
+    "run_up": figures.spin,
     "stiff_support": figures.attitude,
     "tumbling": figures.passage,
     "unstable_whirl": figures.growth,

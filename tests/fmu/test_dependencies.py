@@ -22,6 +22,7 @@ TURN = 7.0
 ROUNDING = 1e-12  # relative to the larger of the value and 1
 POSITIVE = re.compile(
     r"rotor\.m|rotor\.Jt|support\..*|drag\..*|rotating_damping\.d|.*partner_J|unbalance.*\.(mass|radius)|bearing.*\.(cyy|czz|cxx|ct)"
+    r"|motor\.(stall_torque|synchronous_speed|time_constant)|rub.*\.(gap|stiffness|damping|friction|radius|v0)"
 )
 SMALL = re.compile(r"bearing.*\.(cyz|czy)")
 """|cyz + czy|/2 <= sqrt(cyy czz)."""
@@ -142,8 +143,8 @@ def listed(unknowns):
 
 
 def inputs_among(fmu, pairs):
-    """The pairs whose second is an input."""
-    inputs = names_of(fmu, "input")
+    """The pairs whose second is an input; but a motor's command acts at once only where it has no time constant."""
+    inputs = set(names_of(fmu, "input")) - {"motor.command"}
     return sorted((of, on) for of, on in pairs if on in inputs)
 
 

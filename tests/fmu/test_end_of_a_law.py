@@ -43,9 +43,10 @@ def test_exact_cvode_ends_where_a_law_ends(simulate):
     """fmpy cannot tell CVode of fmi2Discard; CVode gives up: an error, not a wrong result."""
     log = []
     start = START | {"start.gamma.y": 3.0, "start.omega.y": 0.5}
-    with pytest.raises(RuntimeError, match="the right-hand side routine failed"):
+    with pytest.raises(RuntimeError, match="the (right-hand side|rootfinding) routine failed"):
         simulate(
             "ModelExchange", log, start_values=start, stop_time=0.5, output_interval=0.25, relative_tolerance=1e-11
         )
     assert [status for status, _ in log[:2]] == [WARNING, DISCARD]
-    assert {message for _, message in log[1:]} == {f"fmi2GetDerivatives: {REASON}"}
+    told = {f"fmi2Get{what}: {REASON}" for what in ("Derivatives", "EventIndicators")}
+    assert {message for _, message in log[1:]} <= told

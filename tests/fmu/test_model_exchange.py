@@ -16,6 +16,9 @@ JUMP = 2e-15  # of what is shown at an event, relative, measured 4.4e-16
 SHOWN = ["axis.x", "axis.y", "axis.z", "phi", "energy.kinetic", "energy.residual", "energy.supplied", "energy.dissipated"]
 
 
+CONTACT = ["rub[1].contact", "r_c.y", "r_c.z", "omega.x"]
+
+
 def exchange(fmu, **options):
     """fmpy's result by CVode."""
     return fmu.simulate(fmi_type="ModelExchange", relative_tolerance=TIGHT, **options)
@@ -23,9 +26,10 @@ def exchange(fmu, **options):
 
 def at_communication_points(result):
     """The rows at the communication points, the last where an event shows two."""
+    points = np.round(result["time"] / 0.01)
+    result = result[np.abs(result["time"] / 0.01 - points) < 1e-6]
     _, first = np.unique(np.round(result["time"] / 0.01).astype(int)[::-1], return_index=True)
-    rows = result[::-1][first]
-    return rows[np.abs(rows["time"] / 0.01 - np.round(rows["time"] / 0.01)) < 1e-6]
+    return result[::-1][first]
 
 
 @pytest.fixture(scope="module")
@@ -68,6 +72,21 @@ def test_exact_tumbling_passes_through_events(runs, fmus):
 
 
 def test_exact_tumbling_between_rare_communication_points(fmus):
-    """fmpy tells of completed steps at communication points only: the axis may turn from 2.0 to 3.1 rad between two."""
-    last = [exchange(fmus["tumbling"], output_interval=interval, output=["phi"])["phi"][-1] for interval in (0.01, 0.1)]
+    """fmpy tells of completed steps at communication points only: between them charts and turns rest on the indicators."""
+    last = [exchange(fmus["tumbling"], output_interval=h, output=["phi"])["phi"][-1] for h in (0.01, 0.1)]
     assert abs(last[1] - last[0]) <= PHI["tumbling"]
+    # CVode takes at most 500 steps between two of them.
+    rare = {"fmi_type": "ModelExchange", "relative_tolerance": 1e-9, "output_interval": 1.0, "output": ["phi"]}
+    assert abs(fmus["tumbling"].simulate(**rare)["phi"][-1] - last[0]) <= 2e-7  # [rad], measured 5.6e-8
+
+
+def test_exact_contacts_are_those_of_co_simulation(fmus):
+    """Twelve times the shaft touches its ring and leaves it in half a second; a contact that is heard late shows afterwards."""
+    place, speed = 1e-9, 1e-7  # [m], [rad/s], measured 1.1e-11, 3.4e-10
+    options = {"stop_time": 0.5, "output_interval": 0.001, "relative_tolerance": 1e-12, "output": CONTACT}
+    by_cvode = fmus["rubbing"].simulate(fmi_type="ModelExchange", **options)
+    own = fmus["rubbing"].simulate(fmi_type="CoSimulation", **options)
+    assert np.count_nonzero(np.diff(by_cvode["rub[1].contact"])) >= 12
+    assert abs(by_cvode["r_c.y"][-1] - own["r_c.y"][-1]) <= place
+    assert abs(by_cvode["r_c.z"][-1] - own["r_c.z"][-1]) <= place
+    assert abs(by_cvode["omega.x"][-1] - own["omega.x"][-1]) <= speed

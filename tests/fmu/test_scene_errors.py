@@ -36,7 +36,7 @@ CASES = {
     ),
     "unknown effect": (
         "effects.gravity", "effects.gravty", ", line 15: unknown effect `gravty`: there are gravity, support, drive, asymmetry, "
-        "unbalance, bearing, rotating_damping, drag, probe, port, imposed_speed, extrapolation",
+        "unbalance, bearing, rotating_damping, drag, probe, port, imposed_speed, extrapolation, motor, rub",
     ),
     "an effect's former name": (
         "effects.support]", "effects.shaft]\n[effects.support]",
