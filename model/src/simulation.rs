@@ -334,6 +334,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     fn own_rates(&mut self) -> Result<[f64; N], Invalid> {
         let Instant { reading, state } = *self.instant()?;
+        if self.admits().is_err() {
+            // A state that a host only tries is not shown.
+            self.instant = None;
+        }
         Ok(rotor::whole_rates(&self.parameters.effects, &reading.motion, &state))
     }
 

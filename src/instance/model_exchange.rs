@@ -89,6 +89,8 @@ impl Instance {
         self.memory.simulation.admits_trial()?;
         let rates = self.memory.simulation.rates()?;
         if rates.iter().any(|rate| !rate.is_finite()) {
+            // A law that has no limit nearby gives its own reason.
+            self.memory.simulation.admits()?;
             return Err(Failure::Discard("a force or a rate is infinite or not a number".into()));
         }
         fill(derivatives, &rates[..Simulation::STATES]);
