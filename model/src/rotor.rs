@@ -8,7 +8,7 @@ use crate::effects::{Act, Effects, Wrench};
 use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
-use crate::rotation::{Chart, Tilt};
+use crate::rotation::Chart;
 use crate::scalar::Scalar;
 use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, own, rigid};
 use crate::stored::{Damaged, Stored, Walk, whole};
@@ -56,10 +56,7 @@ impl Frame {
 
     /// How far a motion at this γ \[rad] of the chart is from where a law that follows γ has no limit nearby \[rad²].
     pub(crate) fn before_limit(&self, gamma: Vector2<f64>) -> f64 {
-        match self.chart {
-            Chart::FromE => LIMIT * LIMIT - gamma.norm_squared(),
-            Chart::FromMinusE => gamma.norm_squared() - FORBIDDEN * FORBIDDEN,
-        }
+        before_limit(self.chart, gamma)
     }
 
     /// Whether one of its effects can lose energy or be supplied with it.
@@ -149,12 +146,11 @@ fn rates<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Coordinates<S> {
     }
 }
 
-/// Whether a law that follows γ has no limit near this tilt; as [`Rotor::reaches`] has it, to the last bit.
-fn is_beyond_limit<S: Scalar>(tilt: &Tilt<S>) -> bool {
-    let theta_squared = tilt.gamma_in_chart().map(S::re).norm_squared();
-    match tilt.chart() {
-        Chart::FromE => theta_squared > LIMIT * LIMIT,
-        Chart::FromMinusE => theta_squared < FORBIDDEN * FORBIDDEN,
+/// How far a γ \[rad] of a chart is from where a law that follows γ has no limit nearby \[rad²]; not positive beyond it.
+fn before_limit(chart: Chart, gamma: Vector2<f64>) -> f64 {
+    match chart {
+        Chart::FromE => LIMIT * LIMIT - gamma.norm_squared(),
+        Chart::FromMinusE => gamma.norm_squared() - FORBIDDEN * FORBIDDEN,
     }
 }
 
@@ -165,7 +161,8 @@ pub fn whole_rates<S: Scalar, E: Effects, const N: usize>(
     motion: &Kinematics<S>,
     state: &[S; N],
 ) -> [S; N] {
-    if effects.needs_gamma() && is_beyond_limit(&motion.tilt) {
+    let gamma = motion.tilt.gamma_in_chart().map(S::re);
+    if effects.needs_gamma() && before_limit(motion.tilt.chart(), gamma) < 0.0 {
         return [S::constant(f64::NAN); N];
     }
     let own = &state[..own(N)];
@@ -222,21 +219,8 @@ impl<'e, E: Effects> Rotor<'e, E> {
     /// [`Rotor::motion`] from a state that is written in this chart.
     #[inline(always)]
     pub fn motion_in<S: Scalar>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
-        self.known_motion::<S, false>(chart, t, y)
-    }
-
-    /// [`Rotor::motion_in`] without the speed that is imposed.
-    #[inline(always)]
-    pub fn free_motion_in<S: Scalar>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
-        self.known_motion::<S, true>(chart, t, y)
-    }
-
-    /// [`Rotor::motion_in`] of a body that is known to be `FREE` of an imposed speed.
-    #[inline(always)]
-    fn known_motion<S: Scalar, const FREE: bool>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
         let motion = Kinematics::new(self.inertia(), chart, Coordinates::from_slice(rigid(y)));
-        let motion = motion.when(S::constant(t), self.frame.turns);
-        if FREE { motion } else { imposed(self.effects, motion) }
+        imposed(self.effects, motion.when(S::constant(t), self.frame.turns))
     }
 
     /// The body; where no effect can shape it, the compiler knows that it is symmetric.
@@ -248,7 +232,7 @@ impl<'e, E: Effects> Rotor<'e, E> {
     /// The rates of a state of N numbers in this chart.
     #[inline(always)]
     fn rates_in<S: Scalar, const N: usize, const ALL: bool>(&self, chart: Chart, t: f64, y: &[S; N]) -> [S; N] {
-        let motion = self.known_motion::<S, false>(chart, t, y);
+        let motion = self.motion_in(chart, t, y);
         debug_assert!(ALL || !self.frame.works, "what works is solved with its work");
         all_rates::<S, E, N, ALL>(self.effects, &motion, &y[..own(N)])
     }
@@ -256,7 +240,7 @@ impl<'e, E: Effects> Rotor<'e, E> {
     /// The same where effects have switches: those that act are asked one after another.
     #[inline(never)]
     fn rates_of_active<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = self.known_motion::<f64, false>(self.frame.chart, t, y);
+        let motion = self.motion(t, y);
         let mut all = [0.0; N];
         let (mut act, mut from) = (().act(&motion, &[]), own(N));
         for n in (0..E::FACTS.count).rev() {
@@ -283,8 +267,8 @@ impl<'e, E: Effects> Rotor<'e, E> {
         if theta_squared > reach * reach {
             return Err(if reach < LIMIT { BEYOND_REACH } else { BEYOND_CHART });
         }
-        if self.frame.chart == Chart::FromMinusE && self.effects.needs_gamma() && theta_squared < FORBIDDEN * FORBIDDEN
-        {
+        let chart = self.frame.chart;
+        if chart == Chart::FromMinusE && self.effects.needs_gamma() && before_limit(chart, gamma) < 0.0 {
             return Err(BEYOND_LIMIT);
         }
         Ok(())

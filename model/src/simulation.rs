@@ -329,10 +329,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// The rates of the state at the communication point, units per second, as a host sees them.
     pub fn rates(&mut self) -> Result<[f64; N], Invalid> {
-        self.own_rates().map(Self::to_host)
+        self.rates_inside().map(Self::to_host)
     }
 
-    fn own_rates(&mut self) -> Result<[f64; N], Invalid> {
+    fn rates_inside(&mut self) -> Result<[f64; N], Invalid> {
         let Instant { reading, state } = *self.instant()?;
         if self.admits().is_err() {
             // A state that a host only tries is not shown.
@@ -365,7 +365,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// How everything changes with time at the communication point, per second.
     pub fn time_derivatives(&mut self) -> Result<Tangents<E, N>, Invalid> {
-        let rates = self.own_rates()?;
+        let rates = self.rates_inside()?;
         let instant = *self.instant()?;
         Ok(Tangents::along_motion(&self.parameters, &instant, &rates))
     }
@@ -388,7 +388,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// What each continuous state of the host's counts with, in its unit.
     pub fn nominals(&self) -> [f64; N] {
-        Self::to_host(self.own_nominals())
+        Self::to_host(self.nominals_inside())
     }
 
     /// The indicators of events of a motion that a host integrates or will integrate: the first [`Simulation::INDICATORS`] count.
@@ -418,10 +418,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// What the continuous state at this place counts with; None where there is none.
     pub fn nominal(&self, place: Place) -> Option<f64> {
-        self.parameters.number_in_state::<N>(place).map(|n| self.own_nominals()[n])
+        self.parameters.number_in_state::<N>(place).map(|n| self.nominals_inside()[n])
     }
 
-    fn own_nominals(&self) -> [f64; N] {
+    fn nominals_inside(&self) -> [f64; N] {
         let t = self.time().unwrap_or_default();
         let mut parameters = self.parameters.clone();
         let start = Motion::<N>::at_start(&mut parameters, t);

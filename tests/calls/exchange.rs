@@ -40,10 +40,8 @@ impl Actor {
             }
             _ => {
                 let n = source.of(&[0, 1, INDICATORS, STATES]);
-                let told = Told {
-                    function: "fmi2GetEventIndicators",
-                    may: if n == INDICATORS { OK_OR_DISCARD } else { ERROR },
-                };
+                let may = if n == INDICATORS { self.calculation() } else { ERROR };
+                let told = Told { function: "fmi2GetEventIndicators", may };
                 let mut values = [0.5; STATES];
                 // SAFETY: a live instance, and room for at least as many as told.
                 self.call(&told, |i| unsafe { fmi2GetEventIndicators(i.component(), values.as_mut_ptr(), n) });

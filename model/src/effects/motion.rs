@@ -1,6 +1,5 @@
 //! A motion as laws see it: where the rotor is and how it moves, never the coordinates in which it is integrated.
 
-use crate::rotation::Angle;
 use crate::scalar::Scalar;
 use crate::state::{Kinematics, Rates};
 use nalgebra::{Vector2, Vector3};
@@ -95,11 +94,6 @@ impl<'m, S: Scalar> Motion<'m, S> {
     /// φ \[rad]; a law that asks for it declares that it [follows φ](super::Effect::FOLLOWS_PHI).
     pub fn phi(&self) -> S {
         self.kinematics.phi()
-    }
-
-    /// φ, its whole turns apart.
-    pub fn angle(&self) -> Angle {
-        self.kinematics.angle()
     }
 
     /// dω_φ/dt [rad/s²] where the coordinates change at these rates.

@@ -150,8 +150,7 @@ impl<const N: usize> Exchange<N> {
 
     /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
     pub(super) fn complete_step<E: Effects>(&mut self, effects: &E) -> bool {
-        self.frame.turns = self.turns(effects);
-        self.completed = self.here(effects);
+        self.count_turns(effects);
         self.watch_tilt(effects);
         self.watch.look(&self.frame.under(effects), self.t, &self.state);
         let motion = self.frame.under(effects).motion(self.t, &self.state);
@@ -187,8 +186,7 @@ impl<const N: usize> Exchange<N> {
     pub(super) fn settle<E: Effects>(&mut self, effects: &mut E) -> Settled {
         let work = self.book_jump(effects);
         // A host that completes no steps comes here where γ has gone on by a quarter of a turn.
-        self.frame.turns = self.turns(effects);
-        self.completed = self.here(effects);
+        self.count_turns(effects);
         let law = self.switch_laws(effects);
         let settled = Settled { work, law, chart: self.settle_chart(effects) };
         if self.at_event.is_some() {
@@ -228,16 +226,21 @@ impl<const N: usize> Exchange<N> {
         kinetic(&self.frame.under(effects).motion(self.t, &self.state))
     }
 
-    /// Goes on in the other chart where this one is left, which changes the state. Whether it did.
+    /// Counts the turns up to the present γ, and goes on counting from there.
+    fn count_turns<E: Effects>(&mut self, effects: &E) {
+        self.frame.turns = self.turns(effects);
+        self.completed = self.here(effects);
+    }
+
+    /// Goes on in the other chart where this one is left, which changes the state. Whether it did. Turns were counted.
     fn settle_chart<E: Effects>(&mut self, effects: &E) -> bool {
         let chart = self.frame.chart;
         let now = gamma(&self.state);
         if !chart.is_left_at(now) {
             return false;
         }
-        let turns = self.turns(effects);
         let rigid = rigid_mut(&mut self.state);
-        let phi = chart.axial_angle(turns, rigid[PHI], now);
+        let phi = chart.axial_angle(self.frame.turns, rigid[PHI], now);
         let crossed = crossed_exactly(now);
         self.frame.chart = chart.other();
         rigid[PHI] = self.frame.chart.own_angle(phi, crossed).radians();
