@@ -4,7 +4,7 @@
 //! own child; without it, `scenes/paper.toml`.
 
 use split_rotor_model::scene::Scene;
-use split_rotor_model::variable::Role;
+use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::xml;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -43,7 +43,11 @@ fn tell_tests(scene: &Scene) {
 fn source(scene: &Scene) -> String {
     let member = if scene.general { "Switched" } else { "Called" };
     let list = scene.effects.iter().rev().fold("()".to_owned(), |rest, (info, index)| {
-        format!("(split_rotor_model::effects::{member}<{}, {index}>, {rest})", info.type_path)
+        let nodes = match scene.nodes(Place::effect_block(info.number, *index)) {
+            0 => String::new(),
+            nodes => format!("<{nodes}>"),
+        };
+        format!("(split_rotor_model::effects::{member}<{}{nodes}, {index}>, {rest})", info.type_path)
     });
     let mut starts = String::new();
     for (reference, value) in &scene.starts {

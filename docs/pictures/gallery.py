@@ -19,6 +19,7 @@ PICTURES = {
     "coupled": figures.trajectory,
     "driven": figures.spin,
     "dzhanibekov": figures.portrait,
+    "film_bearings": figures.spin,
     "free_top": figures.attitude,
     "heavy_top": figures.portrait,
     "high_spin": figures.attitude,

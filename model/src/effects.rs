@@ -7,11 +7,13 @@
 mod act;
 mod list;
 mod motion;
+#[cfg(bearing)]
+pub mod table;
 mod terminal;
 mod wrench;
 
 pub use act::Act;
-pub use list::{Called, Effects, Switched, follows_all_inputs};
+pub use list::{Block, Called, Effects, Switched, follows_all_inputs};
 pub use motion::Motion;
 pub use terminal::Terminal;
 pub use wrench::Wrench;
@@ -100,13 +102,18 @@ pub trait Effect: Clone + Default + Send + 'static {
         None
     }
 
+    /// Whether, with its present parameters, it has events.
+    fn has_events(&self) -> bool {
+        Self::INDICATORS > 0
+    }
+
     /// An indicator, by its number: where it changes its sign, there is an event, and the law [switches](Effect::switch).
     fn indicator(&self, _n: usize, _motion: &Motion<f64>) -> f64 {
         1.0
     }
 
     /// Goes on where the indicators have these signs: the law keeps its branch until it hears of others.
-    fn switch(&mut self, _positive: &[bool]) {}
+    fn switch(&mut self, _positive: &[bool], _motion: &Motion<f64>) {}
 
     /// Its own states where the motion begins; those beyond [`Effect::OWN`] do not count.
     fn own_at_start(&self, _start: &Motion<f64>) -> [f64; MOST_OWN] {
@@ -151,8 +158,8 @@ pub trait Effect: Clone + Default + Send + 'static {
         &mut []
     }
 
-    /// Whether it can remember this: what was saved may have been altered.
-    fn remembers_rightly(&self) -> bool {
+    /// Hears that its variables and memory were brought back; whether it can remember this: what was saved may have been altered.
+    fn restored(&mut self) -> bool {
         true
     }
 
@@ -210,8 +217,10 @@ pub struct Info {
     pub could_work: bool,
     /// Whether it can impose a speed.
     pub imposes: bool,
-    /// How many indicators of events it has.
+    /// How many indicators of events it has without a table.
     pub indicators: usize,
+    /// How many with one.
+    pub indicators_with_table: usize,
     /// The effects after it that cannot act beside it.
     pub excludes: &'static [&'static str],
 }
@@ -259,15 +268,16 @@ pub fn named(name: &str) -> Option<&'static Info> {
     CATALOGUE.iter().find(|info| info.name == name)
 }
 
-/// Declares the effects, those that build.rs lets be compiled: their number (never reused), module and type, and whether a scene may hold several.
+/// Declares the effects, those that build.rs lets be compiled: their number (never reused), module and type, with the number of
+/// its table's nodes where it may have one, and whether a scene may hold several.
 macro_rules! catalogue {
-    ($($number:literal $module:ident $type:ident $many:ident;)*) => {
+    ($($number:literal $module:ident $type:ident $(<$nodes:ident>)? $many:ident;)*) => {
         $(
             #[cfg($module)]
             pub mod $module;
 
             #[cfg($module)]
-            impl Entry for $module::$type {
+            impl $(<const $nodes: usize>)? Entry for $module::$type $(<$nodes>)? {
                 const NAME: &'static str = stringify!($module);
                 const NUMBER: u32 = $number;
                 const SEVERAL: bool = catalogue!(@several $many);
@@ -275,8 +285,9 @@ macro_rules! catalogue {
 
             #[cfg($module)]
             const _: () = {
-                assert!(<$module::$type as Effect>::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
-                assert!(<$module::$type as Effect>::OWN <= MOST_OWN, "an effect has at most MOST_OWN states of its own");
+                type Largest = catalogue!(@largest $module $type $($nodes)?);
+                assert!(Largest::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
+                assert!(Largest::OWN <= MOST_OWN, "an effect has at most MOST_OWN states of its own");
             };
         )*
 
@@ -288,16 +299,17 @@ macro_rules! catalogue {
             several: catalogue!(@several $many),
             terminal: <$module::$type as Effect>::TERMINAL,
             type_path: concat!("split_rotor_model::effects::", stringify!($module), "::", stringify!($type)),
-            metas: || <$module::$type as Effect>::ROWS.iter().map(|row| row.meta).collect(),
+            metas: || <catalogue!(@largest $module $type $($nodes)?)>::ROWS.iter().map(|row| row.meta).collect(),
             could_work: <$module::$type as Effect>::COULD_WORK,
             imposes: <$module::$type as Effect>::IMPOSES,
             indicators: <$module::$type as Effect>::INDICATORS,
+            indicators_with_table: <catalogue!(@largest $module $type $($nodes)?)>::INDICATORS,
             excludes: <$module::$type as Effect>::EXCLUDES,
         }),*];
 
         /// Every effect, each behind a switch.
         #[cfg(feature = "scenes")]
-        pub type All = catalogue!(@list $($module $type $many;)*);
+        pub type All = catalogue!(@list $($module $type $(<$nodes>)? $many;)*);
 
         const _: () = {
             let numbers = [$($number),*];
@@ -316,10 +328,15 @@ macro_rules! catalogue {
     (@list $module:ident $type:ident one; $($rest:tt)*) => {
         (Switched<$module::$type, 1>, catalogue!(@list $($rest)*))
     };
-    (@list $module:ident $type:ident several; $($rest:tt)*) => {
-        (Switched<$module::$type, 1>, (Switched<$module::$type, 2>, (Switched<$module::$type, 3>,
-            (Switched<$module::$type, 4>, catalogue!(@list $($rest)*)))))
+    (@list $module:ident $type:ident $(<$nodes:ident>)? several; $($rest:tt)*) => {
+        catalogue!(@four (catalogue!(@largest $module $type $($nodes)?)) $($rest)*)
     };
+    (@four ($largest:ty) $($rest:tt)*) => {
+        (Switched<$largest, 1>, (Switched<$largest, 2>, (Switched<$largest, 3>, (Switched<$largest, 4>,
+            catalogue!(@list $($rest)*)))))
+    };
+    (@largest $module:ident $type:ident) => { $module::$type };
+    (@largest $module:ident $type:ident $nodes:ident) => { $module::$type<{ table::MOST_NODES }> };
     (@several one) => { false };
     (@several several) => { true };
 }
@@ -330,7 +347,7 @@ catalogue! {
     3 drive Drive one;
     4 asymmetry Asymmetry one;
     5 unbalance Unbalance several;
-    6 bearing Bearing several;
+    6 bearing Bearing<NODES> several;
     7 rotating_damping RotatingDamping one;
     8 drag Drag one;
     9 probe Probe several;

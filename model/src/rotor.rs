@@ -4,7 +4,7 @@ pub mod groups;
 
 use crate::body::Inertia;
 use crate::dual::Dual;
-use crate::effects::{Act, Effects, Wrench};
+use crate::effects::{Act, Block, Effects, Wrench};
 use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
@@ -44,7 +44,7 @@ impl Frame {
     /// Of a body under effects that stay switched as they are, φ beyond these `turns`.
     pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
         let active: usize = effects.active().map(|block| block.kind().own).sum();
-        let events = effects.active().any(|block| block.kind().indicators > 0);
+        let events = effects.active().any(Block::has_events);
         Self { body, chart, turns, works: effects.works(), events, idle: (E::FACTS.own - active) as u32 }
     }
 

@@ -1,6 +1,7 @@
 //! A scene: which effects, which values, which method. Read from TOML and checked, so that what is wrong is told with
 //! file, line, key, value and what would be right.
 
+mod tables;
 mod toml_reader;
 
 use crate::effects::{All, Effects, Info};
@@ -143,6 +144,12 @@ impl Scene {
             parameters.begin_with(Place::of(*reference), *value);
         }
         parameters
+    }
+
+    /// How many nodes the table of an effect has; 0 where there is none.
+    pub fn nodes(&self, block: u32) -> usize {
+        let of_block = self.variables.iter().filter(|variable| variable.place.block == block);
+        of_block.filter_map(|variable| Some(variable.meta.node()?.1)).max().unwrap_or(0)
     }
 
     /// The scene's name made a C identifier.

@@ -300,6 +300,13 @@ impl Meta {
         }
     }
 
+    /// The column and the node, from 1, of a number in a table: `kyy[2]`.
+    #[cfg(feature = "scenes")]
+    pub fn node(&self) -> Option<(&'static str, usize)> {
+        let (column, node) = self.name.strip_suffix(']')?.split_once('[')?;
+        Some((column, node.parse().ok()?))
+    }
+
     /// Whether somebody gives it its value.
     pub fn has_start(&self) -> bool {
         matches!(self.role, Role::Parameter { .. } | Role::Input { .. })

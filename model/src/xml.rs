@@ -1,12 +1,13 @@
 //! modelDescription.xml (FMI 2.0.4) and the GUID of a scene, from the one list of variables.
 
 use crate::dependencies::Dependencies;
+use crate::effects::Info;
 use crate::log::{self, Category};
 use crate::scene::Scene;
 use crate::simulation::{ALWAYS_INDICATED, Any, Integrator};
 use crate::state::{GAMMA, PHI, SUPPLIED};
 use crate::variable::units::Unit;
-use crate::variable::{Bound, Enumeration, Kind, Role};
+use crate::variable::{Bound, Enumeration, Kind, Place, Role};
 use crate::variables::{Variable, state_number};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -39,7 +40,11 @@ fn render(scene: &Scene, guid: &str) -> String {
 fn write(out: &mut Out, scene: &Scene, guid: &str) -> io::Result<()> {
     out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let version = env!("CARGO_PKG_VERSION");
-    let indicators = ALWAYS_INDICATED + scene.effects.iter().map(|(info, _)| info.indicators).sum::<usize>();
+    let indicators = |(info, index): &(&Info, u32)| match scene.nodes(Place::effect_block(info.number, *index)) {
+        0 => info.indicators,
+        _ => info.indicators_with_table,
+    };
+    let indicators = ALWAYS_INDICATED + scene.effects.iter().map(indicators).sum::<usize>();
     let attributes = [
         ("fmiVersion", "2.0"),
         ("modelName", &scene.name),

@@ -10,6 +10,7 @@ pub mod forward_whirl;
 pub mod jeffcott;
 pub mod limited_power;
 pub mod machine;
+pub mod monotone;
 pub mod motion;
 pub mod numerics;
 pub mod paper;

@@ -1,17 +1,19 @@
-//! `bearing`: linear springs and dampers at a station, with cross coupling.
+//! `bearing`: linear springs and dampers at a station, with cross coupling; against the speed where a table is given.
 
+use super::table::Table;
 use super::{Act, Effect, Motion, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{
     METRE, NEWTON, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE,
+    RADIAN_PER_SECOND,
 };
-use crate::variable::{Bound, output, parameter};
+use crate::variable::{Access, Bound, Meta, output, parameter};
 use nalgebra::Vector3;
 
-/// A bearing on the stator line, the x axis.
+/// A bearing on the stator line, the x axis, with a table of so many nodes.
 #[derive(Clone, Debug, Default)]
-pub struct Bearing {
+pub struct Bearing<const NODES: usize = 0> {
     /// Where it is, along t from c \[m].
     pub position: f64,
     /// Stiffness K [N/m]; a seal or a magnet may have a negative one.
@@ -38,23 +40,53 @@ pub struct Bearing {
     pub kt: f64,
     /// Damping of the tilt [N·m·s/rad].
     pub ct: f64,
-    /// x of its station at the start, from where the axial spring is measured \[m].
-    x_at_start: f64,
+    /// What K and C have besides against |ω_φ|: kyy, kyz, kzy, kzz, cyy, cyz, czy, czz of each node.
+    table: Table<8, NODES>,
+    /// x of its station at the start, from where the axial spring is measured \[m], and the number of the table's stretch.
+    memory: [f64; 2],
 }
 
 /// A symmetric damping that is within this of its bound \[1] is rounded.
 const ROUNDING: f64 = 1e-12;
 
-/// Rows of a matrix that acts on (y, z).
-type Matrix = [[f64; 2]; 2];
+/// Between two nodes, the damping is checked at so many speeds.
+const CHECKED_BETWEEN: u32 = 32;
 
-impl Bearing {
-    fn stiffness(&self) -> Matrix {
-        [[self.kyy, self.kyz], [self.kzy, self.kzz]]
+/// So many variables stand before those of the nodes.
+const UNTABLED: usize = 16;
+
+/// Each node has so many.
+const OF_NODE: usize = 9;
+
+/// Rows of a matrix that acts on (y, z).
+type Matrix<S> = [[S; 2]; 2];
+
+/// [a, b, c, d] as a matrix.
+#[inline(always)]
+fn matrix<S: Copy>(a: &[S]) -> Matrix<S> {
+    [[a[0], a[1]], [a[2], a[3]]]
+}
+
+impl<const NODES: usize> Bearing<NODES> {
+    fn stiffness(&self) -> [f64; 4] {
+        [self.kyy, self.kyz, self.kzy, self.kzz]
     }
 
-    fn damping(&self) -> Matrix {
-        [[self.cyy, self.cyz], [self.czy, self.czz]]
+    fn damping(&self) -> [f64; 4] {
+        [self.cyy, self.cyz, self.czy, self.czz]
+    }
+
+    /// Force by the displacement and force by the velocity across, as the table has them \[N].
+    #[inline(always)]
+    fn tabled<S: Scalar>(&self, motion: &Motion<S>) -> Option<[Vector3<S>; 2]> {
+        if NODES == 0 {
+            return None;
+        }
+        let table = self.table.at(motion.omega_phi().abs())?;
+        let (q, rate) = (motion.station(self.position), motion.station_velocity(self.position));
+        let across = |coefficients, v| -times(S::zero(), matrix(coefficients), v);
+        // eq. 101: F = −K(|ω_φ|) q − C(|ω_φ|) dq/dt
+        Some([across(&table[..4], q), across(&table[4..], rate)])
     }
 
     /// What couples y and z in a circle, half of kyz − kzy [N/m].
@@ -65,7 +97,7 @@ impl Bearing {
     /// (x, q) of its station, x from its place at the start \[m].
     #[inline(always)]
     fn displacement<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        motion.station(self.position) - Vector3::x() * S::constant(self.x_at_start)
+        motion.station(self.position) - Vector3::x() * S::constant(self.memory[0])
     }
 
     #[inline(always)]
@@ -77,31 +109,87 @@ impl Bearing {
     #[inline(always)]
     fn spring<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         // eq. 61: F = −(kxx x, K q)
-        -times(self.kxx, self.stiffness(), self.displacement(motion))
+        -self.springs(self.displacement(motion))
     }
 
     /// Force of the dampers on the rotor \[N].
     #[inline(always)]
     fn damper<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         // eq. 61: F = −(cxx dx/dt, C dq/dt)
-        -times(self.cxx, self.damping(), self.velocity(motion))
+        -self.dampers(self.velocity(motion))
     }
 
     /// Force on the rotor at the station \[N].
     fn force<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        self.spring(motion) + self.damper(motion)
+        let force = self.spring(motion) + self.damper(motion);
+        self.tabled(motion).map_or(force, |[pull, drag]| force + pull + drag)
     }
+
+    /// (kxx x, K q).
+    #[inline(always)]
+    fn springs<S: Scalar>(&self, v: Vector3<S>) -> Vector3<S> {
+        times(S::constant(self.kxx), matrix(&self.stiffness().map(S::constant)), v)
+    }
+
+    /// (cxx dx/dt, C dq/dt).
+    #[inline(always)]
+    fn dampers<S: Scalar>(&self, v: Vector3<S>) -> Vector3<S> {
+        times(S::constant(self.cxx), matrix(&self.damping().map(S::constant)), v)
+    }
+}
+
+/// A bearing with this damping drives nothing; `at` tells where it has it.
+fn check_damping([cyy, cyz, czy, czz]: [f64; 4], at: &str) -> Result<(), Invalid> {
+    let most = (cyy * czz).sqrt();
+    if (0.5 * (cyz + czy)).abs() <= most * (1.0 + ROUNDING) {
+        return Ok(());
+    }
+    let bound = format!(
+        "such that (cyz + czy)/2 is at most sqrt(cyy czz) = {most:?} in size{at}, or the bearing would drive what it damps"
+    );
+    let (name, value) = if cyz == 0.0 { ("czy", czy) } else { ("cyz", cyz) };
+    Err(Invalid::new(name, value, bound))
 }
 
 /// (axial x, A q).
 #[inline(always)]
-fn times<S: Scalar>(axial: f64, across: Matrix, v: Vector3<S>) -> Vector3<S> {
-    let [y, z] = across.map(|[a, b]| v.y * S::constant(a) + v.z * S::constant(b));
-    Vector3::new(v.x * S::constant(axial), y, z)
+fn times<S: Scalar>(axial: S, across: Matrix<S>, v: Vector3<S>) -> Vector3<S> {
+    let [y, z] = across.map(|[a, b]| v.y * a + v.z * b);
+    Vector3::new(v.x * axial, y, z)
 }
 
-impl Effect for Bearing {
-    const ROWS: &'static [Row<Self>] = &[
+/// The variables without a table, then those of each of these nodes, column by column.
+macro_rules! rows {
+    ([$($untabled:expr),* $(,)?], $($node:literal)*) => {
+        &[
+            $($untabled,)*
+            $(
+                rows!($node 0 "speed", &RADIAN_PER_SECOND, Bound::NotNegative, "size of omega_phi"),
+                rows!($node 1 "kyy", &NEWTON_PER_METRE, Bound::Finite, "stiffness, force along y by displacement along y,"),
+                rows!($node 2 "kyz", &NEWTON_PER_METRE, Bound::Finite, "stiffness, force along y by displacement along z,"),
+                rows!($node 3 "kzy", &NEWTON_PER_METRE, Bound::Finite, "stiffness, force along z by displacement along y,"),
+                rows!($node 4 "kzz", &NEWTON_PER_METRE, Bound::Finite, "stiffness, force along z by displacement along z,"),
+                rows!($node 5 "cyy", &NEWTON_SECOND_PER_METRE, Bound::NotNegative, "damping, force along y by speed along y,"),
+                rows!($node 6 "cyz", &NEWTON_SECOND_PER_METRE, Bound::Finite, "damping, force along y by speed along z,"),
+                rows!($node 7 "czy", &NEWTON_SECOND_PER_METRE, Bound::Finite, "damping, force along z by speed along y,"),
+                rows!($node 8 "czz", &NEWTON_SECOND_PER_METRE, Bound::NotNegative, "damping, force along z by speed along z,"),
+            )*
+        ]
+    };
+    ($node:literal $column:literal $name:literal, $unit:expr, $bound:expr, $what:literal) => {
+        Row {
+            meta: Meta::parameter(concat!($name, "[", $node, "]"), $unit, Some(0.0), $bound, concat!($what, " at node ", $node)),
+            access: Access::Parameter {
+                get: |bearing: &Self| bearing.table.number($node, $column),
+                set: |bearing: &mut Self, value| bearing.table.set($node, $column, value),
+            },
+        }
+    };
+}
+
+impl<const NODES: usize> Bearing<NODES> {
+    /// Its variables, and those of nodes that it may not have.
+    const ALL: &'static [Row<Self>] = rows!([
         parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
         parameter!(
             kyy,
@@ -154,7 +242,16 @@ impl Effect for Bearing {
         output!("F.x", &NEWTON, "force of the bearing on the rotor at its station, along x", |b, m| b.force(m).x),
         output!("F.y", &NEWTON, "force of the bearing on the rotor at its station, along y", |b, m| b.force(m).y),
         output!("F.z", &NEWTON, "force of the bearing on the rotor at its station, along z", |b, m| b.force(m).z),
-    ];
+    ], 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
+}
+
+impl<const NODES: usize> Effect for Bearing<NODES> {
+    const ROWS: &'static [Row<Self>] = Self::ALL.split_at(UNTABLED + OF_NODE * NODES).0;
+
+    // A node is passed.
+    const INDICATORS: usize = (NODES > 0) as usize;
+
+    const ANALYTIC: bool = NODES == 0;
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
@@ -164,8 +261,8 @@ impl Effect for Bearing {
         let against_lean = Vector3::new(S::zero(), lean.x, lean.y) * S::constant(-self.kt);
         let against_rate = motion.axis().cross(&t_rate) * S::constant(-self.ct);
         let at_station = |force| Wrench::at_station(motion, self.position, force);
-        let springs = r.dot(&times(self.kxx, self.stiffness(), r));
-        Act {
+        let springs = r.dot(&self.springs(r));
+        let linear = Act {
             load: at_station(self.spring(motion)) + Wrench::couple(against_lean),
             damping: at_station(self.damper(motion)) + Wrench::couple(against_rate),
             // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
@@ -173,18 +270,27 @@ impl Effect for Bearing {
             // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
             supply: r.yz().perp(&v.yz()) * S::constant(self.circulation()),
             // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
-            loss: v.dot(&times(self.cxx, self.damping(), v)) + t_rate.dot(&t_rate) * S::constant(self.ct),
+            loss: v.dot(&self.dampers(v)) + t_rate.dot(&t_rate) * S::constant(self.ct),
             ..Act::none()
+        };
+        let Some([pull, drag]) = self.tabled(motion) else { return linear };
+        Act {
+            load: linear.load + at_station(pull),
+            damping: linear.damping + at_station(drag),
+            // eq. 101: −dqᵀ/dt K q is supplied, dqᵀ/dt C dq/dt is lost
+            supply: linear.supply + v.dot(&pull),
+            loss: linear.loss - v.dot(&drag),
+            ..linear
         }
     }
 
     fn follows_speed(&self) -> bool {
         let Self { cyy, cyz, czy, czz, cxx, ct, .. } = *self;
-        [cyy, cyz, czy, czz, cxx, ct].iter().any(|c| *c != 0.0)
+        self.table.is_given() || [cyy, cyz, czy, czz, cxx, ct].iter().any(|c| *c != 0.0)
     }
 
     fn needs_gamma(&self) -> bool {
-        self.kt != 0.0
+        self.kt != 0.0 || self.table.is_given()
     }
 
     fn works(&self) -> bool {
@@ -193,23 +299,42 @@ impl Effect for Bearing {
     }
 
     fn check(&self) -> Result<(), Invalid> {
-        let mean = 0.5 * (self.cyz + self.czy);
-        let most = (self.cyy * self.czz).sqrt();
-        if mean.abs() <= most * (1.0 + ROUNDING) {
-            return Ok(());
+        if !self.table.is_given() {
+            return check_damping(self.damping(), "");
         }
-        let bound = format!(
-            "such that (cyz + czy)/2 is at most sqrt(cyy czz) = {most:?} in size, or the bearing would drive what it damps"
-        );
-        let (name, value) = if self.cyz == 0.0 { ("czy", self.czy) } else { ("cyz", self.cyz) };
-        Err(Invalid::new(name, value, bound))
+        self.table.check()?;
+        let damping = self.damping();
+        self.table.samples(CHECKED_BETWEEN).try_for_each(|(speed, table)| {
+            check_damping(std::array::from_fn(|n| damping[n] + table[4 + n]), &format!(" at {speed:?} rad/s"))
+        })
     }
 
     fn begin(&mut self, start: &Motion<f64>) {
-        self.x_at_start = start.station(self.position).x;
+        self.memory[0] = start.station(self.position).x;
+        if NODES > 0 {
+            self.memory[1] = self.table.follow(start.omega_phi(), None);
+        }
+    }
+
+    fn has_events(&self) -> bool {
+        self.table.is_given()
+    }
+
+    fn indicator(&self, _n: usize, motion: &Motion<f64>) -> f64 {
+        if self.table.is_given() { self.table.within(self.memory[1], motion.omega_phi()) } else { 1.0 }
+    }
+
+    fn switch(&mut self, positive: &[bool], motion: &Motion<f64>) {
+        if let [positive] = positive {
+            self.memory[1] = self.table.follow(motion.omega_phi(), Some(*positive));
+        }
     }
 
     fn memory(&mut self) -> &mut [f64] {
-        std::slice::from_mut(&mut self.x_at_start)
+        &mut self.memory[..1 + Self::INDICATORS]
+    }
+
+    fn restored(&mut self) -> bool {
+        NODES == 0 || self.table.restore(self.memory[1])
     }
 }

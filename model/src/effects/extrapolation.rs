@@ -147,7 +147,7 @@ impl Effect for Extrapolation {
         &mut self.memory
     }
 
-    fn remembers_rightly(&self) -> bool {
+    fn restored(&mut self) -> bool {
         let is_count = (0..=POINTS).any(|count| self.memory[0] == count as f64);
         // Slopes are divided by the time between two points.
         is_count && self.points()[..self.known()].is_sorted_by(|later, earlier| later > earlier)

@@ -167,12 +167,12 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     }
 
     /// Go on where their indicators have these signs.
-    fn switch(&mut self, positive: &[bool]) {
-        let mut first = 0;
+    fn switch(&mut self, positive: &[bool], motion: &Kinematics<f64>, own: &[f64]) {
+        let (mut from, mut first) = (0, 0);
         self.for_each(|block| {
-            let count = block.kind().indicators;
-            block.hear_signs(&positive[first..][..count]);
-            first += count;
+            let kind = block.kind();
+            block.hear_signs(&positive[first..][..kind.indicators], &Motion::new(motion, &own[from..][..kind.own]));
+            (from, first) = (from + kind.own, first + kind.indicators);
         });
     }
 

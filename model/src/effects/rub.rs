@@ -140,7 +140,7 @@ impl Effect for Rub {
         }
     }
 
-    fn switch(&mut self, positive: &[bool]) {
+    fn switch(&mut self, positive: &[bool], _motion: &Motion<f64>) {
         self.pressed = f64::from(positive.iter().all(|positive| *positive));
     }
 
@@ -152,7 +152,7 @@ impl Effect for Rub {
         std::slice::from_mut(&mut self.pressed)
     }
 
-    fn remembers_rightly(&self) -> bool {
+    fn restored(&mut self) -> bool {
         self.pressed == 0.0 || self.pressed == 1.0
     }
 

@@ -1,5 +1,6 @@
 //! From the text of a scene to its values. The known keys are the names of the variables; there is no second list.
 
+use super::tables::Columns;
 use super::{Experiment, defaults, is_one_line};
 use crate::effects::{self, CATALOGUE, Info};
 use crate::error::Invalid;
@@ -30,6 +31,7 @@ struct Values<'v> {
     variables: &'v [Variable],
     starts: BTreeMap<u32, f64>,
     lines: Vec<(String, usize)>,
+    columns: Columns,
 }
 
 impl<'v> Values<'v> {
@@ -66,7 +68,7 @@ fn every_effect(called: &[(&Info, u32)]) -> Vec<(&'static Info, u32)> {
 }
 
 /// A line from 1, where one is to blame, and what is wrong with it.
-type Wrong = (Option<usize>, String);
+pub(super) type Wrong = (Option<usize>, String);
 
 /// What the reader of TOML calls a key that stands twice in a table.
 const DUPLICATE: &str = "duplicate key";
@@ -119,14 +121,15 @@ impl Reader<'_> {
                 }
             }
         }
-        let (effects, variables) = if general {
+        let (effects, mut variables) = if general {
             let all = every_effect(&called);
             let variables = variables::of_general(&all);
             (all, variables)
         } else {
             (called.clone(), variables::of_scene(&called))
         };
-        let mut values = Values { variables: &variables, starts: defaults(&variables), lines: Vec::new() };
+        let (starts, columns) = (defaults(&variables), Columns::default());
+        let mut values = Values { variables: &variables, starts, lines: Vec::new(), columns };
         for section in ["rotor", "start", "solver"] {
             if let Some(value) = root.get(section) {
                 self.block(self.table(value, section)?, section, section, &mut values)?;
@@ -144,7 +147,13 @@ impl Reader<'_> {
             values.switch(&called);
         }
         nothing_missing(&values)?;
-        let Values { starts, lines, .. } = values;
+        let Values { mut starts, lines, columns, .. } = values;
+        columns.check()?;
+        let is_there = |variable: &Variable| columns.hold(variable);
+        variables.iter().filter(|variable| !is_there(variable)).for_each(|variable| {
+            starts.remove(&variable.place.value_reference());
+        });
+        variables.retain(is_there);
         let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
         let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
         let experiment = self.experiment(root.get("experiment"), tolerance)?;
@@ -193,10 +202,25 @@ impl Reader<'_> {
             let name = format!("{prefix}.{}", key.get_ref());
             let in_file = format!("{section}.{}", key.get_ref());
             let within = format!("{name}.");
-            if let Some(variable) = values.settable().find(|variable| variable.name == name) {
+            let first = format!("{name}[1]");
+            let in_table = values.settable().find(|variable| variable.name == first);
+            if let (Some(first), Some(numbers)) = (in_table, value.get_ref().as_array()) {
+                let line = self.line(value.span().start);
+                values.columns.add(first, in_file.clone(), numbers.len(), line)?;
+                for (node, number) in (1..).zip(numbers.iter()) {
+                    let name = format!("{name}[{node}]");
+                    let variable = values.settable().find(|variable| variable.name == name).expect("they were counted");
+                    let value = self.number(number, variable, &format!("{in_file}[{node}]"))?;
+                    values.starts.insert(variable.place.value_reference(), value);
+                    values.lines.push((name, self.line(number.span().start)));
+                }
+            } else if let Some(variable) = values.settable().find(|variable| variable.name == name) {
                 let number = self.number(value, variable, &in_file)?;
                 values.starts.insert(variable.place.value_reference(), number);
                 values.lines.push((name, self.line(value.span().start)));
+            } else if let Some(first) = in_table {
+                let right = format!("an array of numbers in {}", first.meta.unit.name);
+                return Err(self.wrong_type(value, &in_file, &right));
             } else if values.settable().any(|variable| variable.name.starts_with(&within)) {
                 let keys = next_keys(values.settable(), &name);
                 let right = format!("a table of {}, such as {{ {} = 0.1 }}", keys.join(", "), keys[0]);
@@ -319,7 +343,7 @@ fn next_keys<'v>(settable: impl Iterator<Item = &'v Variable>, prefix: &str) -> 
     let mut keys: Vec<&str> = Vec::new();
     for variable in settable {
         if let Some(rest) = variable.name.strip_prefix(prefix).and_then(|rest| rest.strip_prefix('.')) {
-            let key = rest.split('.').next().unwrap_or(rest);
+            let key = rest.split(['.', '[']).next().unwrap_or(rest);
             if !keys.contains(&key) {
                 keys.push(key);
             }

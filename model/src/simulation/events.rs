@@ -52,7 +52,7 @@ impl Events {
             return false;
         }
         let before = std::mem::replace(&mut self.positive, indicators(effects, motion, state).map(|z| z > 0.0));
-        effects.switch(&self.positive);
+        self.tell(effects, motion, state);
         before != self.positive
     }
 
@@ -82,18 +82,23 @@ impl Events {
     }
 
     /// The law switches that must.
-    pub(super) fn switch<E: Effects>(&mut self, effects: &mut E) {
+    pub(super) fn switch<E: Effects, const N: usize>(
+        &mut self,
+        effects: &mut E,
+        motion: &Kinematics<f64>,
+        state: &[f64; N],
+    ) {
         let due = self.due.take().and_then(|number| self.positive.get_mut(number as usize));
         if let Some(positive) = due {
             *positive = !*positive;
-            effects.switch(&self.positive);
+            self.tell(effects, motion, state);
         }
     }
 
     /// The effects take the sides that are known.
-    pub(super) fn tell<E: Effects>(&self, effects: &mut E) {
+    pub(super) fn tell<E: Effects, const N: usize>(&self, effects: &mut E, motion: &Kinematics<f64>, state: &[f64; N]) {
         if E::FACTS.indicators > 0 {
-            effects.switch(&self.positive);
+            effects.switch(&self.positive, motion, &state[..own(N)]);
         }
     }
 

@@ -227,7 +227,9 @@ impl<const N: usize> Integration<N> {
             return outcome;
         }
         (self.t, self.method, self.last, self.frame, self.events) = before;
-        self.events.tell(effects);
+        let y = self.method.state();
+        let motion = self.frame.under(effects).motion(self.method.time(), y);
+        self.events.tell(effects, &motion, y);
         Err(Fault::Refused { t: self.t, reason: TOO_LONG })
     }
 
@@ -266,8 +268,9 @@ impl<const N: usize> Integration<N> {
                 self.method.adapt(auto, self.tolerance, &self.frame.under(effects));
             }
             if self.events.is_due() {
-                self.events.switch(effects);
                 let y = *self.method.state();
+                let motion = self.frame.under(effects).motion(self.method.time(), &y);
+                self.events.switch(effects, &motion, &y);
                 self.method.go_on_from(&self.frame.under(effects), y);
             }
             let before = self.method.time();

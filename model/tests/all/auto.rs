@@ -46,10 +46,11 @@ fn what_it_takes_in_each_scene_and_why() {
     const EXACT: &str = "auto takes symplectic: nothing acts on the rotor";
     const PAIR: &str = "auto takes dop853, and stiff as long as stability alone would hold dop853 to short steps";
     const COLLOCATION: &str = "auto goes on with stiff from t = ";
-    const TAKEN: [(&str, &str); 16] = [
+    const TAKEN: [(&str, &str); 17] = [
         ("coupled", PAIR),
         ("driven", PAIR),
         ("dzhanibekov", EXACT),
+        ("film_bearings", PAIR),
         ("free_top", EXACT),
         ("heavy_top", PAIR),
         ("high_spin", COLLOCATION),

@@ -3,7 +3,7 @@
 //! loop.
 
 use crate::harness::Random;
-use crate::harness::named::{Named, names};
+use crate::harness::named::{Named, ascending, names};
 use oracles::numerics::derivative;
 use split_rotor_model::dependencies::Dependencies;
 use split_rotor_model::simulation::{Any, Integrator};
@@ -52,7 +52,7 @@ fn somewhere(name: &str, chart: u32, random: &mut Random) -> Named {
                 match bound {
                     // So that a bearing's damping, whose diagonal is from 1, is possible.
                     Bound::Finite => random.within(-1.0, 1.0),
-                    Bound::Positive | Bound::NotNegative => random.within(1.0, 1.4),
+                    Bound::Positive | Bound::NotNegative => random.within(1.0, 1.4) + ascending(&variable.meta),
                     // So that a difference stays within.
                     Bound::Within(low, high) | Bound::ZeroOrWithin(low, high) => {
                         low + (high - low) * random.within(0.1, 0.9)

@@ -1,7 +1,7 @@
 //! What `dependencies` lists, against random changes of one variable after another: whatever changes another is listed.
 
 use crate::harness::Random;
-use crate::harness::named::{Named, names};
+use crate::harness::named::{Named, ascending, names};
 use split_rotor_model::dependencies::Dependencies;
 use split_rotor_model::simulation::{Any, Integrator};
 use split_rotor_model::variable::{Bound, Kind, Place, Role};
@@ -24,7 +24,9 @@ fn range(variable: &Variable) -> Option<(f64, f64)> {
             // Cross damping of a bearing, whose own damping is then from 1.
             Bound::Finite if variable.place.block >= Place::FIRST_EFFECT => Some((-1.0, 1.0)),
             Bound::Finite => Some((-2.0, 2.0)),
-            Bound::Positive | Bound::NotNegative => Some((1.0, 1.5)),
+            Bound::Positive | Bound::NotNegative => {
+                Some((1.0 + ascending(&variable.meta), 1.5 + ascending(&variable.meta)))
+            }
             Bound::Within(low, high) | Bound::ZeroOrWithin(low, high) => Some((low, high)),
             Bound::OneOf(_) => None,
         },

@@ -42,6 +42,7 @@ mod signal;
 mod stiff;
 mod stored;
 mod symplectic;
+mod tables;
 mod tangents;
 mod traced;
 mod turns;

@@ -1,6 +1,7 @@
 //! What every effect must keep, with any parameters and inputs, in any motion of either chart: the power of its load is what
 //! it supplies, less what it loses and what its potential gains. A new effect needs no word about it.
 
+use crate::harness::named::ascending;
 use crate::harness::{Random, Scene, largest, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::body::{Inertia, Shape};
@@ -29,7 +30,7 @@ fn drawn(info: &Info, random: &mut Random) -> All {
                 effects.set_parameter(place, random.within(-1.0, 1.0));
             }
             Role::Parameter { .. } => {
-                effects.set_parameter(place, random.within(1.0, 2.0));
+                effects.set_parameter(place, random.within(1.0, 2.0) + ascending(&meta));
             }
             Role::Input { .. } => effects.signal_mut(place).expect("an input").set(0.0, random.within(-2.0, 2.0)),
             _ => {}
@@ -81,10 +82,11 @@ fn exact_power_of_each_effect() {
             let mut effects = drawn(info, &mut random);
             let body = if sample % 4 < 2 { Scene::paper().body.into() } else { asymmetric() };
             let motion = Kinematics::new(body, chart, motion(chart, &mut random));
-            let mut sides = [0.0; MOST_INDICATORS];
-            effects.indicators(&motion, &[0.0; All::FACTS.own], &mut sides);
-            effects.switch(&sides.map(|side| side > 0.0));
             let own: [f64; All::FACTS.own] = std::array::from_fn(|_| random.within(-2.0, 2.0));
+            effects.begin(&motion, &mut own.clone(), &mut own.clone());
+            let mut sides = [0.0; MOST_INDICATORS];
+            effects.indicators(&motion, &own, &mut sides);
+            effects.switch(&sides.map(|side| side > 0.0), &motion, &own);
             let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own);
             let load = load + damping;
             let [of_potential] = effects.act(&moving(&motion), &own.map(Tangent::constant)).stored.eps;

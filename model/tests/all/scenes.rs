@@ -75,7 +75,7 @@ fn messages_of_several_effects_that_cannot_be() {
         (
             format!("{bearings}k_yy = 1.0\n"),
             "bad.toml, line 8: unknown key `effects.bearing[1].k_yy`: [[effects.bearing]] knows position, kyy, kyz, kzy, \
-             kzz, cyy, cyz, czy, czz, kxx, cxx, kt, ct",
+             kzz, cyy, cyz, czy, czz, kxx, cxx, kt, ct, speed",
         ),
         (
             format!("{bearings}{bearings}cyy = -1.0\n"),

@@ -91,6 +91,18 @@ fn a_restored_run_goes_on_with_the_same_bits() {
     }
 }
 
+/// Between two nodes, in contact or out of it, with a torque on its way.
+#[test]
+fn laws_with_a_memory_are_restored() {
+    for scene in ["film_bearings", "rubbing", "run_up"] {
+        let mut one = Named::new(scene, Integrator::Method);
+        one.start();
+        go_on(&mut one, 3.0);
+        let mut other = restored(&mut one, nothing(Integrator::Method));
+        assert_eq!(go_on(&mut other, 3.0), go_on(&mut one, 3.0), "{scene}");
+    }
+}
+
 #[test]
 fn a_run_that_is_not_started_is_restored() {
     for integrator in [Integrator::Method, Integrator::Host] {

@@ -3,6 +3,7 @@
 mod elliptic;
 mod fixed;
 mod limited_power;
+mod monotone;
 mod motion;
 mod numerics;
 mod paper;

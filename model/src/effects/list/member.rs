@@ -127,7 +127,7 @@ fn walk_rows<E: Effect>(effect: &mut E, walk: &mut impl Walk) -> Result<(), Dama
         }
     }
     effect.memory().iter_mut().try_for_each(|number| number.walk(walk))?;
-    if effect.remembers_rightly() { Ok(()) } else { Err(Damaged) }
+    if effect.restored() { Ok(()) } else { Err(Damaged) }
 }
 
 /// How many inputs of an effect may be extrapolated.
@@ -205,12 +205,16 @@ impl<M: Member> Block for M {
         effect.check().map_err(within)
     }
 
+    fn has_events(&self) -> bool {
+        self.effect().has_events()
+    }
+
     fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64 {
         self.effect().indicator(n, motion)
     }
 
-    fn hear_signs(&mut self, positive: &[bool]) {
-        self.effect_mut().switch(positive);
+    fn hear_signs(&mut self, positive: &[bool], motion: &Motion<f64>) {
+        self.effect_mut().switch(positive, motion);
     }
 
     fn begin(&mut self, start: &Motion<f64>) {

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use oracles::machine::Machine;
 use split_rotor_model::scene::Scene;
 use split_rotor_model::simulation::{Any, Integrator, Simulation};
-use split_rotor_model::variable::Place;
+use split_rotor_model::variable::{Meta, Place};
 use split_rotor_model::variables::Variable;
 use std::path::Path;
 
@@ -48,6 +48,14 @@ pub fn toml(settings: &[(String, f64)]) -> String {
         text += &format!("{name} = {value:?}\n");
     }
     text
+}
+
+/// What is added to a draw of a parameter, so that the speeds of a table ascend.
+pub fn ascending(meta: &Meta) -> f64 {
+    match meta.node() {
+        Some(("speed", node)) => node as f64,
+        _ => 0.0,
+    }
 }
 
 impl Named {

@@ -1,0 +1,300 @@
+//! Coefficients against a speed: monotone cubics between the nodes of a table, held beyond them.
+
+use crate::error::Invalid;
+use crate::scalar::Scalar;
+
+/// A table has at most so many nodes.
+pub const MOST_NODES: usize = 16;
+
+/// Coefficients at the nodes of a speed, of which only the size counts.
+#[derive(Clone, Debug)]
+pub struct Table<const COLUMNS: usize, const NODES: usize> {
+    /// Speeds of the nodes [rad/s], ascending from at least 0.
+    speed: [f64; NODES],
+    /// The coefficients of each node.
+    values: [[f64; COLUMNS]; NODES],
+    /// The stretch that the motion is in; None before it begins, and where no coefficient is given.
+    stretch: Option<Stretch<COLUMNS>>,
+}
+
+/// The speeds between two neighbouring nodes, below the first, or beyond the last.
+#[derive(Clone, Debug)]
+struct Stretch<const COLUMNS: usize> {
+    /// Its ends [rad/s].
+    low: f64,
+    high: f64,
+    /// Of each power of the speed beyond `low`, the coefficient in each column.
+    cubics: [[f64; COLUMNS]; 4],
+}
+
+/// A stretch is left where the speed is beyond its end by this part of it: rounding about a node is no event \[1].
+const EDGE: f64 = 1e-9;
+
+impl<const COLUMNS: usize, const NODES: usize> Default for Table<COLUMNS, NODES> {
+    /// Nodes at speeds that nothing reaches: what is held up to them is held for ever.
+    fn default() -> Self {
+        Self {
+            speed: std::array::from_fn(|n| f64::MAX * ((n + 1) as f64 / (2 * MOST_NODES) as f64)),
+            values: [[0.0; COLUMNS]; NODES],
+            stretch: None,
+        }
+    }
+}
+
+impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
+    /// Whether any coefficient is given.
+    pub fn is_given(&self) -> bool {
+        self.values.as_flattened().iter().any(|value| *value != 0.0)
+    }
+
+    /// A number of a node, counted from 1: its speed in column 0, then its coefficients; 0 where there is no such node.
+    pub fn number(&self, node: usize, column: usize) -> f64 {
+        let number = match column {
+            0 => self.speed.get(node - 1),
+            _ => self.values.get(node - 1).map(|values| &values[column - 1]),
+        };
+        number.copied().unwrap_or_default()
+    }
+
+    /// Sets such a number.
+    pub fn set(&mut self, node: usize, column: usize, value: f64) {
+        let number = match column {
+            0 => self.speed.get_mut(node - 1),
+            _ => self.values.get_mut(node - 1).map(|values| &mut values[column - 1]),
+        };
+        number.into_iter().for_each(|number| *number = value);
+    }
+
+    /// Speeds ascend.
+    pub fn check(&self) -> Result<(), Invalid> {
+        match (1..NODES).find(|n| self.speed[*n] <= self.speed[n - 1]) {
+            None => Ok(()),
+            Some(n) => {
+                let bound = format!("more than that of the node before, {:?} rad/s", self.speed[n - 1]);
+                Err(Invalid::new(format!("speed[{}]", n + 1), self.speed[n], bound))
+            }
+        }
+    }
+
+    /// The coefficients that a motion with a speed ≥ 0 [rad/s] meets; None where none is given.
+    #[inline(always)]
+    pub fn at<S: Scalar>(&self, speed: S) -> Option<[S; COLUMNS]> {
+        let stretch = self.stretch.as_ref()?;
+        if (stretch.low..=stretch.high).contains(&speed.re()) {
+            return Some(stretch.at(speed));
+        }
+        // A stage of a method, or a host that knows no events, may be further on than the motion.
+        Some(self.stretch(self.nodes_up_to(speed.re())).at(speed))
+    }
+
+    /// Speeds [rad/s] and the coefficients there: at the nodes, and at so many speeds between two.
+    pub fn samples(&self, between: u32) -> impl Iterator<Item = (f64, [f64; COLUMNS])> {
+        let from_to = self.speed.iter().zip(self.speed.iter().skip(1));
+        let speeds = from_to.flat_map(move |(from, to)| {
+            (0..=between).map(move |k| from + (to - from) * (f64::from(k) / f64::from(between + 1)))
+        });
+        let speeds = speeds.chain(self.speed.last().copied());
+        speeds.map(|speed| (speed, self.stretch(self.nodes_up_to(speed)).at(speed)))
+    }
+
+    /// How many nodes are not above a speed.
+    fn nodes_up_to(&self, speed: f64) -> usize {
+        self.speed.partition_point(|node| *node <= speed)
+    }
+
+    /// The slope in each column at the node of this number: harmonic means keep what is monotone between nodes monotone
+    /// (Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300); none at the ends.
+    fn slopes(&self, n: usize) -> [f64; COLUMNS] {
+        if n == 0 || n + 1 >= NODES {
+            return [0.0; COLUMNS];
+        }
+        let [before, after] = [n, n + 1].map(|n| self.speed[n] - self.speed[n - 1]);
+        std::array::from_fn(|column| {
+            let rise = |n: usize| self.values[n][column] - self.values[n - 1][column];
+            let [left, right] = [rise(n) / before, rise(n + 1) / after];
+            if left * right <= 0.0 {
+                return 0.0;
+            }
+            let [w_left, w_right] = [before + 2.0 * after, 2.0 * before + after];
+            // eq. 100: d = (w₁ + w₂)/(w₁/δ₁ + w₂/δ₂), w₁ = h₁ + 2h₂, w₂ = 2h₁ + h₂
+            (w_left + w_right) / (w_left / left + w_right / right)
+        })
+    }
+
+    /// The ends of the stretch above so many nodes [rad/s].
+    fn ends(&self, nodes: usize) -> [f64; 2] {
+        let low = if nodes == 0 { 0.0 } else { self.speed[nodes - 1] };
+        [low, self.speed.get(nodes).copied().unwrap_or(f64::INFINITY)]
+    }
+
+    /// The stretch above so many nodes.
+    fn stretch(&self, nodes: usize) -> Stretch<COLUMNS> {
+        let [low, high] = self.ends(nodes);
+        let mut cubics = [[0.0; COLUMNS]; 4];
+        cubics[0] = self.values[nodes.saturating_sub(1)];
+        if nodes == 0 || nodes == NODES {
+            return Stretch { low, high, cubics };
+        }
+        let h = high - low;
+        let [from, to] = [nodes - 1, nodes].map(|n| self.slopes(n));
+        for column in 0..COLUMNS {
+            let rise = self.values[nodes][column] - self.values[nodes - 1][column];
+            let ([d1, d2], secant) = ([from[column], to[column]], rise / h);
+            // eq. 100: c₁ = d₁, c₂ = (3δ − 2d₁ − d₂)/h, c₃ = (d₁ + d₂ − 2δ)/h²
+            cubics[1][column] = d1;
+            cubics[2][column] = (3.0 * secant - 2.0 * d1 - d2) / h;
+            cubics[3][column] = (d1 + d2 - 2.0 * secant) / h / h;
+        }
+        Stretch { low, high, cubics }
+    }
+
+    /// Whether the first node is at rest: then what rises from there bends where the speed changes its sign.
+    fn begins_at_rest(&self) -> bool {
+        self.speed[0] == 0.0
+    }
+
+    /// How many nodes are below a stretch, which are numbered through both directions of the speed: 0, or −1 and 0 where the table
+    /// [begins at rest](Self::begins_at_rest), are about rest.
+    fn nodes_below(&self, number: f64) -> usize {
+        let backward = number < 0.0;
+        number.abs() as usize + usize::from(self.begins_at_rest() && !backward)
+    }
+
+    /// The number of the stretch with a speed [rad/s].
+    fn stretch_of(&self, speed: f64) -> f64 {
+        let nodes = self.nodes_up_to(speed.abs()) as f64;
+        if speed < 0.0 { 0.0 - nodes } else { nodes - f64::from(self.begins_at_rest()) }
+    }
+
+    /// How far a speed is within a stretch [rad/s], negative for stretches of odd numbers: where it goes over to the next one, it
+    /// changes its sign.
+    pub fn within(&self, number: f64, speed: f64) -> f64 {
+        let [low, high] = self.ends(self.nodes_below(number));
+        let about_rest = number == 0.0 && !self.begins_at_rest();
+        let forward = if number < 0.0 { -speed } else { speed };
+        let edge = |end: f64| self.edge(end);
+        let above_low = if about_rest { forward + high + edge(high) } else { forward - low + edge(low) };
+        let below_high = if high.is_finite() { high + edge(high) - forward } else { above_low };
+        let inside = if above_low < below_high { above_low } else { below_high };
+        if number % 2.0 == 0.0 { inside } else { -inside }
+    }
+
+    /// So far beyond the end of a stretch at this speed, the next one begins [rad/s].
+    fn edge(&self, end: f64) -> f64 {
+        EDGE * end.max(self.speed[usize::from(self.begins_at_rest() && NODES > 1)])
+    }
+
+    /// Goes on in the stretch of a speed [rad/s]; at the edge of two, in that where [`within`](Self::within) is `positive`. Its
+    /// number.
+    pub fn follow(&mut self, speed: f64, positive: Option<bool>) -> f64 {
+        let here = self.stretch_of(speed);
+        let is_near =
+            |number: &f64| self.exists(*number) && self.within(*number, speed).abs() <= 4.0 * self.edge(speed.abs());
+        let is_right = |number: &f64| positive.is_none_or(|positive| (number % 2.0 == 0.0) == positive);
+        let others = [here - 1.0, here + 1.0].into_iter().filter(is_near);
+        let number = std::iter::once(here).chain(others).find(is_right).unwrap_or(here);
+        self.enter(number);
+        number
+    }
+
+    /// Whether there is a stretch of this number.
+    fn exists(&self, number: f64) -> bool {
+        let last = NODES as f64 - f64::from(self.begins_at_rest());
+        number.fract() == 0.0 && (-(NODES as f64)..=last).contains(&number)
+    }
+
+    /// Goes on in a stretch that was remembered; whether there is one of this number.
+    pub fn restore(&mut self, number: f64) -> bool {
+        let exists = self.exists(number);
+        if exists {
+            self.enter(number);
+        }
+        exists
+    }
+
+    fn enter(&mut self, number: f64) {
+        self.stretch = self.is_given().then(|| self.stretch(self.nodes_below(number)));
+    }
+}
+
+impl<const COLUMNS: usize> Stretch<COLUMNS> {
+    #[inline(always)]
+    fn at<S: Scalar>(&self, speed: S) -> [S; COLUMNS] {
+        let x = speed - S::constant(self.low);
+        let [c0, c1, c2, c3] = &self.cubics;
+        std::array::from_fn(|n| {
+            let [c0, c1, c2, c3] = [c0[n], c1[n], c2[n], c3[n]].map(S::constant);
+            // eq. 100: c₀ + c₁ x + c₂ x² + c₃ x³
+            c0 + x * (c1 + x * (c2 + x * c3))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// One coefficient at these speeds.
+    fn table<const NODES: usize>(speeds: [f64; NODES]) -> Table<1, NODES> {
+        let mut table = Table::default();
+        for (n, speed) in (1..).zip(speeds) {
+            table.set(n, 0, speed);
+            table.set(n, 1, speed * speed + 1.0);
+        }
+        table
+    }
+
+    /// Stretches are numbered one after another from backward to forward, the sign changes from one to the next, and each is left at
+    /// an edge beyond its end only.
+    fn passes<const NODES: usize>(speeds: [f64; NODES], numbers: std::ops::RangeInclusive<i32>) {
+        let mut table = table(speeds);
+        let mut ends: Vec<f64> = speeds.iter().flat_map(|speed| [-speed, *speed]).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup_by(|one, other| one == other);
+        let last = speeds[NODES - 1];
+        assert_eq!(numbers.clone().count(), ends.len() + 1);
+        for (number, place) in numbers.zip(0..) {
+            let number = f64::from(number);
+            let from = if place == 0 { -2.0 * last } else { ends[place - 1] };
+            let to = ends.get(place).copied().unwrap_or(2.0 * last);
+            let middle = 0.5 * (from + to);
+            assert_eq!(table.follow(middle, None), number, "{middle} rad/s");
+            let sign = if number % 2.0 == 0.0 { 1.0 } else { -1.0 };
+            for inside in [from, middle, to] {
+                assert!(sign * table.within(number, inside) > 0.0, "{inside} rad/s in {number}");
+            }
+            let Some(edge) = ends.get(place).map(|end| end + 1.5 * table.edge(end.abs())) else { continue };
+            assert!(sign * table.within(number, edge) < 0.0, "{edge} rad/s is beyond {number}");
+            // At the edge the sign says which of both it is.
+            for (positive, expected) in [(sign > 0.0, number), (sign < 0.0, number + 1.0)] {
+                assert_eq!(table.follow(edge, Some(positive)), expected);
+                assert!(table.restore(expected));
+            }
+        }
+    }
+
+    #[test]
+    fn stretches_follow_one_another() {
+        passes([0.0, 20.0, 50.0], -3..=2);
+        passes([10.0, 20.0, 50.0], -3..=3);
+        passes([10.0], -1..=1);
+    }
+
+    #[test]
+    fn a_stretch_that_is_not_there_is_refused() {
+        for number in [-4.0, 3.0, 0.5, f64::NAN, f64::INFINITY] {
+            assert!(!table([0.0, 20.0, 50.0]).restore(number), "{number}");
+        }
+    }
+
+    #[test]
+    fn where_the_speed_is_not_in_the_stretch_the_table_says_the_same() {
+        let mut far = table([0.0, 20.0, 50.0]);
+        let mut near = far.clone();
+        far.follow(70.0, None);
+        for speed in [0.0, 13.0, 20.0, 49.0, 50.0, 70.0] {
+            near.follow(speed, None);
+            assert_eq!(far.at(speed), near.at(speed), "{speed} rad/s");
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! Bearings against the speed: the table in closed form, Jeffcott's rotor in them, the order across nodes, the ledger.
+
+use crate::harness::named::Named;
+use crate::harness::{Random, at, within};
+use nalgebra::{Complex, Normed};
+use oracles::extrapolation::steps;
+use oracles::monotone::curve;
+use split_rotor_model::scene::Scene;
+use std::path::Path;
+
+const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n";
+
+/// Columns of a table whose stiffness first rises and then falls, kyy, kyz, kzy, kzz, cyy, cyz, czy, czz.
+const SPEEDS: [f64; 5] = [0.0, 20.0, 50.0, 90.0, 150.0];
+const COLUMNS: [(&str, [f64; 5]); 8] = [
+    ("kyy", [2e3, 2.4e3, 4e3, 4.2e3, 3e3]),
+    ("kyz", [0.0, 10.0, 21.0, 33.0, 41.0]),
+    ("kzy", [0.0, -10.0, -21.0, -33.0, -41.0]),
+    ("kzz", [2e3, 2.2e3, 3.8e3, 4.4e3, 3.1e3]),
+    ("cyy", [6.0, 4.5, 3.0, 2.8, 2.7]),
+    ("cyz", [0.1, 0.3, 0.2, 0.0, -0.4]),
+    ("czy", [0.1, 0.2, 0.1, 0.0, -0.4]),
+    ("czz", [5.5, 4.8, 3.3, 2.8, 2.6]),
+];
+
+/// A bearing at c with this table.
+fn bearing(speeds: &[f64], columns: &[(&str, [f64; 5])]) -> String {
+    let mut text = format!("[[effects.bearing]]\nposition = 0.0\nspeed = {speeds:?}\n");
+    for (name, values) in columns {
+        text += &format!("{name} = {:?}\n", &values[..speeds.len()]);
+    }
+    text
+}
+
+/// What each column has at a speed.
+fn expected(speed: f64) -> [f64; 8] {
+    COLUMNS.map(|(_, values)| curve(&std::array::from_fn::<_, 5, _>(|n| (SPEEDS[n], values[n])), speed.abs()))
+}
+
+/// Force over its size \[1]: measured 5.5e-16.
+const FORCE: f64 = 3e-15;
+
+#[test]
+fn exact_force_against_the_speed_forward_and_backward() {
+    let mut random = Random(100);
+    for sample in 0..400 {
+        let speed = match sample {
+            0..5 => SPEEDS[sample],
+            5..10 => -SPEEDS[sample - 5],
+            _ => random.within(-200.0, 200.0),
+        };
+        let [y, z, vy, vz] = std::array::from_fn(|_| random.within(-1.0, 1.0));
+        let start = format!(
+            "[start]\nr_c = {{ y = {y:?}, z = {z:?} }}\nv_c = {{ y = {vy:?}, z = {vz:?} }}\nomega = {{ x = {speed:?} }}\n"
+        );
+        let mut rotor = Named::written(&format!("{ROTOR}{start}{}", bearing(&SPEEDS, &COLUMNS)));
+        rotor.start();
+        let [kyy, kyz, kzy, kzz, cyy, cyz, czy, czz] = expected(speed);
+        let force = [kyy * y + kyz * z + cyy * vy + cyz * vz, kzy * y + kzz * z + czy * vy + czz * vz].map(|f| -f);
+        let size = (kyy + kzz) * (y.abs() + z.abs()) + (cyy + czz) * (vy.abs() + vz.abs());
+        for (name, force) in ["bearing[1].F.y", "bearing[1].F.z"].into_iter().zip(force) {
+            within(&format!("{name} at {speed}"), (rotor.get(name) - force).abs() / size, FORCE);
+        }
+    }
+}
+
+/// Radius and phase of Jeffcott's rotor over its eccentricity, the ledger over the work \[1]: measured .
+const JEFFCOTT: [f64; 2] = [1e-9, 1e-11];
+
+/// With K and C of that speed, the steady whirl is z = M ε ω²/(K − Mω² + iωC) in the frame of the unbalance (Jeffcott 1919), the
+/// circulation k turning K to K − ik.
+#[test]
+fn exact_response_to_unbalance_at_twenty_speeds() {
+    let table = "[[effects.bearing]]\nposition = 0.0\nspeed = [10.0, 20.0, 30.0, 55.0]\nkyy = [1e3, 2e3, 3e3, 3.1e3]\n\
+                 kzz = [1e3, 2e3, 3e3, 3.1e3]\nkyz = [5.0, 10.0, 30.0, 80.0]\nkzy = [-5.0, -10.0, -30.0, -80.0]\n\
+                 cyy = [60.0, 40.0, 30.0, 25.0]\nczz = [60.0, 40.0, 30.0, 25.0]\n";
+    let column = |values: [f64; 4]| [10.0, 20.0, 30.0, 55.0].into_iter().zip(values).collect::<Vec<_>>();
+    let columns = [[1e3, 2e3, 3e3, 3.1e3], [5.0, 10.0, 30.0, 80.0], [60.0, 40.0, 30.0, 25.0]].map(column);
+    let (mass, eccentricity) = (5.1, 0.1 * 0.02 / 5.1);
+    for n in 1..=20 {
+        let speed = 3.0 * f64::from(n);
+        let [k, cross, c] = [0, 1, 2].map(|n| curve(&columns[n], speed));
+        let stiffness = Complex::new(k - mass * speed * speed, c * speed - cross);
+        let whirl = Complex::new(mass * eccentricity * speed * speed, 0.0) / stiffness;
+        let rate = whirl * Complex::new(0.0, speed);
+        let mut rotor = Named::written(&format!(
+            "{ROTOR}[start]\nr_c = {{ y = {:?}, z = {:?} }}\nv_c = {{ y = {:?}, z = {:?} }}\nomega = {{ x = {speed:?} }}\n{table}\
+             [[effects.unbalance]]\nmass = 0.1\nradius = 0.02\nangle = 0.0\nposition = 0.0\n[effects.imposed_speed]\nw = {speed:?}\n\
+             [solver]\nrelative_tolerance = 1e-12\n",
+            whirl.re, whirl.im, rate.re, rate.im
+        ));
+        rotor.start();
+        let t = 3.0;
+        let reading = at(&mut rotor.simulation, t);
+        let turned = whirl * Complex::new(libm::cos(speed * t), libm::sin(speed * t));
+        let found = Complex::new(rotor.get("r_c.y"), rotor.get("r_c.z"));
+        within(&format!("place at {speed} rad/s"), (found - turned).norm() / eccentricity, JEFFCOTT[0]);
+        let work = reading.ledger.supplied.abs() + reading.ledger.dissipated + reading.ledger.kinetic;
+        within("ledger", reading.ledger.residual().abs() / work, JEFFCOTT[1]);
+    }
+}
+
+/// A disk in the bearing, run up through all its nodes at an imposed rate.
+const RATE: f64 = 60.0;
+
+fn run_up(solver: &str) -> Named {
+    let mut rotor = Named::written(&format!(
+        "{ROTOR}[start]\nr_c = {{ y = 0.01 }}\nomega = {{ x = -60.0 }}\n{}[effects.imposed_speed]\nw = -60.0\na = {RATE:?}\n\
+         [[effects.port]]\nposition = 0.0\n[solver]\n{solver}",
+        bearing(&SPEEDS, &COLUMNS)
+    ));
+    rotor.start();
+    rotor
+}
+
+/// The same from node to node by extrapolation: y, z [m], and their rates [m/s].
+fn ran_up(end: f64) -> [f64; 4] {
+    let f = |t: f64, s: &[f64; 4]| {
+        let [kyy, kyz, kzy, kzz, cyy, cyz, czy, czz] = expected(RATE * t - 60.0);
+        let [y, z, vy, vz] = *s;
+        let of = |a: f64| -a / 5.0;
+        [vy, vz, of(kyy * y + kyz * z + cyy * vy + cyz * vz), of(kzy * y + kzz * z + czy * vy + czz * vz)]
+    };
+    let nodes = SPEEDS.iter().flat_map(|speed| [-speed, *speed]).map(|speed| (speed + 60.0) / RATE);
+    let mut times: Vec<f64> = nodes.filter(|t| *t > 0.0 && *t < end).chain([end]).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times.iter().fold((0.0, [0.01, 0.0, 0.0, 0.0]), |(t, y), next| (*next, steps(f, t, &y, next - t, 40))).1
+}
+
+/// Place over the size of the motion \[1], in tolerances: measured .
+const RUN_UP: f64 = 100.0;
+
+#[test]
+fn exact_run_up_through_nodes() {
+    let [y, z, ..] = ran_up(3.0);
+    for method in ["dopri5", "dop853", "auto", "stiff"] {
+        for tolerance in [1e-6, 1e-9, 1e-12] {
+            let mut rotor = run_up(&format!(
+                "method = \"{method}\"\nrelative_tolerance = {tolerance:e}\nabsolute_tolerance = 1e-14\n"
+            ));
+            let reading = at(&mut rotor.simulation, 3.0);
+            let error = libm::hypot(rotor.get("r_c.y") - y, rotor.get("r_c.z") - z) / libm::hypot(y, z);
+            within(&format!("{method} at {tolerance:e}"), error / tolerance, RUN_UP);
+            let residual = reading.ledger.residual().abs() / reading.ledger.dissipated.abs();
+            println!("{method} at {tolerance:e}: residual {residual:.1e}, {} evaluations", reading.cost.evaluations);
+        }
+    }
+}
+
+#[test]
+fn order_is_kept_across_nodes() {
+    /// Steps, and the least order of the error between both.
+    const ORDERS: [(&str, f64, f64, f64); 2] = [("dopri5", 400.0, 800.0, 4.5), ("dop853", 100.0, 200.0, 7.0)];
+    let [y, z, ..] = ran_up(3.0);
+    for (method, few, many, least) in ORDERS {
+        let error = |count: f64| {
+            let mut rotor = run_up(&format!("method = \"{method}\"\nrelative_tolerance = 1e-2\n"));
+            for n in 1..=count as u32 {
+                // Who sets an input ends a step; what pulls along the axis does nothing across it.
+                rotor.set("port[1].f.x", 1e-9 * f64::from(n % 2));
+                at(&mut rotor.simulation, 3.0 * f64::from(n) / count);
+            }
+            libm::hypot(rotor.get("r_c.y") - y, rotor.get("r_c.z") - z)
+        };
+        let [coarse, fine] = [few, many].map(error);
+        let order = libm::log2(coarse / fine) / libm::log2(many / few);
+        println!("{method}: {coarse:.2e}, {fine:.2e}: order {order:.2}");
+        assert!(order >= least, "{method}: {order}");
+    }
+}
+
+/// What the reader of scenes says of a table.
+fn refused(table: &str) -> String {
+    let text = format!("{ROTOR}[[effects.bearing]]\nposition = 0.0\n{table}");
+    Scene::parse(Path::new("test.toml"), &text).expect_err("a table that is not right").to_string()
+}
+
+#[test]
+fn tables_that_are_not_right_are_refused() {
+    for (table, message) in [
+        (
+            "kyy = [1.0, 2.0]\n",
+            "line 8: effects.bearing[1].kyy is a table: give the speeds of its nodes in rad/s as `speed = [...]`",
+        ),
+        (
+            "speed = [1.0, 2.0]\nkyy = [1.0]\n",
+            "line 9: effects.bearing[1].kyy must have as many numbers as speed, 2, not 1",
+        ),
+        ("speed = []\n", "line 8: effects.bearing[1].speed must have from 1 to 16 numbers, not 0"),
+        (
+            "speed = 3.0\n",
+            "line 8: effects.bearing[1].speed = 3.0 is not possible: it must be an array of numbers in rad/s",
+        ),
+        ("position = [1.0]\n", "duplicate key"),
+        ("kxx = [1.0]\n", "line 8: effects.bearing[1].kxx = [1.0] is not possible: it must be a number in N/m"),
+        (
+            "speed = [1.0, inf]\nkyy = [1.0, 2.0]\n",
+            "line 8: effects.bearing[1].speed[2] = inf is not possible: it must be a finite number >= 0",
+        ),
+        (
+            "speed = [0.0, 2.0, 2.0]\nkyy = [1.0, 2.0, 3.0]\n",
+            "line 8: bearing[1].speed[3] = 2.0 is not possible: it must be more than that of the node before, 2.0 rad/s",
+        ),
+        (
+            "speed = [0.0, 100.0]\ncyy = [4.0, 0.0]\nczz = [4.0, 0.0]\ncyz = [0.0, 1.0]\n",
+            "in size at 81.81818181818183 rad/s, or the bearing would drive what it damps",
+        ),
+    ] {
+        let found = refused(table);
+        println!("{found}");
+        assert!(found.contains(message), "{found}\n{message}");
+    }
+    let many: Vec<f64> = (0..17).map(f64::from).collect();
+    assert!(refused(&format!("speed = {many:?}\n")).contains("must have from 1 to 16 numbers, not 17"));
+}
