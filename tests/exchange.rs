@@ -230,8 +230,8 @@ fn fmi_a_state_beyond_the_chart_is_discarded_and_may_be_left() {
 #[test]
 #[cfg_attr(not(scene_has_support), ignore = "needs a scene with support")]
 fn fmi_a_state_beyond_the_law_is_discarded() {
-    const REASON: &str = "fmi2GetDerivatives: the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma \
-                          (c2, tau) has no limit at pi";
+    const REASON: &str = "fmi2GetDerivatives: the tilt |gamma| reaches 3.1 rad, and the spring support.c2, which \
+                          follows gamma, has no limit at pi";
     for (c2, is_refused) in [(500.0, true), (0.0, false)] {
         // In the chart from −e, whose tilts are those that are left to π.
         let values = [("start.gamma.y", 3.0), ("support.c2", c2), ("support.d2", 0.0), ("drive.tau", 0.0)];

@@ -125,10 +125,10 @@ pub trait Effect: Clone + Default + Send + 'static {
         [1.0; MOST_OWN]
     }
 
-    /// Whether, with its present parameters and inputs, its law has no limit where |γ| = π, because it follows the
-    /// direction of γ.
-    fn needs_gamma(&self) -> bool {
-        false
+    /// What of its law, with its present parameters and inputs, has no limit where |γ| = π, because it follows the direction of γ:
+    /// as [`no_limit!`] says it to the user who gets there.
+    fn no_limit(&self) -> Option<&'static str> {
+        None
     }
 
     /// What no single bound says: the first of its parameters that does not go with the others, named within its block.
@@ -173,6 +173,14 @@ pub trait Effect: Clone + Default + Send + 'static {
     fn follows_speed(&self) -> bool {
         self.works()
     }
+}
+
+/// Why an axis may not come near −e: `no_limit!("drive.tau, which a joint passes on,")`.
+#[allow(unused_macros, reason = "a scene's effects may all have one")]
+macro_rules! no_limit {
+    ($what:literal) => {
+        concat!("the tilt |gamma| reaches 3.1 rad, and ", $what, " has no limit at pi")
+    };
 }
 
 /// What was set of an input.

@@ -100,10 +100,6 @@ const BEYOND_CHART: Refusal = Refusal(
      can change it",
 );
 
-/// Why an axis may not come near −e.
-pub const BEYOND_LIMIT: Refusal =
-    Refusal("the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi");
-
 /// The rate of K under this load [N·m].
 #[inline(always)]
 fn moment<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Vector3<S> {
@@ -267,9 +263,8 @@ impl<'e, E: Effects> Rotor<'e, E> {
         if theta_squared > reach * reach {
             return Err(if reach < LIMIT { BEYOND_REACH } else { BEYOND_CHART });
         }
-        let chart = self.frame.chart;
-        if chart == Chart::FromMinusE && self.effects.needs_gamma() && before_limit(chart, gamma) < 0.0 {
-            return Err(BEYOND_LIMIT);
+        if self.frame.chart == Chart::FromMinusE && self.frame.before_limit(gamma) < 0.0 {
+            return self.effects.no_limit().map_or(Ok(()), |reason| Err(Refusal(reason)));
         }
         Ok(())
     }

@@ -12,7 +12,7 @@ use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::integrate::{Refusal, System};
 use crate::rotation::arc::{Reduced, atan2};
 use crate::rotation::{Angle, Chart, Tilt, Turn, Turned};
-use crate::rotor::{BEYOND_LIMIT, FORBIDDEN, LIMIT, Rotor, groups};
+use crate::rotor::{FORBIDDEN, LIMIT, Rotor, groups};
 use crate::state::{Coordinates, Kinematics, PHI, own, put_work, rigid, rigid_mut, work};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
@@ -183,7 +183,7 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
     #[inline(always)]
     fn drift(&mut self, h: f64) {
         if self.guarded && self.may_pass_the_limit(h) {
-            self.refusal = Some(BEYOND_LIMIT);
+            self.refusal = self.rotor.effects.no_limit().map(Refusal);
         }
         if self.refusal.is_some() {
             return;

@@ -13,7 +13,7 @@ START = {
 }
 END = 3.1 / 5.0  # [s]
 REACHED = 1e-12  # [s], measured 1e-16
-REASON = "the tilt |gamma| reaches 3.1 rad, and a spring or torque that follows gamma (c2, tau) has no limit at pi"
+REASON = "the tilt |gamma| reaches 3.1 rad, and the spring support.c2, which follows gamma, has no limit at pi"
 
 
 @pytest.fixture

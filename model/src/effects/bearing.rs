@@ -289,8 +289,10 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
         self.table.is_given() || [cyy, cyz, czy, czz, cxx, ct].iter().any(|c| *c != 0.0)
     }
 
-    fn needs_gamma(&self) -> bool {
-        self.kt != 0.0 || self.table.is_given()
+    fn no_limit(&self) -> Option<&'static str> {
+        let spring = (self.kt != 0.0).then_some(no_limit!("the spring kt of a bearing, which follows gamma,"));
+        let table = self.table.is_given().then_some(no_limit!("omega_phi, which the table of a bearing follows,"));
+        spring.or(table)
     }
 
     fn works(&self) -> bool {

@@ -40,7 +40,7 @@ impl Effect for Drive {
         false
     }
 
-    fn needs_gamma(&self) -> bool {
-        !self.tau.is_zero()
+    fn no_limit(&self) -> Option<&'static str> {
+        (!self.tau.is_zero()).then_some(no_limit!("drive.tau, which a joint passes on,"))
     }
 }

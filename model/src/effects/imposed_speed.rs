@@ -138,8 +138,8 @@ impl Effect for ImposedSpeed {
         Some(self.told(t))
     }
 
-    fn needs_gamma(&self) -> bool {
-        true
+    fn no_limit(&self) -> Option<&'static str> {
+        Some(no_limit!("the speed that imposed_speed gives a joint"))
     }
 
     fn begin(&mut self, start: &Motion<f64>) {

@@ -105,7 +105,12 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
 
     /// Whether the law of any of them has no limit where |γ| = π.
     fn needs_gamma(&self) -> bool {
-        self.active().any(Block::needs_gamma)
+        self.no_limit().is_some()
+    }
+
+    /// What that is, of the first.
+    fn no_limit(&self) -> Option<&'static str> {
+        self.active().find_map(Block::no_limit)
     }
 
     /// Whether any of them can act on the rotor.

@@ -98,8 +98,8 @@ impl Effect for Motor {
         [if self.stall_torque > 0.0 { self.stall_torque } else { 1.0 }; MOST_OWN]
     }
 
-    fn needs_gamma(&self) -> bool {
-        self.stall_torque != 0.0
+    fn no_limit(&self) -> Option<&'static str> {
+        (self.stall_torque != 0.0).then_some(no_limit!("motor.tau, which a joint passes on,"))
     }
 
     fn works(&self) -> bool {

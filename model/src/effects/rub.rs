@@ -156,8 +156,9 @@ impl Effect for Rub {
         self.pressed == 0.0 || self.pressed == 1.0
     }
 
-    fn needs_gamma(&self) -> bool {
-        self.friction != 0.0 && self.radius != 0.0 && self.pressed != 0.0
+    fn no_limit(&self) -> Option<&'static str> {
+        (self.friction != 0.0 && self.radius != 0.0 && self.pressed != 0.0)
+            .then_some(no_limit!("the friction of rub, which a joint passes on,"))
     }
 
     fn works(&self) -> bool {

@@ -94,8 +94,8 @@ impl Effect for Support {
         }
     }
 
-    fn needs_gamma(&self) -> bool {
-        self.c2 != 0.0
+    fn no_limit(&self) -> Option<&'static str> {
+        (self.c2 != 0.0).then_some(no_limit!("the spring support.c2, which follows gamma,"))
     }
 
     fn works(&self) -> bool {

@@ -1,10 +1,11 @@
 //! Starts and steps at the edge of what can be done: tiny communication steps, late times, a rotor at rest, a start at the
 //! singular point, absurd forces, impossible parameters.
 
+use crate::harness::named::Named;
 use crate::harness::{Method, Scene, Supported, at, largest, times, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::body::Body;
-use split_rotor_model::integrate::Fault;
+use split_rotor_model::integrate::{Fault, Refusal};
 use split_rotor_model::variables::Reading;
 
 /// Position [m], axis [1] and φ [rad] of two readings: the largest difference.
@@ -167,5 +168,38 @@ fn regress_impossible_parameters_are_named() {
         assert_eq!(invalid.variable, variable);
         assert!(invalid.to_string().contains(variable) && invalid.to_string().contains("must be"), "{invalid}");
         assert!(simulation.read().is_err(), "nothing to read either");
+    }
+}
+
+#[test]
+fn a_law_without_a_limit_is_named() {
+    let rotor = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[start]\nomega = { y = 5.0 }\n";
+    for (effect, what) in [
+        ("[effects.support]\nc2 = 1e-300\n", "the spring support.c2, which follows gamma,"),
+        ("[effects.drive]\ntau = 1e-300\n", "drive.tau, which a joint passes on,"),
+        (
+            "[effects.motor]\nstall_torque = 1.0\nsynchronous_speed = 1.0\ncommand = 1e-300\n",
+            "motor.tau, which a joint passes on,",
+        ),
+        ("[[effects.bearing]]\nposition = 0.0\nkt = 1e-300\n", "the spring kt of a bearing, which follows gamma,"),
+        (
+            "[[effects.bearing]]\nposition = 0.0\nspeed = [0.0]\nkyy = [1e-300]\n",
+            "omega_phi, which the table of a bearing follows,",
+        ),
+        ("[effects.imposed_speed]\nw = 0.0\n", "the speed that imposed_speed gives a joint"),
+    ] {
+        for method in ["dop853", "symplectic"] {
+            if (effect.contains("imposed"), method) == (true, "symplectic") {
+                continue;
+            }
+            let mut rotor = Named::written(&format!("{rotor}{effect}[solver]\nmethod = \"{method}\"\n"));
+            rotor.start();
+            let fault = rotor.simulation.advance(1.0).expect_err("it goes past the antipode");
+            let reason = format!("the tilt |gamma| reaches 3.1 rad, and {what} has no limit at pi");
+            assert!(
+                matches!(fault, Fault::Refused { reason: Refusal(said), .. } if said == reason),
+                "{effect} {method}: {fault:?}"
+            );
+        }
     }
 }

@@ -23,7 +23,7 @@ pub fn drawn(seed: u64) -> impl Iterator<Item = Set> {
         let all: Set = CATALOGUE.iter().map(|info| (info, number(info))).collect();
         all.into_iter().filter(|_| random.f64() < LIKELY).collect()
     })
-    .filter(|set: &Set| !(holds(set, "drive") && holds(set, "imposed_speed")))
+    .filter(|set: &Set| !set.iter().any(|(info, _)| info.excludes.iter().any(|other| holds(set, other))))
 }
 
 fn holds(set: &Set, name: &str) -> bool {
@@ -71,6 +71,8 @@ fn values(effect: &str) -> &'static str {
         "port" => "position = 0.1\nf = { y = 1.0 }",
         "imposed_speed" => "w = 50.0",
         "extrapolation" => "order = 1",
+        "motor" => "stall_torque = 0.5\nsynchronous_speed = 100.0\ntime_constant = 0.1",
+        "rub" => "position = -0.3\ngap = 0.02\nstiffness = 1e4\nradius = 0.05\nv0 = 0.01",
         _ => "",
     }
 }

@@ -67,8 +67,8 @@ pub trait Block {
     fn load(&self, motion: &Kinematics<f64>, own: &[f64]) -> Wrench<f64>;
     /// Adds its share to the mass, mass centre and inertia of the body.
     fn shape(&self, body: &mut Shape);
-    /// Whether its law has no limit where |γ| = π.
-    fn needs_gamma(&self) -> bool;
+    /// What of its law has no limit where |γ| = π.
+    fn no_limit(&self) -> Option<&'static str>;
     /// Whether it can lose energy or be supplied with it.
     fn works(&self) -> bool;
     /// Whether what it applies depends on how fast the rotor moves.

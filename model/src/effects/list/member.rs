@@ -182,8 +182,8 @@ impl<M: Member> Block for M {
         self.effect().shape(body);
     }
 
-    fn needs_gamma(&self) -> bool {
-        self.effect().needs_gamma()
+    fn no_limit(&self) -> Option<&'static str> {
+        self.effect().no_limit()
     }
 
     fn works(&self) -> bool {
