@@ -33,10 +33,11 @@ pub struct Frame {
     pub chart: Chart,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
-    /// Whether one of its effects works, whether one has events, and how many own states those have that are switched off: asked
-    /// once, not in each evaluation.
+    /// Whether one of its effects works, whether one has events, whether one follows φ, and how many own states those have that are
+    /// switched off: asked once, not in each evaluation.
     works: bool,
     events: bool,
+    follows_phi: bool,
     idle: u32,
 }
 
@@ -45,7 +46,8 @@ impl Frame {
     pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
         let active: usize = effects.active().map(|block| block.kind().own).sum();
         let events = effects.active().any(Block::has_events);
-        Self { body, chart, turns, works: effects.works(), events, idle: (E::FACTS.own - active) as u32 }
+        let (works, follows_phi) = (effects.works(), effects.follows_phi());
+        Self { body, chart, turns, works, events, follows_phi, idle: (E::FACTS.own - active) as u32 }
     }
 
     /// The rotor under these effects.
@@ -77,12 +79,13 @@ impl Frame {
 
 impl Stored for Frame {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { body, chart, turns, works, events, idle } = self;
+        let Self { body, chart, turns, works, events, follows_phi, idle } = self;
         body.walk(walk)?;
         chart.walk(walk)?;
         whole(turns, walk)?;
         works.walk(walk)?;
         events.walk(walk)?;
+        follows_phi.walk(walk)?;
         idle.walk(walk)
     }
 }
@@ -233,28 +236,17 @@ impl<'e, E: Effects> Rotor<'e, E> {
         all_rates::<S, E, N, ALL>(self.effects, &motion, &y[..own(N)])
     }
 
-    /// The same where effects have switches: those that act are asked one after another.
+    /// The same where effects have switches, called: it is too long to stand in every stage of a method. `PLAIN`: the body is symmetric,
+    /// and no speed is imposed.
     #[inline(never)]
-    fn rates_of_active<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = self.motion(t, y);
-        let mut all = [0.0; N];
-        let (mut act, mut from) = (().act(&motion, &[]), own(N));
-        for n in (0..E::FACTS.count).rev() {
-            let Some(block) = self.effects.nth(n) else { continue };
-            let to = from;
-            from -= block.kind().own;
-            if !block.is_active() {
-                continue;
-            }
-            if ALL || to > from {
-                let one = block.act(&motion, &y[from..to]);
-                all[from..to].copy_from_slice(&one.own[..to - from]);
-                act = one + act;
-            } else {
-                act.load = block.load(&motion, &[]) + act.load;
-            }
-        }
-        written::<f64, E, N, ALL>(self.effects, &motion, &act, all)
+    fn rates_of_switched<const N: usize, const ALL: bool, const PLAIN: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        let motion = if PLAIN {
+            let body = self.frame.body.symmetric();
+            Kinematics::new(body, self.frame.chart, Coordinates::from_slice(rigid(y))).when(t, self.frame.turns)
+        } else {
+            self.motion(t, y)
+        };
+        all_rates::<f64, E, N, ALL>(self.effects, &motion, &y[..own(N)])
     }
 
     /// Whether a state may have this γ \[rad] in the chart, whose own reach is told, under these effects.
@@ -279,7 +271,7 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     const GROUPS: usize = own(N) + groups::RIGID;
 
     fn depended_on(&self) -> usize {
-        own(N) + if E::FACTS.follows_phi && self.effects.follows_phi() { COORDINATES } else { PHI }
+        own(N) + if E::FACTS.follows_phi && self.frame.follows_phi { COORDINATES } else { PHI }
     }
 
     fn differentiated(&self) -> usize {
@@ -294,7 +286,12 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     #[inline(always)]
     fn rates<const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         if E::FACTS.switched {
-            return self.rates_of_active::<N, ALL>(t, y);
+            let plain = self.frame.body.asymmetric.is_none() && self.effects.imposed(t).is_none();
+            return if plain {
+                self.rates_of_switched::<N, ALL, true>(t, y)
+            } else {
+                self.rates_of_switched::<N, ALL, false>(t, y)
+            };
         }
         // Once for each chart, so that neither asks again which one it is.
         match self.frame.chart {

@@ -1,11 +1,11 @@
 //! An effect of a list without its type: what is not asked in every evaluation.
 
-use super::{InputSet, Motion, Tangent, Wrench};
+use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
-use crate::effects::{Act, MOST_OWN, block_name, full_name, switch_name};
+use crate::effects::{MOST_OWN, block_name, full_name, switch_name};
 use crate::error::Invalid;
 use crate::signal::Signal;
-use crate::state::{Kinematics, Rates};
+use crate::state::Rates;
 #[cfg(feature = "scenes")]
 use crate::traced::Traced;
 use crate::variable::Meta;
@@ -61,10 +61,6 @@ pub trait Block {
     fn is_active(&self) -> bool;
     /// Switches it, where it has a switch.
     fn switch(&mut self, on: bool);
-    /// What it does.
-    fn act(&self, motion: &Kinematics<f64>, own: &[f64]) -> Act<f64>;
-    /// Of that, the load without what damps.
-    fn load(&self, motion: &Kinematics<f64>, own: &[f64]) -> Wrench<f64>;
     /// Adds its share to the mass, mass centre and inertia of the body.
     fn shape(&self, body: &mut Shape);
     /// What of its law has no limit where |γ| = π.

@@ -1,12 +1,12 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Act, Effect, Entry, InputSet, MOST_OWN, Motion, Row, Wrench};
+use super::super::{Effect, Entry, InputSet, MOST_OWN, Motion, Row};
 use super::{Block, Kind, Tangent};
 use crate::body::Shape;
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::{Kinematics, Rates};
+use crate::state::Rates;
 use crate::stored::{Damaged, Stored, Walk};
 #[cfg(feature = "scenes")]
 use crate::traced::Traced;
@@ -168,14 +168,6 @@ impl<M: Member> Block for M {
 
     fn switch(&mut self, on: bool) {
         self.switch_to(on);
-    }
-
-    fn act(&self, motion: &Kinematics<f64>, own: &[f64]) -> Act<f64> {
-        self.effect().act(&Motion::new(motion, own))
-    }
-
-    fn load(&self, motion: &Kinematics<f64>, own: &[f64]) -> Wrench<f64> {
-        self.effect().act(&Motion::new(motion, own)).load
     }
 
     fn shape(&self, body: &mut Shape) {
