@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Effect, InputSet, Motion, SWITCH, Wrench};
+use super::{Act, Effect, InputSet, Motion, SWITCH};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
