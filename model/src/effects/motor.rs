@@ -26,6 +26,11 @@ impl Default for Motor {
 }
 
 impl Motor {
+    /// Whether it can give a torque: a host may have set one that dies out.
+    fn can_act(&self) -> bool {
+        self.stall_torque != 0.0 || self.time_constant != 0.0
+    }
+
     /// The torque on the characteristic [N·m].
     #[inline(always)]
     fn steady<S: Scalar>(&self, motion: &Motion<S>) -> S {
@@ -99,10 +104,10 @@ impl Effect for Motor {
     }
 
     fn no_limit(&self) -> Option<&'static str> {
-        (self.stall_torque != 0.0).then_some(no_limit!("motor.tau, which a joint passes on,"))
+        self.can_act().then_some(no_limit!("motor.tau, which a joint passes on,"))
     }
 
     fn works(&self) -> bool {
-        self.stall_torque != 0.0
+        self.can_act()
     }
 }
