@@ -29,11 +29,10 @@ fn drawn(info: &Info, random: &mut Random) -> All {
     effects.switch_on(block);
     for (row, meta) in (info.metas)().into_iter().enumerate() {
         let place = Place { block, row };
+        // Often a part of the law is not there; a table is, or it is not.
+        let is_absent = if meta.node().is_some() { !has_table } else { random.within(0.0, 1.0) < ABSENT };
         match meta.role {
-            // Often a part of the law is not there; a table is, or it is not.
-            Role::Parameter { bound: Bound::Finite | Bound::NotNegative, .. }
-                if if meta.node().is_some() { !has_table } else { random.within(0.0, 1.0) < ABSENT } =>
-            {
+            Role::Parameter { bound: Bound::Finite | Bound::NotNegative, .. } if is_absent => {
                 effects.set_parameter(place, ascending(&meta));
             }
             Role::Parameter { bound: Bound::Finite, .. } => {
