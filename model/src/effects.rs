@@ -126,7 +126,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     }
 
     /// What of its law, with its present parameters and inputs, has no limit where |γ| = π, because it follows the direction of γ:
-    /// as [`no_limit!`] says it to the user who gets there.
+    /// as the macro `no_limit` says it to the user who gets there.
     fn no_limit(&self) -> Option<&'static str> {
         None
     }
