@@ -21,11 +21,13 @@ TURN = 7.0
 """[rad]: more than a whole turn, for phi."""
 ROUNDING = 1e-12  # relative to the larger of the value and 1
 POSITIVE = re.compile(
-    r"rotor\.m|rotor\.Jt|support\..*|drag\..*|rotating_damping\.d|.*partner_J|unbalance.*\.(mass|radius)|bearing.*\.(cyy|czz|cxx|ct)"
+    r"rotor\.m|rotor\.Jt|support\..*|drag\..*|rotating_damping\.d|.*partner_J|unbalance.*\.(mass|radius)|bearing.*\.(cyy|czz|cxx|ct)(\[\d+\])?"
     r"|motor\.(stall_torque|synchronous_speed|time_constant)|rub.*\.(gap|stiffness|damping|friction|radius|v0)"
 )
-SMALL = re.compile(r"bearing.*\.(cyz|czy)")
+SMALL = re.compile(r"bearing.*\.(cyz|czy)(\[\d+\])?")
 """|cyz + czy|/2 <= sqrt(cyy czz)."""
+SPEED = re.compile(r"bearing.*\.speed\[(\d+)\]")
+"""Those of a table ascend, however they are perturbed."""
 SOLVER = {"solver.relative_tolerance": 1e-9, "solver.absolute_tolerance": 1e-3, "solver.max_evaluations": 1e6}
 
 
@@ -34,6 +36,7 @@ def random_setup(names, random):
     ranges = {True: (0.5, 2.0), False: (-2.0, 2.0)}
     setup = {name: random.uniform(*ranges[bool(POSITIVE.fullmatch(name))]) for name in names}
     setup |= {name: 0.1 * value for name, value in setup.items() if SMALL.fullmatch(name)}
+    setup |= {name: 0.25 * 2.0 ** int(node[1]) for name in setup if (node := SPEED.fullmatch(name))}
     setup["rotor.Ja"] = setup["rotor.Jt"] * random.uniform(0.6, 1.2)  # Ja <= 2 Jt
     if "asymmetry.Jt2" in setup:
         setup["asymmetry.Jt2"] = setup["rotor.Jt"] * random.uniform(0.9, 1.1)

@@ -8,7 +8,7 @@ import pytest
 from fmpy import read_model_description
 from fmpy.validation import validate_fmu
 
-STRUCTURED = re.compile(r"[A-Za-z]\w*(\[[1-4]\])?(\.\w+)*|effects\.\w+\[[1-4]\]|der\(.*\)", re.ASCII)
+STRUCTURED = re.compile(r"[A-Za-z]\w*(\[[1-4]\])?(\.\w+)*(\[\d+\])?|effects\.\w+\[[1-4]\]|der\(.*\)", re.ASCII)
 
 def scalars(fmu):
     """Pairs of each ScalarVariable and the element of its type."""
