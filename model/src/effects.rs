@@ -7,7 +7,6 @@
 mod act;
 mod list;
 mod motion;
-#[cfg(bearing)]
 pub mod table;
 mod terminal;
 mod wrench;
