@@ -172,9 +172,9 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
         let [low, high] = self.ends(self.nodes_below(number));
         let about_rest = number == 0.0 && !self.begins_at_rest();
         let forward = if number < 0.0 { -speed } else { speed };
-        let edge = |end: f64| self.edge(end);
-        let above_low = if about_rest { forward + high + edge(high) } else { forward - low + edge(low) };
-        let below_high = if high.is_finite() { high + edge(high) - forward } else { above_low };
+        let low = if about_rest { -high } else { low };
+        let above_low = forward - low + self.edge(low.abs());
+        let below_high = if high.is_finite() { high + self.edge(high) - forward } else { above_low };
         let inside = if above_low < below_high { above_low } else { below_high };
         if number % 2.0 == 0.0 { inside } else { -inside }
     }

@@ -60,7 +60,7 @@ impl Chart {
 
     /// Whether a motion at this γ \[rad] should go on in the other chart.
     pub fn is_left_at(self, gamma: Vector2<f64>) -> bool {
-        gamma.norm_squared() > Self::SWITCH * Self::SWITCH
+        self.before_border(gamma) < 0.0
     }
 
     /// Whether the axis at this γ \[rad] is tilted from e by more than π/2.
