@@ -5,7 +5,12 @@
 
 /// The curve through points (x, y), x ascending, at `x`.
 pub fn curve(points: &[(f64, f64)], x: f64) -> f64 {
-    let ((first, last), above) = ((points[0], points[points.len() - 1]), points.partition_point(|point| point.0 <= x));
+    piece(points, points.partition_point(|point| point.0 <= x), x)
+}
+
+/// At `x`, within it or not, the piece of the curve that so many points are below or at the lower end of.
+pub fn piece(points: &[(f64, f64)], above: usize, x: f64) -> f64 {
+    let (first, last) = (points[0], points[points.len() - 1]);
     if above == 0 {
         return first.1;
     }

@@ -7,6 +7,8 @@ use super::Machine;
 pub enum Input {
     /// Torque of the drive [N·m].
     Torque,
+    /// Part of the motor's stall torque \[1].
+    Command,
     /// ω_φ that is imposed [rad/s].
     Speed,
     /// Its rate [rad/s²].
@@ -65,7 +67,7 @@ impl Imposed {
 /// How many points and values are remembered.
 const REMEMBERED: usize = 12;
 
-/// All inputs as they are in force: the drive's torque, then force and moment of each port.
+/// All inputs as they are in force: the drive's torque, the motor's command, then force and moment of each port.
 #[derive(Clone, Debug)]
 pub struct Inputs {
     loads: Vec<Polynomial>,
@@ -82,8 +84,9 @@ pub struct Inputs {
 fn place(input: Input) -> Option<usize> {
     match input {
         Input::Torque => Some(0),
-        Input::Force(port, axis) => Some(1 + 6 * port + axis),
-        Input::Moment(port, axis) => Some(4 + 6 * port + axis),
+        Input::Command => Some(1),
+        Input::Force(port, axis) => Some(2 + 6 * port + axis),
+        Input::Moment(port, axis) => Some(5 + 6 * port + axis),
         Input::Speed | Input::Acceleration => None,
     }
 }
@@ -91,7 +94,8 @@ fn place(input: Input) -> Option<usize> {
 impl Inputs {
     /// As the machine has them at time 0.
     pub fn new(machine: &Machine) -> Self {
-        let held = vec![Polynomial::default(); 1 + 6 * machine.ports.len()];
+        let mut held = vec![Polynomial::default(); 2 + 6 * machine.ports.len()];
+        held[1].terms[0] = 1.0;
         let mut inputs = Self {
             loads: held.clone(),
             told: held,
@@ -166,10 +170,15 @@ impl Inputs {
         self.loads[0].at(t)
     }
 
+    /// The motor's command at a time \[s].
+    pub fn command(&self, t: f64) -> f64 {
+        self.loads[1].at(t)
+    }
+
     /// Force and moment of a port at a time \[s].
     pub fn port(&self, port: usize, t: f64) -> [nalgebra::Vector3<f64>; 2] {
         let at = |first: usize| nalgebra::Vector3::from_fn(|axis, _| self.loads[first + axis].at(t));
-        [at(1 + 6 * port), at(4 + 6 * port)]
+        [at(2 + 6 * port), at(5 + 6 * port)]
     }
 
     /// The imposed speed.

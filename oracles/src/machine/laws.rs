@@ -1,12 +1,13 @@
 //! The laws of EFFECTS.md as rates of the state.
 
 use super::inputs::Inputs;
-use super::{Machine, Start, Unbalance};
+use super::tabled::Tabled;
+use super::{Machine, Motor, Rub, Start, Unbalance};
 use crate::{rigid_body::joint, rotation};
 use nalgebra::{Matrix3, Vector3};
 
-/// How many numbers a state has: r, v, K of G, the quaternion P, ψ, φ.
-pub const SIZE: usize = 15;
+/// How many numbers a state has: r, v, K of G, the quaternion P, ψ, φ, the torque of a motor that lags.
+pub const SIZE: usize = 16;
 
 /// A state, or its rates.
 pub type State = [f64; SIZE];
@@ -19,6 +20,7 @@ pub(super) mod at {
     pub const P: usize = 9;
     pub const PSI: usize = 13;
     pub const PHI: usize = 14;
+    pub const TORQUE: usize = 15;
 }
 
 /// A spring and damper at a station.
@@ -49,6 +51,11 @@ pub struct Laws {
     drag: Option<[f64; 2]>,
     ports: Vec<f64>,
     imposes: bool,
+    motor: Option<Motor>,
+    /// Rings, and which of them press.
+    pub(super) rubs: Vec<(Rub, bool)>,
+    /// Bearings with a table.
+    pub(super) tables: Vec<Tabled>,
 }
 
 /// What follows from a state.
@@ -69,6 +76,11 @@ impl Motion {
     }
 
     /// Place and velocity of the station at p \[m].
+    /// ω_φ [rad/s].
+    pub fn speed(&self) -> f64 {
+        self.omega.dot(&joint(&self.axis()))
+    }
+
     pub fn station(&self, p: f64) -> [Vector3<f64>; 2] {
         [self.r_c + self.axis() * p, self.v_c + self.t_rate * p]
     }
@@ -117,11 +129,14 @@ impl Laws {
             drag: machine.drag,
             ports: machine.ports.clone(),
             imposes: machine.imposed_speed,
+            motor: machine.motor,
+            rubs: machine.rubs.iter().map(|rub| (*rub, false)).collect(),
+            tables: machine.bearings.iter().filter_map(Tabled::of).collect(),
         };
         let Start { r_c, gamma, .. } = machine.start;
         let axis = rotation::axis(&gamma);
         for bearing in &machine.bearings {
-            let super::Bearing { position: p, k, c, axial, tilt } = *bearing;
+            let super::Bearing { position: p, k, c, axial, tilt, .. } = *bearing;
             laws.springs.push(Spring { p, x: r_c.x + p * axis.x, axial, k, c });
             laws.tilt = [laws.tilt[0] + tilt[0], laws.tilt[1] + tilt[1]];
         }
@@ -139,7 +154,7 @@ impl Laws {
     }
 
     /// The state at this start; the speed is not imposed yet.
-    pub fn start(&self, start: &Start) -> State {
+    pub fn start(&self, start: &Start, inputs: &Inputs) -> State {
         let (w, v) = rotation::quaternion(&Vector3::new(0.0, start.gamma.x, start.gamma.y));
         let mut y = [0.0; SIZE];
         (y[at::P], y[at::PSI], y[at::PHI]) = (w, start.phi, start.phi);
@@ -149,6 +164,7 @@ impl Laws {
         put(&mut y, at::R, &(start.r_c + centre));
         put(&mut y, at::V, &(start.v_c + start.omega.cross(&centre)));
         put(&mut y, at::K, &(attitude * (self.inertia * attitude.tr_mul(&start.omega))));
+        y[at::TORQUE] = self.characteristic(0.0, &self.motion(&y), inputs);
         y
     }
 
@@ -178,7 +194,22 @@ impl Laws {
         attitude * (self.inverse * attitude.tr_mul(k))
     }
 
-    /// Force on the rotor and moment about c, all but gravity and what imposes a speed.
+    /// What a motor gives where it does not lag [N·m].
+    fn characteristic(&self, t: f64, motion: &Motion, inputs: &Inputs) -> f64 {
+        let steady = |motor: Motor| motor.stall_torque * (inputs.command(t) - motion.speed() / motor.synchronous_speed);
+        self.motor.map_or(0.0, steady)
+    }
+
+    /// The torque of a motor [N·m] and its rate [N·m/s], where so much is in the state.
+    fn motor(&self, t: f64, motion: &Motion, inputs: &Inputs, torque: f64) -> [f64; 2] {
+        let steady = self.characteristic(t, motion, inputs);
+        match self.motor {
+            Some(Motor { time_constant, .. }) if time_constant > 0.0 => [torque, (steady - torque) / time_constant],
+            _ => [steady, 0.0],
+        }
+    }
+
+    /// Force on the rotor and moment about c, all but gravity, a motor and what imposes a speed.
     fn loads(&self, t: f64, motion: &Motion, inputs: &Inputs) -> [Vector3<f64>; 2] {
         let (axis, omega) = (motion.axis(), &motion.omega);
         let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
@@ -194,12 +225,24 @@ impl Laws {
         for (n, p) in self.ports.iter().enumerate() {
             push(*p, inputs.port(n, t)[0]);
         }
+        for table in &self.tables {
+            push(table.p, table.force(&motion.station(table.p), motion.speed()));
+        }
+        let mut braking = 0.0;
+        for (rub, _) in self.rubs.iter().filter(|(_, presses)| *presses) {
+            let (force, torque) = rub.load(&motion.station(rub.position), motion.speed());
+            push(rub.position, force);
+            braking += torque;
+        }
         if let Some([d, p]) = self.rotating_damping {
             let [r, v] = motion.station(p);
             // F = −d(q̇ − Ω e×q), Ω = e·ω, and the couple −e·(q×F) along e.
             let f = Vector3::new(0.0, v.y + omega.x * r.z, v.z - omega.x * r.y) * -d;
             push(p, f);
             moment.x -= r.y * f.z - r.z * f.y;
+        }
+        if braking != 0.0 {
+            moment += joint(&axis) * braking;
         }
         for n in 0..self.ports.len() {
             moment += inputs.port(n, t)[1];
@@ -227,6 +270,10 @@ impl Laws {
         let [force, moment] = self.loads(t, &motion, inputs);
         let mut moment = moment - motion.centre.cross(&force);
         let n = joint(&axis);
+        let [torque, torque_rate] = self.motor(t, &motion, inputs, y[at::TORQUE]);
+        if torque != 0.0 {
+            moment += n * torque;
+        }
         if self.imposes {
             // n·dω/dt = a − ω·dn/dt, with I dω/dt = M + τ n − ω×K.
             let sum = 1.0 + axis.x;
@@ -245,7 +292,7 @@ impl Laws {
         put(&mut rates, at::K, &moment);
         rates[at::P] = w;
         put(&mut rates, at::P + 1, &v);
-        (rates[at::PSI], rates[at::PHI]) = (spin, omega.dot(&n));
+        (rates[at::PSI], rates[at::PHI], rates[at::TORQUE]) = (spin, omega.dot(&n), torque_rate);
         rates
     }
 

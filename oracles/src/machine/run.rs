@@ -3,6 +3,7 @@
 use super::Machine;
 use super::inputs::{Input, Inputs};
 use super::laws::{Laws, SIZE, State, at};
+use super::switches::Switch;
 use crate::extrapolation::{MOST, change, cost};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -30,7 +31,7 @@ type Steps = Vec<(f64, usize)>;
 pub enum Pace {
     /// By its own estimate: a step may err by so much of how far the motion went \[1].
     Adaptive(f64),
-    /// As another run took them, each cut into so many.
+    /// As another run took them, each cut into so many; not of a machine whose laws have branches.
     Like(Vec<Steps>, usize),
 }
 
@@ -61,17 +62,22 @@ const ROUNDING: [f64; 2] = [1e-14, 1e-15];
 /// More evaluations than this are not affordable.
 const AFFORDABLE: usize = 3_000_000;
 
+/// Columns of a machine with rings: short steps, so that none of them holds both ends of a contact unseen.
+const MOST_AT_RINGS: usize = 6;
+
 /// 2π less its double.
 const TAU_REST: f64 = 2.449_293_598_294_706_4e-16;
 
 impl Run {
     /// From the machine's start at time 0.
     pub fn new(machine: &Machine, pace: Pace) -> Self {
-        let (laws, inputs) = (Laws::new(machine), Inputs::new(machine));
-        let mut y = laws.start(&machine.start);
+        let (mut laws, inputs) = (Laws::new(machine), Inputs::new(machine));
+        assert!(!laws.has_branches() || matches!(pace, Pace::Adaptive(_)), "branches end elsewhere in another run");
+        let mut y = laws.start(&machine.start, &inputs);
         if machine.imposed_speed {
             y = laws.struck(&y, inputs.imposed().at(0.0)[0]);
         }
+        laws.take_branches(&y);
         let taken = Vec::new();
         let (rest, sizes, nearest) = ([0.0; SIZE], [0.0; SIZE], 2.0);
         Self { laws, inputs, pace, t: 0.0, y, rest, start: y, sizes, next: 0.0, taken, evaluations: 0, nearest }
@@ -81,6 +87,7 @@ impl Run {
     pub fn set(&mut self, input: Input, terms: [f64; 3]) {
         if self.inputs.set(self.t, input, terms) {
             self.y = self.laws.struck(&self.y, self.inputs.imposed().at(self.t)[0]);
+            self.laws.take_branches(&self.y);
         }
     }
 
@@ -141,6 +148,7 @@ impl Run {
 
     /// Steps of its own choice up to time `until` \[s].
     fn go_to(&mut self, until: f64, tolerance: f64) -> bool {
+        let most = if self.laws.rubs.is_empty() { MOST } else { MOST_AT_RINGS };
         while self.t < until {
             let rest = until - self.t;
             let wanted = if self.next == 0.0 { rest } else { self.next };
@@ -164,23 +172,26 @@ impl Run {
                 if error <= 1.0 {
                     accepted = Some(column);
                 }
-                accepted.is_some()
+                accepted.is_some() || column == most
             });
-            self.evaluations += 1 + cost(accepted.unwrap_or(MOST));
+            self.evaluations += 1 + cost(accepted.unwrap_or(most));
             if self.evaluations > AFFORDABLE || h < 1e-14 * until {
                 return false;
             }
             match accepted {
                 Some(columns) => {
                     let (_, mut next, column) = best;
-                    if column == columns && columns < MOST {
+                    if column == columns && columns < most {
                         // One column more would do, and allow so much longer steps.
                         next *= cost(columns + 1) as f64 / cost(columns) as f64;
                     }
                     self.next = if h < wanted { wanted.max(next) } else { next };
-                    let reaches = h == rest;
-                    self.accept(h, columns, &gained);
-                    if reaches {
+                    let switch = self.first_switch(h, columns, &gained);
+                    let (part, gained) = switch.as_ref().map_or((h, &gained), |switch| (switch.h, &switch.gained));
+                    self.accept(part, columns, gained);
+                    if let Some(switch) = switch {
+                        self.laws.switch(switch.number);
+                    } else if h == rest {
                         self.t = until;
                     }
                 }
@@ -188,6 +199,21 @@ impl Run {
             }
         }
         true
+    }
+
+    /// Where the first branch of a law ends in a step.
+    fn first_switch(&mut self, h: f64, columns: usize, gained: &State) -> Option<Switch> {
+        let Self { laws, inputs, t, y, evaluations, .. } = self;
+        if !laws.has_branches() {
+            return None;
+        }
+        let rates = |s: f64, y: &State| laws.rates(*t + s, y, inputs);
+        let first = rates(0.0, y);
+        let mut part = |h: f64| {
+            *evaluations += cost(columns);
+            change(&mut |t, y| laws.rates(t, y, inputs), *t, y, &first, h, |column, _, _| column >= columns)
+        };
+        laws.first_switch(y, h, gained, rates, &mut part)
     }
 
     fn accept(&mut self, h: f64, columns: usize, gained: &State) {
@@ -216,6 +242,7 @@ fn together(way: &State) -> State {
         let across = libm::hypot(way[first + 1], way[first + 2]);
         sizes[first..first + 3].copy_from_slice(&[across.max(way[first].abs()), across, across]);
     }
+    sizes[at::TORQUE] = way[at::TORQUE].abs();
     sizes[at::P + 2..at::P + 4].fill(libm::hypot(way[at::P + 2], way[at::P + 3]));
     sizes
 }

@@ -1,15 +1,19 @@
 //! What a machine is called in a scene: the names of its variables, and their values.
 
-use super::{Bearing, Input, Machine, Support, Unbalance};
+use super::{Bearing, Input, Machine, Motor, Node, Rub, Support, Unbalance};
 use nalgebra::Vector3;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Of a table.
+const COLUMNS: [&str; 8] = ["kyy", "kyz", "kzy", "kzz", "cyy", "cyz", "czy", "czz"];
 
 impl Input {
     /// The name of its variable.
     pub fn name(self) -> String {
         match self {
             Self::Torque => "drive.tau".into(),
+            Self::Command => "motor.command".into(),
             Self::Speed => "imposed_speed.w".into(),
             Self::Acceleration => "imposed_speed.a".into(),
             Self::Force(port, n) => format!("port[{}].f.{}", port + 1, AXES[n]),
@@ -25,6 +29,17 @@ struct Settings(Vec<(String, f64)>);
 impl Settings {
     fn of(&mut self, what: &str, values: &[(&str, f64)]) {
         self.0.extend(values.iter().map(|(name, value)| (format!("{what}.{name}"), *value)));
+    }
+
+    /// Column by column, the nodes counted from 1.
+    fn table(&mut self, of: &str, table: &[Node]) {
+        let mut column = |name: &str, value: &dyn Fn(&Node) -> f64| {
+            (1..).zip(table).for_each(|(n, node)| self.0.push((format!("{of}.{name}[{n}]"), value(node))));
+        };
+        column("speed", &|node| node.speed);
+        for (n, name) in COLUMNS.iter().enumerate() {
+            column(name, &|node| node.values()[n]);
+        }
     }
 
     fn vector(&mut self, name: &str, v: &Vector3<f64>) {
@@ -55,7 +70,7 @@ impl Machine {
             let values = [("mass", *mass), ("radius", *radius), ("angle", *angle), ("position", *position)];
             all.of(&format!("unbalance[{n}]"), &values);
         }
-        for (n, Bearing { position, k, c, axial, tilt }) in (1..).zip(&self.bearings) {
+        for (n, Bearing { position, k, c, axial, tilt, table }) in (1..).zip(&self.bearings) {
             let bearing = format!("bearing[{n}]");
             all.of(&bearing, &[("position", *position), ("kxx", axial[0]), ("cxx", axial[1])]);
             all.of(&bearing, &[("kt", tilt[0]), ("ct", tilt[1])]);
@@ -63,12 +78,26 @@ impl Machine {
                 let values = [("yy", *yy), ("yz", *yz), ("zy", *zy), ("zz", *zz)];
                 values.iter().for_each(|(axes, value)| all.of(&bearing, &[(&format!("{name}{axes}"), *value)]));
             }
+            all.table(&bearing, table);
         }
         if let Some([d, position]) = self.rotating_damping {
             all.of("rotating_damping", &[("d", d), ("position", position)]);
         }
         if let Some([linear, quadratic]) = self.drag {
             all.of("drag", &[("linear", linear), ("quadratic", quadratic)]);
+        }
+        for (n, rub) in (1..).zip(&self.rubs) {
+            let Rub { position, gap, stiffness, damping, friction, radius, v0 } = *rub;
+            let ring = [("position", position), ("gap", gap), ("stiffness", stiffness), ("damping", damping)];
+            all.of(&format!("rub[{n}]"), &ring);
+            all.of(&format!("rub[{n}]"), &[("friction", friction), ("radius", radius), ("v0", v0)]);
+        }
+        if let Some(Motor { stall_torque, synchronous_speed, time_constant }) = self.motor {
+            let values = [("stall_torque", stall_torque), ("synchronous_speed", synchronous_speed)];
+            all.of("motor", &values);
+            all.of("motor", &[("time_constant", time_constant)]);
+            let command = self.inputs.iter().find(|(input, _)| *input == Input::Command);
+            command.into_iter().for_each(|(input, value)| all.0.push((input.name(), *value)));
         }
         if let Some([order, lag]) = self.extrapolation {
             all.of("extrapolation", &[("order", order as f64), ("lag", lag as f64)]);

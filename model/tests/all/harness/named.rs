@@ -32,7 +32,8 @@ fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes")
 }
 
-/// Names of parameters and inputs and their values as a scene's TOML.
+/// Names of parameters and inputs and their values as a scene's TOML; the nodes of a table's column follow one another,
+/// and what a bearing has besides stands in a comment, for a file has but one of both.
 pub fn toml(settings: &[(String, f64)]) -> String {
     let (mut text, mut last) = (String::new(), "");
     for (name, value) in settings {
@@ -45,7 +46,17 @@ pub fn toml(settings: &[(String, f64)]) -> String {
                 None => format!("[effects.{of}]\n"),
             };
         }
-        text += &format!("{name} = {value:?}\n");
+        match name.split_once('[') {
+            None => {
+                let has_column = settings.iter().any(|(other, _)| *other == format!("{of}.{name}[1]"));
+                text += &format!("{}{name} = {value:?}\n", if has_column { "# besides: " } else { "" });
+            }
+            Some((column, "1]")) => text += &format!("{column} = [{value:?}]\n"),
+            Some(_) => {
+                text.truncate(text.len() - "]\n".len());
+                text += &format!(", {value:?}]\n");
+            }
+        }
     }
     text
 }

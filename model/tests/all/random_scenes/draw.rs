@@ -19,6 +19,9 @@ enum Held {
 /// So many of a seed's first scenes have one effect each.
 const ALONE: u64 = 13;
 
+/// From this number on scenes draw the effects of [`newer`](super::newer) as well.
+const NEWER: u64 = 200;
+
 /// What a draw goes by: sizes of the rotor and of its motion.
 pub(super) struct Draw {
     pub(super) dice: Dice,
@@ -40,6 +43,9 @@ pub fn draw(seed: u64, number: u64, attempt: u64) -> Trial {
         draw.alone(number);
     } else {
         draw.set();
+    }
+    if number >= NEWER {
+        draw.newer();
     }
     draw.timed()
 }
@@ -147,7 +153,7 @@ impl Draw {
         self.start(held != Free);
     }
 
-    fn called(&mut self, what: &str) {
+    pub(super) fn called(&mut self, what: &str) {
         let name = &mut self.trial.name;
         if !name.is_empty() {
             name.push_str(", ");
@@ -172,7 +178,7 @@ impl Draw {
     }
 
     /// A part of critical damping: none, little, or more than all.
-    fn damping(&mut self) -> f64 {
+    pub(super) fn damping(&mut self) -> f64 {
         match self.dice.below(8) {
             0 | 1 => 0.0,
             2 => self.dice.decades(1.0, 30.0),

@@ -9,6 +9,7 @@ mod draw;
 mod fixed;
 mod judge;
 mod mutants;
+mod newer;
 mod play;
 mod report;
 mod timing;
@@ -25,7 +26,7 @@ use truth::Truth;
 
 /// The seeds of every run, and how many scenes each draws.
 const SEEDS: [u64; 3] = [14, 2018, 31415];
-const OF_A_SEED: u64 = 200;
+const OF_A_SEED: u64 = 300;
 
 /// Scenes that are drawn in the long test.
 const OF_A_DAY: u64 = 1000;

@@ -9,7 +9,7 @@ const OFF: f64 = 0.01;
 /// For each effect of a scene, its name and the scene with a number of this effect off.
 pub fn of(trial: &Trial) -> Vec<(&'static str, Trial)> {
     let Machine { Jt, gravity, support, drive, Jt2, unbalances, bearings, .. } = &trial.machine;
-    let Machine { rotating_damping, drag, ports, imposed_speed, .. } = &trial.machine;
+    let Machine { rotating_damping, drag, ports, imposed_speed, motor, rubs, .. } = &trial.machine;
     let rotor: fn(&mut Trial) = |trial| {
         // All of them, so that the body stays a possible one.
         let Machine { Ja, Jt, Jt2, .. } = &mut trial.machine;
@@ -45,6 +45,15 @@ pub fn of(trial: &Trial) -> Vec<(&'static str, Trial)> {
     with(drag.is_some(), "drag", |trial| trial.machine.drag.iter_mut().for_each(|drag| *drag = drag.map(more)));
     with(!ports.is_empty() && trial.partner.is_none(), "port", |trial| {
         scale(trial, |input| matches!(input, Input::Force(..) | Input::Moment(..)));
+    });
+    with(motor.is_some(), "motor", |trial| {
+        trial.machine.motor.iter_mut().for_each(|motor| motor.stall_torque *= 1.0 + OFF);
+    });
+    with(!rubs.is_empty(), "rub", |trial| trial.machine.rubs.iter_mut().for_each(|rub| rub.gap *= 1.0 + OFF));
+    with(bearings.iter().any(|bearing| !bearing.table.is_empty()), "table", |trial| {
+        for node in trial.machine.bearings.iter_mut().flat_map(|bearing| &mut bearing.table) {
+            (node.k, node.c) = (node.k.map(|row| row.map(more)), node.c.map(|row| row.map(more)));
+        }
     });
     with(*imposed_speed, "imposed speed", |trial| scale(trial, |input| input == Input::Acceleration));
     with(trial.partner.is_some(), "partner", |trial| {

@@ -104,6 +104,9 @@ impl Ours {
     /// The scene with this method and these tolerances, relative and absolute, started; why it cannot.
     pub fn start(trial: &Trial, method: Method, [tolerance, absolute]: [f64; 2]) -> Result<Self, String> {
         let mut named = Named::written_for(&trial.text(), Integrator::Method);
+        let of_bearings = trial.machine.settings().into_iter().filter(|(name, _)| name.starts_with("bearing"));
+        // A file has no room for what a column has besides.
+        of_bearings.for_each(|(name, value)| named.set(&name, value));
         named.set("solver.method", f64::from(method as i32));
         named.set("solver.relative_tolerance", tolerance);
         named.set("solver.absolute_tolerance", absolute);

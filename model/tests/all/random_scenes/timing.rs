@@ -3,7 +3,7 @@
 use super::dice::Dice;
 use super::draw::Draw;
 use super::trial::{Change, Partner, Trial};
-use oracles::machine::{Input, Machine};
+use oracles::machine::{Input, Machine, Node};
 use std::f64::consts::TAU;
 
 /// So many periods of its fastest motion, and revolutions, a scene may last.
@@ -13,19 +13,28 @@ const REVOLUTIONS: f64 = 1e4;
 /// The fastest decay over the end [1]: what a reference in explicit steps can afford.
 const STIFF: [f64; 2] = [1e2, 6e4];
 
+/// So many periods of its springs a scene with rings may last.
+const CONTACTS: [f64; 2] = [1.0, 30.0];
+
 /// So often loads are exchanged at most.
 const EXCHANGES: f64 = 600.0;
 
 impl Draw {
     /// The fastest whirl and decay that springs and dampers give a body at rest, or somewhat more [rad/s].
     fn rates(&self) -> [f64; 2] {
-        let Machine { m, Jt, l, bearings, support, rotating_damping, .. } = &self.trial.machine;
+        let Machine { m, Jt, l, bearings, support, rotating_damping, rubs, .. } = &self.trial.machine;
         let most = |of: &[[f64; 2]; 2], axial: f64| of.as_flattened().iter().fold(axial, |most, k| most.max(k.abs()));
         let at = |p: f64, by: f64, tilt: f64| by / m + (by * p * p + tilt) / Jt;
         let held = support.iter().map(|on| [0, 1].map(|n| at(*l, [on.c, on.d][n][0], [on.c, on.d][n][1])));
         let held = held.chain(
             bearings.iter().map(|on| [0, 1].map(|n| at(on.position, most(&[on.k, on.c][n], on.axial[n]), on.tilt[n]))),
         );
+        let held = held.chain(bearings.iter().flat_map(|on| {
+            // The largest of its nodes.
+            let of_node = |node: &Node| [0, 1].map(|n| at(on.position, most(&[node.k, node.c][n], 0.0), 0.0));
+            on.table.iter().map(of_node).reduce(|a, b| [a[0].max(b[0]), a[1].max(b[1])])
+        }));
+        let held = held.chain(rubs.iter().map(|on| [on.stiffness, on.damping].map(|by| at(on.position, by, 0.0))));
         let held = held.chain(rotating_damping.iter().map(|[d, p]| [0.0, at(*p, *d, 0.0)]));
         let [stiffness, damping] = held.fold([0.0; 2], |sum, more| [sum[0] + more[0], sum[1] + more[1]]);
         [stiffness.sqrt(), damping]
@@ -51,6 +60,15 @@ impl Draw {
             end = end.min(EXCHANGES * every);
         }
         let machine = &mut self.trial.machine;
+        if !machine.rubs.is_empty() {
+            // Bounces make what is off grow.
+            end = end.min(TAU * dice.decades(CONTACTS[0], CONTACTS[1]) / self.rate);
+        }
+        if let Some(motor) = &mut machine.motor {
+            // Drawn as parts of the end, in which it runs the rotor up.
+            motor.stall_torque *= machine.Ja * motor.synchronous_speed / end;
+            motor.time_constant *= end;
+        }
         if let Some([linear, quadratic]) = &mut machine.drag {
             // Drawn as a part of what stops it until the end.
             *linear *= machine.Ja / end;
@@ -69,6 +87,10 @@ impl Draw {
     /// What comes in from outside until the end [s].
     fn inputs(&mut self, end: f64) {
         let Machine { m, Ja, drive, imposed_speed, .. } = self.trial.machine;
+        if self.trial.machine.motor.is_some() && self.dice.chance(0.5) {
+            let command = self.dice.within(0.3, 1.2);
+            self.load(Input::Command, command, end);
+        }
         if drive {
             self.load(Input::Torque, Ja * self.gain / end, end);
         }

@@ -43,6 +43,9 @@ pub enum Unfit {
 /// A step of the reference errs by so much of the motion's size [1].
 const STEP: f64 = 1e-13;
 
+/// Where halved steps are not possible, one errs by so much less [1].
+const FINER: f64 = 10.0;
+
 /// By how much of the sizes the start is off, to see what becomes of it [1].
 const OFF: f64 = 1e-6;
 
@@ -74,14 +77,22 @@ impl Truth {
             return Err(Unfit::TiltsOver(coarse.nearest()));
         }
         let steps = coarse.taken();
-        let mut fine = Run::new(&trial.machine, Pace::Like(steps.clone(), 2));
+        // What switches does so at other times where steps differ, so each run takes its own.
+        let pace = |parts: usize| {
+            if switches(&trial.machine) {
+                Pace::Adaptive(STEP / if parts == 1 { 1.0 } else { FINER })
+            } else {
+                Pace::Like(steps.clone(), parts)
+            }
+        };
+        let mut fine = Run::new(&trial.machine, pace(2));
         let shown = play(trial, &mut fine).map_err(|_| Unfit::Runaway)?;
         let judged = trial.judged();
         let sizes = sizes(&shown, judged);
         if sizes[2] > TAU * MOST_TURNS {
             return Err(Unfit::Spins(sizes[2] / TAU));
         }
-        let mut off = Run::new(&moved(&trial.machine, &shown, off_by), Pace::Like(steps, 1));
+        let mut off = Run::new(&moved(&trial.machine, &shown, off_by), pace(1));
         let shifted = play(trial, &mut off).map_err(|_| Unfit::Runaway)?;
         let shifts = differences(&shifted, &in_long_steps, judged);
         let growth = largest(over(shifts, sizes)) / off_by;
@@ -103,10 +114,17 @@ impl Truth {
     }
 }
 
-/// Whether a law acts along n or follows γ, which have no limit at −e.
+/// Whether a law goes on as another one where it is touched or a speed is passed.
+fn switches(machine: &Machine) -> bool {
+    !machine.rubs.is_empty() || machine.bearings.iter().any(|bearing| !bearing.table.is_empty())
+}
+
+/// Whether a law acts along n or follows γ or ω_φ, which have no limit at −e.
 fn has_joint(machine: &Machine) -> bool {
-    let springs = machine.bearings.iter().any(|bearing| bearing.tilt[0] != 0.0);
-    machine.drive || machine.imposed_speed || springs || machine.support.is_some_and(|support| support.c[1] != 0.0)
+    let bearings = machine.bearings.iter().any(|bearing| bearing.tilt[0] != 0.0 || !bearing.table.is_empty());
+    let rubs = machine.rubs.iter().any(|rub| rub.friction != 0.0);
+    let driven = machine.drive || machine.motor.is_some() || machine.imposed_speed;
+    driven || bearings || rubs || machine.support.is_some_and(|support| support.c[1] != 0.0)
 }
 
 impl Trial {

@@ -1,0 +1,30 @@
+//! Contact with a ring, EFFECTS.md's law of `rub` in its two branches: it presses, or it does not.
+
+use super::Rub;
+use nalgebra::Vector3;
+
+impl Rub {
+    /// Away from the line of the stator, how far the shaft is in the ring \[m], and the rate of that [m/s].
+    fn approach(&self, [r, v]: &[Vector3<f64>; 2]) -> (Vector3<f64>, f64, f64) {
+        let distance = libm::hypot(r.y, r.z);
+        let outward = if distance > 0.0 { Vector3::new(0.0, r.y, r.z) / distance } else { Vector3::zeros() };
+        (outward, distance - self.gap, outward.dot(v))
+    }
+
+    /// Positive where the ring presses, from place and velocity of the station: the lesser of depth and normal force, the latter
+    /// over the stiffness \[m].
+    pub fn pressed(&self, station: &[Vector3<f64>; 2]) -> f64 {
+        let (_, depth, rate) = self.approach(station);
+        depth.min(depth + self.damping / self.stiffness * rate)
+    }
+
+    /// Force on the rotor of a ring that presses \[N], and its torque about n [N·m], at this ω_φ [rad/s].
+    pub fn load(&self, station: &[Vector3<f64>; 2], speed: f64) -> (Vector3<f64>, f64) {
+        let (outward, depth, rate) = self.approach(station);
+        let along = Vector3::x().cross(&outward);
+        let normal = self.stiffness * depth + self.damping * rate;
+        let sliding = along.dot(&station[1]) + self.radius * speed;
+        let friction = self.friction * normal * libm::tanh(sliding / self.v0);
+        (-outward * normal - along * friction, -friction * self.radius)
+    }
+}
