@@ -280,12 +280,16 @@ impl<const N: usize> Integration<N> {
             } else {
                 self.step(effects, most, until)
             };
-            switched = if self.method.time() > before { 0 } else { switched + 1 };
+            let moved = self.method.time() > before;
+            switched = if moved { 0 } else { switched + 1 };
             if let Err(fault) = outcome {
                 self.t = self.method.time();
                 return Err(fault);
             }
-            self.settle(effects, t);
+            // Where a law only switched, the turns of the step before are counted already.
+            if moved {
+                self.settle(effects, t);
+            }
         }
         self.watch.look(&self.frame.under(effects), self.method.time(), self.method.state());
         self.t = t;
