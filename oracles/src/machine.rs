@@ -3,7 +3,8 @@
 //! The attitude is P·S: a unit quaternion P that carries e to the axis without spinning about it, and S, a turn by ψ about e.
 //! So a small tilt keeps its digits beside a great spin, no attitude is singular, and a rotor that is even about its axis does
 //! not feel ψ at all. The rest of the state is r and v of the mass centre G of the whole, its angular momentum K about G, and
-//! φ as a quadrature of ω·(e + t)/(1 + e·t), and the torque of a motor that lags. Vectors in O, SI units, radians. Checks: `tests/exact/paper.rs`.
+//! φ as a quadrature of ω·(e + t)/(1 + e·t), and the torque of a motor that lags. Vectors in O, SI units, radians.
+//! Checks: `tests/exact/paper.rs`, `tests/exact/machine.rs`.
 
 mod inputs;
 pub mod known;

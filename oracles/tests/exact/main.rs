@@ -3,6 +3,7 @@
 mod elliptic;
 mod fixed;
 mod limited_power;
+mod machine;
 mod monotone;
 mod motion;
 mod numerics;

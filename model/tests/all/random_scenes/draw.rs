@@ -39,13 +39,10 @@ pub(super) struct Draw {
 pub fn draw(seed: u64, number: u64, attempt: u64) -> Trial {
     let dice = Dice::new((seed.wrapping_mul(1000).wrapping_add(number)).wrapping_mul(1000).wrapping_add(attempt));
     let mut draw = Draw::new(dice);
-    if number < ALONE {
-        draw.alone(number);
-    } else {
-        draw.set();
-    }
-    if number >= NEWER {
-        draw.newer();
+    match number {
+        ..ALONE => draw.alone(number),
+        ..NEWER => draw.set(),
+        _ => draw.newer(number - NEWER),
     }
     draw.timed()
 }
@@ -92,7 +89,7 @@ impl Draw {
     }
 
     /// Several effects.
-    fn set(&mut self) {
+    pub(super) fn set(&mut self) {
         use Held::*;
         let held = [Free, Support, Support, Bearings, Bearings, Bearings, Bearings, Both, Both, Partners];
         let held = held[self.dice.below(held.len())];
@@ -162,7 +159,7 @@ impl Draw {
     }
 
     /// Spin and rate of the springs, not below this [rad/s].
-    fn speeds(&mut self, least: f64) {
+    pub(super) fn speeds(&mut self, least: f64) {
         let size = 0.05 / self.radius;
         let dice = &mut self.dice;
         self.rate = dice.decades(3.0, 3e3) * size.clamp(0.1, 30.0).sqrt();
@@ -203,7 +200,7 @@ impl Draw {
         self.called("support");
     }
 
-    fn bearings(&mut self, count: usize) {
+    pub(super) fn bearings(&mut self, count: usize) {
         for n in 0..count {
             let place = if n == 2 { 0.0 } else { self.dice.within(0.3, 4.0) };
             let position = self.radius * if n % 2 == 0 { -place } else { place };
@@ -324,7 +321,7 @@ impl Draw {
     }
 
     /// Where it begins.
-    fn start(&mut self, held: bool) {
+    pub(super) fn start(&mut self, held: bool) {
         let dice = &mut self.dice;
         let mut start = Start { phi: dice.within(-PI, PI), ..Start::default() };
         if dice.chance(0.5) {

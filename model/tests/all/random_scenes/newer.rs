@@ -4,8 +4,28 @@ use super::draw::Draw;
 use oracles::machine::{Machine, Motor, Node, Rub};
 
 impl Draw {
-    /// Some of them, beside all else, the start included.
-    pub(super) fn newer(&mut self) {
+    /// The scene of this number among them: first each by itself, then some of them beside all else.
+    pub(super) fn newer(&mut self, number: u64) {
+        match number {
+            0 => self.alone_with(0, Self::motor),
+            1 => self.alone_with(1, Self::tables),
+            2 => self.alone_with(0, Self::rubs),
+            _ => self.several(),
+        }
+    }
+
+    /// On a rotor with so many bearings and nothing else.
+    fn alone_with(&mut self, bearings: usize, what: fn(&mut Self)) {
+        self.speeds(0.0);
+        if bearings > 0 {
+            self.bearings(bearings);
+        }
+        self.start(bearings > 0);
+        what(self);
+    }
+
+    fn several(&mut self) {
+        self.set();
         let Machine { drive, imposed_speed, ref bearings, .. } = self.trial.machine;
         let (driven, held) = (drive || imposed_speed, !bearings.is_empty());
         if !driven && self.dice.chance(0.5) {
