@@ -134,9 +134,10 @@ impl Effect for Rub {
         let (_, depth, rate) = self.approach(motion);
         match n {
             0 => depth,
-            // eq. 97: where δ > 0, the ring lets go as N = 0
-            _ if depth > 0.0 => self.pressure(depth, rate),
-            _ => 1.0,
+            // Without damping both would change at once.
+            _ if self.damping == 0.0 => 1.0,
+            // eq. 97: the ring lets go as N = 0; it goes on below that where δ < 0, or its way through 0 could be too short to be seen
+            _ => self.pressure(depth, rate),
         }
     }
 
