@@ -41,7 +41,7 @@ pub fn draw(seed: u64, number: u64, attempt: u64) -> Trial {
     let mut draw = Draw::new(dice);
     match number {
         ..ALONE => draw.alone(number),
-        ..NEWER => draw.set(),
+        ALONE..NEWER => draw.set(),
         _ => draw.newer(number - NEWER),
     }
     draw.timed()
