@@ -143,6 +143,8 @@ impl std::fmt::Display for Fault {
     }
 }
 
+impl std::error::Error for Fault {}
+
 /// What a run has cost so far. Counters are f64: an integer could overflow.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cost {

@@ -11,6 +11,10 @@ use crate::state::Rates;
 use crate::traced::Traced;
 use units::Unit;
 
+/// Over what a calculated variable is compiled a third time: where no scene is read, nobody asks for that.
+#[cfg(not(feature = "scenes"))]
+type Traced = f64;
+
 /// One variable of a block that lives on `P` (its parameters and inputs) and is read from `O` (what an instant shows).
 pub struct Row<P: 'static, O: Shown> {
     /// What is said of it.
@@ -107,6 +111,38 @@ pub struct Rate<P: 'static, O: Shown> {
     /// For what it depends on.
     #[cfg(feature = "scenes")]
     pub traced: for<'m> fn(&P, &O::Of<'m, Traced>, &Rates<'m, Traced>) -> Traced,
+}
+
+impl<P, O: Shown> Output<P, O> {
+    /// One line, written three times.
+    pub const fn new(
+        value: for<'m> fn(&P, &O::Of<'m, f64>) -> f64,
+        tangent: for<'m> fn(&P, &O::Of<'m, Tangent>) -> Tangent,
+        _traced: for<'m> fn(&P, &O::Of<'m, Traced>) -> Traced,
+    ) -> Self {
+        Self {
+            value,
+            tangent,
+            #[cfg(feature = "scenes")]
+            traced: _traced,
+        }
+    }
+}
+
+impl<P, O: Shown> Rate<P, O> {
+    /// One line, written three times.
+    pub const fn new(
+        value: for<'m> fn(&P, &O::Of<'m, f64>, &Rates<'m, f64>) -> f64,
+        tangent: for<'m> fn(&P, &O::Of<'m, Tangent>, &Rates<'m, Tangent>) -> Tangent,
+        _traced: for<'m> fn(&P, &O::Of<'m, Traced>, &Rates<'m, Traced>) -> Traced,
+    ) -> Self {
+        Self {
+            value,
+            tangent,
+            #[cfg(feature = "scenes")]
+            traced: _traced,
+        }
+    }
 }
 
 impl<P, O: Shown> Access<P, O> {
@@ -342,9 +378,10 @@ impl Enumeration {
 
 /// A row for a parameter that is a field: `parameter!(c1, &NEWTON_PER_METRE, Some(0.0), Bound::NotNegative, "…")`.
 /// The name of the field is the name of the variable.
+#[macro_export]
 macro_rules! parameter {
     ($($field:ident).+, $unit:expr, $default:expr, $bound:expr, $description:expr) => {
-        parameter!(stringify!($($field).+), $($field).+, $unit, $default, $bound, $description)
+        $crate::parameter!(stringify!($($field).+), $($field).+, $unit, $default, $bound, $description)
     };
     ($name:expr, $($field:ident).+, $unit:expr, $default:expr, $bound:expr, $description:expr) => {
         $crate::variable::Row {
@@ -359,7 +396,7 @@ macro_rules! parameter {
 
 /// A row for an input that is a [`Signal`]: `input!(tau, &NEWTON_METRE, 0.0, "…")`, with its value at first. The name of
 /// the field is the name of the variable.
-#[allow(unused_macros, reason = "a scene's effects may have none")]
+#[macro_export]
 macro_rules! input {
     ($($field:ident).+, $unit:expr, $start:expr, $description:expr) => {
         $crate::variable::Row {
@@ -376,44 +413,43 @@ macro_rules! input {
 
 /// A row for an output: `output!("F.x", &NEWTON, "…", |effect, motion| …)`; with a third name, that of the rates of the
 /// state, which are calculated only for it. The expression is compiled for each scalar.
+#[macro_export]
 macro_rules! output {
     ($name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt $(, $rates:tt)?| $read:expr) => {
-        output!(Output, $name, $unit, $description, |$p, $o $(, $rates)?| $read)
+        $crate::output!(Output, $name, $unit, $description, |$p, $o $(, $rates)?| $read)
     };
     ($role:ident, $name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt| $read:expr) => {
         $crate::variable::Row {
             meta: $crate::variable::Meta::real($name, $unit, $crate::variable::Role::$role, $description),
-            access: $crate::variable::Access::Output($crate::variable::Output {
-                value: |$p, $o| $read,
-                tangent: |$p, $o| $read,
-                #[cfg(feature = "scenes")]
-                traced: |$p, $o| $read,
-            }),
+            access: $crate::variable::Access::Output($crate::variable::Output::new(
+                |$p, $o| $read,
+                |$p, $o| $read,
+                |$p, $o| $read,
+            )),
         }
     };
     ($role:ident, $name:expr, $unit:expr, $description:expr, |$p:tt, $o:tt, $rates:tt| $read:expr) => {
         $crate::variable::Row {
             meta: $crate::variable::Meta::real($name, $unit, $crate::variable::Role::$role, $description),
-            access: $crate::variable::Access::Rate($crate::variable::Rate {
-                value: |$p, $o, $rates| $read,
-                tangent: |$p, $o, $rates| $read,
-                #[cfg(feature = "scenes")]
-                traced: |$p, $o, $rates| $read,
-            }),
+            access: $crate::variable::Access::Rate($crate::variable::Rate::new(
+                |$p, $o, $rates| $read,
+                |$p, $o, $rates| $read,
+                |$p, $o, $rates| $read,
+            )),
         }
     };
 }
 
 /// The two rows of a state of an effect's own, by its number: `own!(0, "state.tau", &NEWTON_METRE, &UNIT_OF_ITS_RATE, "…")`.
-#[allow(unused_macros, reason = "a scene's effects may have none")]
+#[macro_export]
 macro_rules! own {
     (state $n:expr, $name:expr, $unit:expr, $description:expr) => {
-        $crate::variable::output!(State, $name, $unit, $description, |_, m| m.own($n))
+        $crate::output!(State, $name, $unit, $description, |_, m| m.own($n))
     };
     (rate $n:expr, $name:expr, $unit:expr, $description:expr) => {
-        $crate::variable::output!(State, $name, $unit, $description, |_, _, rates| rates.own[$n])
+        $crate::output!(State, $name, $unit, $description, |_, _, rates| rates.own[$n])
     };
 }
 
-#[allow(unused_imports, reason = "a scene's effects may have none")]
-pub(crate) use {input, output, own, parameter};
+#[doc(no_inline)]
+pub use crate::{input, output, own, parameter};

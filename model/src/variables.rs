@@ -260,12 +260,11 @@ macro_rules! states {
                     kind: Kind::Integer,
                     role: Role::Mode,
                 },
-                access: Access::Output(Output {
-                    value: |_, r| chart_number(r.motion.tilt.chart()),
-                    tangent: |_, r| constant(chart_number(r.motion.tilt.chart())),
-                    #[cfg(feature = "scenes")]
-                    traced: |_, r| constant(chart_number(r.motion.tilt.chart())),
-                }),
+                access: Access::Output(Output::new(
+                    |_, r| chart_number(r.motion.tilt.chart()),
+                    |_, r| constant(chart_number(r.motion.tilt.chart())),
+                    |_, r| constant(chart_number(r.motion.tilt.chart())),
+                )),
             },
         ]
     };
@@ -358,6 +357,17 @@ pub fn state_number(place: Place) -> Option<usize> {
 pub(crate) const LARGEST_PHI: f64 = TAU * (1_u64 << 53) as f64;
 
 impl Setup {
+    /// This rotor, at rest at the origin, and all else as in a scene that does not name it.
+    pub fn of(rotor: Body) -> Self {
+        let mut setup = Self::default();
+        for row in BLOCKS.into_iter().flatten() {
+            if let (Some(default), Access::Parameter { set, .. }) = (row.meta.default(), &row.access) {
+                set(&mut setup, default);
+            }
+        }
+        Self { rotor, ..setup }
+    }
+
     /// The first of its parameters whose value is not possible.
     fn check(&self) -> Result<(), Invalid> {
         for row in BLOCKS.into_iter().flatten() {
@@ -399,6 +409,13 @@ impl<E: Effects> FromIterator<(Place, f64)> for Parameters<E> {
 }
 
 impl<E: Effects> Parameters<E> {
+    /// The place of the variable that has this full name, as in modelDescription.xml; None where there is none.
+    pub fn place(name: &str) -> Option<Place> {
+        let blocks = (0..Place::FIRST_EFFECT).chain((0..E::FACTS.count).filter_map(|n| Some(E::kind(n)?.block)));
+        let mut places = blocks.flat_map(|block| (0..=Place::SWITCH).map(move |row| Place { block, row }));
+        places.find(|place| Self::name(*place).is_some_and(|found| found == name))
+    }
+
     /// The full name of the variable at this place; None where there is none.
     pub fn name(place: Place) -> Option<String> {
         always(place, E::FACTS.could_work).map_or_else(|| E::name(place), |row| Some(row.meta.name.to_owned()))

@@ -68,6 +68,17 @@ fn matrix<S: Copy>(a: &[S]) -> Matrix<S> {
 }
 
 impl<const NODES: usize> Bearing<NODES> {
+    /// A bearing at `position` along t from c \[m] with K [N/m] and C [N·s/m], each as rows that act on (y, z). What else it has is
+    /// zero, and its table empty.
+    pub fn new(position: f64, [[kyy, kyz], [kzy, kzz]]: Matrix<f64>, [[cyy, cyz], [czy, czz]]: Matrix<f64>) -> Self {
+        Self { position, kyy, kyz, kzy, kzz, cyy, cyz, czy, czz, ..Self::default() }
+    }
+
+    /// The same with K and C against |ω_φ| besides: kyy, kyz, kzy, kzz [N/m] and cyy, cyz, czy, czz [N·s/m] of each node.
+    pub fn with_table(self, table: Table<8, NODES>) -> Self {
+        Self { table, ..self }
+    }
+
     fn stiffness(&self) -> [f64; 4] {
         [self.kyy, self.kyz, self.kzy, self.kzz]
     }

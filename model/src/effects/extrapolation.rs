@@ -35,6 +35,11 @@ impl Default for Extrapolation {
 }
 
 impl Extrapolation {
+    /// Polynomials of this degree, 0, 1 or 2, through values that are so many communication steps late \[1].
+    pub fn new(order: i32, lag: f64) -> Self {
+        Self { order, lag, ..Self::default() }
+    }
+
     fn known(&self) -> usize {
         self.memory[0] as usize
     }

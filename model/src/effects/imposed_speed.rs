@@ -50,6 +50,11 @@ const MEMORY: usize = 12;
 const W: usize = 0;
 
 impl ImposedSpeed {
+    /// A shaft that turns at ω_φ [rad/s] until it is told otherwise.
+    pub fn new(w: f64) -> Self {
+        Self { w: Signal::held(w), ..Self::default() }
+    }
+
     /// The torque of the shaft on the rotor, where the state has these rates [N·m].
     fn torque<S: Scalar>(&self, motion: &Motion<S>, rates: &Rates<S>) -> S {
         let motion = motion.whole();

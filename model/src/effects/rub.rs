@@ -43,6 +43,11 @@ struct Contact<S: Scalar> {
 }
 
 impl Rub {
+    /// A ring at `position` along t from c \[m] with a radial gap \[m] to the shaft and a stiffness [N/m], without damping and friction.
+    pub fn new(position: f64, gap: f64, stiffness: f64) -> Self {
+        Self { position, gap, stiffness, v0: 1.0, ..Self::default() }
+    }
+
     /// Away from the stator line, depth and its rate.
     #[inline(always)]
     fn approach<S: Scalar>(&self, motion: &Motion<S>) -> (Vector3<S>, S, S) {

@@ -42,6 +42,11 @@ impl<const COLUMNS: usize, const NODES: usize> Default for Table<COLUMNS, NODES>
 }
 
 impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
+    /// A table of these speeds [rad/s] and the coefficients there.
+    pub fn new(speed: [f64; NODES], values: [[f64; COLUMNS]; NODES]) -> Self {
+        Self { speed, values, stretch: None }
+    }
+
     /// Whether any coefficient is given.
     pub fn is_given(&self) -> bool {
         self.values.as_flattened().iter().any(|value| *value != 0.0)

@@ -46,3 +46,4 @@ mod tables;
 mod tangents;
 mod traced;
 mod turns;
+mod typed;

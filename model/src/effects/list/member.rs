@@ -14,7 +14,22 @@ use crate::variable::{Access, Place, Role};
 
 /// An effect that a scene calls for; `INDEX` counts from 1 where there are several of its kind.
 #[derive(Clone, Default)]
-pub struct Called<E, const INDEX: u32>(E);
+pub struct Called<E, const INDEX: u32 = 1>(E);
+
+impl<E, const INDEX: u32> From<E> for Called<E, INDEX> {
+    fn from(effect: E) -> Self {
+        Self(effect)
+    }
+}
+
+/// The effects of a scene as a list: `effects![gravity, left => 1, right => 2]`, the number telling which of its kind an effect is.
+#[macro_export]
+macro_rules! effects {
+    () => { () };
+    ($effect:expr $(=> $index:literal)? $(, $($rest:tt)*)?) => {
+        ($crate::effects::Called::<_, { 1 $(* $index)? }>::from($effect), $crate::effects!($($($rest)*)?))
+    };
+}
 
 /// An effect behind a switch; off at first.
 #[derive(Clone, Default)]
