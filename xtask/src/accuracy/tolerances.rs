@@ -107,9 +107,9 @@ impl Measured {
         })
     }
 
-    /// The error over the tolerance, `<` where it cannot be told.
+    /// The error over the tolerance, `<` where it cannot be told, `none` where the run failed or took too long.
     fn cell(&self, found: &Found) -> String {
-        let Ok((errors, _)) = &found.outcome else { return "refused".into() };
+        let Ok((errors, _)) = &found.outcome else { return "none".into() };
         let floor = self.floor.worst();
         let sign = if errors.worst() <= floor && floor > 0.0 { "< " } else { "" };
         sign.to_owned() + &short(errors.worst().max(floor) / found.tolerance)
@@ -119,7 +119,9 @@ impl Measured {
 /// A row a scene, a column a method; a cell has the errors from the loosest to the tightest tolerance.
 fn table(all: &[Measured]) -> String {
     let tolerances = TOLERANCES.map(power).join(", ");
-    let mut text = format!("The error over the tolerance, at {tolerances}:\n\n| scene | s run | of s |");
+    let mut text = format!(
+        "The error over the tolerance, at {tolerances} (`none`: the run did not end; why is in the CSV):\n\n| scene | s run | of s |"
+    );
     text += &METHODS.map(|method| format!(" {method} |")).concat();
     text += "\n|---|--:|--:|";
     text += &"---|".repeat(METHODS.len());
@@ -173,7 +175,7 @@ mod tests {
         assert!((number(3, "error_over_tolerance").unwrap() - 10.0).abs() < 1e-12);
         assert_eq!(number(8, "error_over_tolerance"), None);
         let table = table(&[measured()]);
-        let cells = "| `some` | 2 | 6 | 3.0, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 | refused, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 |";
+        let cells = "| `some` | 2 | 6 | 3.0, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 | none, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 |";
         assert_eq!(table.lines().last(), Some(cells));
     }
 
