@@ -66,6 +66,13 @@ impl Events {
         E::FACTS.indicators > 0 && indicators(effects, motion, state).map(|z| z > 0.0) != self.positive
     }
 
+    /// Indicators as a host is to see them: what is zero is still on the side that its law has. A host that starts from zero would not
+    /// see the sign change that follows: CVode drops such a root, and a shaft that begins to press on its ring would fall on.
+    pub(super) fn sided(&self, values: Indicators) -> Indicators {
+        let least = |positive| if positive { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE };
+        std::array::from_fn(|n| if values[n] == 0.0 { least(self.positive[n]) } else { values[n] })
+    }
+
     /// Whether a law must switch before the motion goes on.
     pub(super) fn is_due(&self) -> bool {
         self.due.is_some()

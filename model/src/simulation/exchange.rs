@@ -167,7 +167,7 @@ impl<const N: usize> Exchange<N> {
         let mut all = [0.0; ALWAYS_INDICATED + MOST_INDICATORS];
         let (always, of_effects) = all.split_at_mut(ALWAYS_INDICATED);
         always.copy_from_slice(&[self.frame.chart.before_border(gamma), about[0], about[1], limit]);
-        of_effects.copy_from_slice(&indicators(effects, &motion, &self.state));
+        of_effects.copy_from_slice(&self.events.sided(indicators(effects, &motion, &self.state)));
         all
     }
 

@@ -2,6 +2,7 @@
 
 use crate::harness::named::Named;
 use crate::harness::{at, within};
+use split_rotor_model::simulation::{ALWAYS_INDICATED, Integrator};
 
 /// A rotor that falls straight down on a ring, from the stator line: free fall, and half a swing on the ring's spring.
 struct Bounce {
@@ -120,5 +121,30 @@ fn exact_ledger_closes_with_friction() {
         println!("{method}: {contacts} contacts, {:?} J lost", ledger.dissipated);
         assert!(contacts >= 2 && ledger.dissipated > 1.0, "it rubs");
         within(method, ledger.residual().abs() / ledger.dissipated, RESIDUAL);
+    }
+}
+
+/// A host drops a root that is there at its start, so what touches at the start must not begin at zero.
+#[test]
+fn regress_a_start_on_the_ring_is_an_event_to_come() {
+    let text = Bounce::new("auto", 1e-6)
+        .text
+        .replace("[effects.gravity]", &format!("[start]\nr_c.z = -{GAP:?}\n[effects.gravity]"));
+    let mut rotor = Named::written_for(&text, Integrator::Host);
+    rotor.start();
+    // Those of four bearings stand before it.
+    let touch = |rotor: &Named| rotor.simulation.indicators().unwrap()[ALWAYS_INDICATED + 4];
+    let mut state = rotor.simulation.state().unwrap();
+    let mut pressed = 0.0;
+    for (depth, positive) in [(0.0, false), (1e-12, true), (0.0, true), (-1e-12, false), (0.0, false)] {
+        state[2] = -GAP - depth;
+        let mut hosted = rotor.simulation.exchange().unwrap();
+        hosted.set_state(&state);
+        assert!(touch(&rotor) != 0.0, "{depth:e} m");
+        assert_eq!(touch(&rotor) > 0.0, positive, "{depth:e} m, pressed {pressed}");
+        let mut hosted = rotor.simulation.exchange().unwrap();
+        hosted.enter_event();
+        hosted.settle();
+        pressed = rotor.get("rub[1].F.z");
     }
 }
