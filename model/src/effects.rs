@@ -48,7 +48,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// How many states of its own it has, at most [`MOST_OWN`]: numbers that are integrated with the motion.
     const OWN: usize = 0;
 
-    /// How many [indicators](Effect::indicator) it has.
+    /// How many [indicators](Effect::indicator) it has; one that has any keeps its branch in its [memory](Effect::memory).
     const INDICATORS: usize = 0;
 
     /// Whether it can lose energy or be supplied with it, with any parameters. To forget to deny it costs time, not
@@ -101,7 +101,7 @@ pub trait Effect: Clone + Default + Send + 'static {
         None
     }
 
-    /// Whether, with its present parameters, it has events.
+    /// Whether, with its present parameters and in any branch, it has events: asked where a run starts.
     fn has_events(&self) -> bool {
         Self::INDICATORS > 0
     }
@@ -111,10 +111,11 @@ pub trait Effect: Clone + Default + Send + 'static {
         1.0
     }
 
-    /// Goes on where the indicators have these signs: the law keeps its branch until it hears of others.
+    /// Takes the branch of these signs of its indicators, which nothing else may decide: a step that is taken back is told with the signs
+    /// that were. Until it is called again, the law keeps that branch, whatever the indicators say.
     fn switch(&mut self, _positive: &[bool], _motion: &Motion<f64>) {}
 
-    /// Its own states where the motion begins; those beyond [`Effect::OWN`] do not count.
+    /// Its own states where the motion begins, which has zeros in their place; those beyond [`Effect::OWN`] do not count.
     fn own_at_start(&self, _start: &Motion<f64>) -> [f64; MOST_OWN] {
         [0.0; MOST_OWN]
     }

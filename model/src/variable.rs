@@ -440,7 +440,8 @@ macro_rules! output {
     };
 }
 
-/// The two rows of a state of an effect's own, by its number: `own!(0, "state.tau", &NEWTON_METRE, &UNIT_OF_ITS_RATE, "…")`.
+/// The two rows of a state of an effect's own, by its number: `own!(state 0, "state.tau", &NEWTON_METRE, "…")`, and of its rate
+/// `own!(rate 0, "der(state.tau)", &NEWTON_METRE_PER_SECOND, "…")`. States stand in the order of their numbers.
 #[macro_export]
 macro_rules! own {
     (state $n:expr, $name:expr, $unit:expr, $description:expr) => {

@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Effect, InputSet, Motion, SWITCH};
+use super::{Act, Effect, InputSet, MOST_OWN, Motion, SWITCH};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
@@ -149,7 +149,8 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn begin(&mut self, start: &Kinematics<f64>, own: &mut [f64], nominal: &mut [f64]) {
         let mut from = 0;
         self.for_each(|block| {
-            let (motion, count) = (Motion::new(start, &[]), block.kind().own);
+            let count = block.kind().own;
+            let motion = Motion::new(start, &[0.0; MOST_OWN][..count]);
             block.begin(&motion);
             if block.is_active() {
                 own[from..][..count].copy_from_slice(&block.own_at_start(&motion)[..count]);

@@ -34,6 +34,10 @@ impl PartialEq for Tableau {
 }
 
 /// A pair with the rate at the end of a step as its last stage, which is the first of the next.
+///
+/// The sums are made so that what is newest is waited for last: the last entry of each stage's `a` is that of the stage before it, the stage
+/// before the last one stands at the end of the step too (c = 1), the weights of the step begin with that of the first stage, and there are at
+/// most 13 stages and 4 rows of dense output.
 #[derive(Debug)]
 pub struct Tableau {
     /// The stages after the first; the last stands at the end of the step.
@@ -45,7 +49,8 @@ pub struct Tableau {
     /// What the estimate is multiplied by, so that the tolerance means for every method about the same: that the error of a
     /// smooth run is of its size (measured in `model/tests/all/honest_tolerance.rs`).
     pub calibration: f64,
-    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase \[rad].
+    /// A motion that swings and does not die out is kept from growing by steps of up to so much of its phase \[rad]: where on the imaginary
+    /// axis the stability function first exceeds 1 in size.
     pub swings: f64,
     /// The power of h with which the estimate falls.
     pub error_order: f64,

@@ -35,7 +35,8 @@ impl Plan {
                 Plan::Composed(composition, Some(solver.step_size).filter(|size| *size > 0.0))
             }
             numbers::STIFF => Plan::Stiff,
-            _ => Plan::Explicit(&DOP853),
+            numbers::DOP853 => Plan::Explicit(&DOP853),
+            other => unreachable!("there is no method {other}: it was checked"),
         }
     }
 }

@@ -78,7 +78,7 @@ impl<const N: usize> Motion<N> {
 /// weight may be far more than what the rotor then does.
 pub(super) const BESIDE: f64 = 1e-4;
 
-/// How small the error of a step must be (INTERFACE.md).
+/// How small the error of a step must be.
 pub(super) fn tolerance<E: Effects, const N: usize>(
     setup: &Setup,
     effects: &E,
