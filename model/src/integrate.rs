@@ -46,6 +46,7 @@ pub trait System<const N: usize> {
     fn rates<const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N];
 
     /// f(t, y) of what is solved.
+    #[inline]
     fn rates_of_all(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         if self.solves_all() { self.rates::<true>(t, y) } else { self.rates::<false>(t, y) }
     }

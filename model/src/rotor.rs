@@ -236,6 +236,12 @@ impl<'e, E: Effects> Rotor<'e, E> {
         all_rates::<S, E, N, ALL>(self.effects, &motion, &y[..own(N)])
     }
 
+    /// The same in the rarer chart, called: beside it in every stage, the common one would wait for registers.
+    #[inline(never)]
+    fn rates_from_minus_e<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        self.rates_in::<f64, N, ALL>(Chart::FromMinusE, t, y)
+    }
+
     /// The same where effects have switches, called: it is too long to stand in every stage of a method. `PLAIN`: the body is symmetric,
     /// and no speed is imposed.
     #[inline(never)]
@@ -278,9 +284,10 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
         System::<N>::depended_on(self).saturating_sub(self.frame.idle as usize)
     }
 
+    /// Where its state has room for the work.
     #[inline(always)]
     fn solves_all(&self) -> bool {
-        self.frame.works
+        N >= WITH_WORK && self.frame.works
     }
 
     #[inline(always)]
@@ -296,7 +303,11 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
         // Once for each chart, so that neither asks again which one it is.
         match self.frame.chart {
             Chart::FromE => self.rates_in::<f64, N, ALL>(Chart::FromE, t, y),
-            Chart::FromMinusE => self.rates_in::<f64, N, ALL>(Chart::FromMinusE, t, y),
+            Chart::FromMinusE => {
+                let rates = self.rates_from_minus_e::<N, ALL>(t, y);
+                // One by one, or the compiler would hand over those of the other chart in memory, too.
+                std::array::from_fn(|n| rates[n])
+            }
         }
     }
 

@@ -5,6 +5,7 @@ mod stages;
 
 use super::answer::Answer;
 use super::control::Controller;
+use super::lanes::are_finite;
 use super::power::power;
 use super::segment::Segment;
 use super::sizes::{Sizes, Squares, largest_square};
@@ -173,7 +174,7 @@ impl<const N: usize> Explicit<N> {
     /// evaluations. Where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl System<N>, most: f64, until: f64) -> Result<(), Fault> {
         let (rate, h) = (self.k[self.tableau.last], self.h);
-        if !rate.iter().all(|rate| rate.is_finite()) {
+        if !are_finite(&rate) {
             return Err(Fault::NotFinite { t: self.t });
         }
         let mut obstacle = None;
@@ -230,7 +231,7 @@ impl<const N: usize> Explicit<N> {
     fn accept(&mut self, system: &impl System<N>, end: f64, y: [f64; N], error: f64, seen: &Squares<N>, share: f64) {
         let segment = &mut self.segment;
         (segment.t, segment.h, segment.y, segment.dense) = (self.t, self.h, self.y, false);
-        segment.sizes = self.sizes;
+        segment.sizes.copy(system, &self.sizes);
         self.sizes.take(system, seen, share);
         if segment.rough {
             // Only such a step is read by what an answer keeps.

@@ -45,3 +45,10 @@ pub fn sum(pair: f64x2) -> f64 {
     let [first, second] = pair.to_array();
     first + second
 }
+
+/// Whether all are finite: 0 times one that is not is not a number.
+#[inline(always)]
+pub fn are_finite<const N: usize>(v: &[f64; N]) -> bool {
+    let zeros = (0..pairs(N)).fold(nothing(), |zeros, p| zeros + pair(v, p) * both(0.0));
+    sum(zeros) == 0.0
+}

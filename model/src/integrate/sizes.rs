@@ -99,6 +99,16 @@ impl<const N: usize> Sizes<N> {
         }
     }
 
+    /// Becomes what these are, where it counts.
+    #[inline(always)]
+    pub fn copy<F: System<N>>(&mut self, _system: &F, other: &Self) {
+        self.origin = other.origin;
+        for p in 0..pairs(F::GROUPS) {
+            put(&mut self.recent, p, pair(&other.recent, p));
+            put(&mut self.largest, p, pair(&other.largest, p));
+        }
+    }
+
     /// What the square of one unit of each group's error counts in a step to where the sizes are `seen` that rounds numbers as large as
     /// `rounded`.
     #[inline(always)]
