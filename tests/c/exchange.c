@@ -11,27 +11,6 @@ bool has_model_exchange(void)
     return attribute("ModelExchange.modelIdentifier") != NULL;
 }
 
-double input_rate(void)
-{
-    return claims("CoSimulation.canInterpolateInputs") ? 0.25 : 0.0;
-}
-
-double input_at(double t)
-{
-    return 0.1 + input_rate() * t;
-}
-
-void set_line(struct rotor *rotor, double t)
-{
-    fmi2ValueReference *inputs;
-    size_t count = references_of('R', "input", &inputs);
-    fmi2Real value = input_at(t);
-    for (size_t i = 0; i < count; i++) {
-        DONE(rotor, SetReal, &inputs[i], 1, &value);
-    }
-    free(inputs);
-}
-
 void enter_continuous_time(struct rotor *rotor)
 {
     fmi2EventInfo info = {.newDiscreteStatesNeeded = fmi2True};
@@ -49,7 +28,7 @@ static void rates(struct rotor *rotor, double t, const fmi2Real *x, fmi2Real *ra
 {
     DONE(rotor, SetTime, t);
     DONE(rotor, SetContinuousStates, x, states.count);
-    set_line(rotor, t);
+    set_inputs(rotor, t);
     DONE(rotor, GetDerivatives, rate, states.count);
 }
 
@@ -104,7 +83,7 @@ int integrate(struct rotor *rotor, double start, double h, int count)
         }
         DONE(rotor, SetTime, start + (i + 1) * h);
         DONE(rotor, SetContinuousStates, x, n);
-        set_line(rotor, start + (i + 1) * h);
+        set_inputs(rotor, start + (i + 1) * h);
         if (has_event(rotor, signs)) {
             events++;
             DONE_PLAIN(rotor, EnterEventMode);

@@ -11,14 +11,8 @@ bool has_model_exchange(void);
 /* From event mode, events iterated until no more are needed, to continuous-time mode. */
 void enter_continuous_time(struct rotor *rotor);
 
-/* The input signal of the integration, the same for all inputs: a straight line, or level where a co-simulation could
-   not follow one exactly. */
-double input_at(double t);
-double input_rate(void);
-void set_line(struct rotor *rotor, double t);
-
 /* Integrates with the classical method of order four from `start` [s] over `count` steps of `h` [s], with
-   the input signal above, and leaves the instance there. It must be in continuous-time mode. How many events there
+   the inputs of set_inputs, and leaves the instance there. It must be in continuous-time mode. How many events there
    were. */
 int integrate(struct rotor *rotor, double start, double h, int count);
 

@@ -18,7 +18,7 @@ extern struct options options;
 #define PARTS(P) \
     P(cycles)           /* resets and instances by the thousand leave the memory flat */ \
     P(whole_run)        /* the default experiment, again and again with the same bits */ \
-    P(access_variables) /* every variable through every getter and setter */ \
+    P(access_variables) /* every variable through its getter and setter */ \
     P(logs)             /* messages that a formatting logger prints rightly */ \
     P(saved_states)     /* FMU states in memory and as bytes, whole and damaged */ \
     P(derivatives)      /* of inputs, of outputs and directional ones */ \

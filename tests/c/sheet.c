@@ -134,18 +134,3 @@ size_t references_of(char type, const char *causality, fmi2ValueReference **list
     }
     return count;
 }
-
-size_t smooth_outputs(fmi2ValueReference **list)
-{
-    size_t count = 0;
-    *list = NULL;
-    for (size_t i = 0; i < variable_count; i++) {
-        const struct variable *it = &variables[i];
-        if (it->type == 'R' && strcmp(it->causality, "output") == 0 && strncmp(it->name, "solver.", 7) != 0 &&
-            strcmp(it->name, "turns") != 0 && strcmp(it->name, "angle") != 0) {
-            *list = grown(*list, count, sizeof **list);
-            (*list)[count++] = it->reference;
-        }
-    }
-    return count;
-}

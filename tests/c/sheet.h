@@ -57,8 +57,4 @@ const struct variable *variable(const char *name);
    caller frees. */
 size_t references_of(char type, const char *causality, fmi2ValueReference **list);
 
-/* The outputs that are smooth functions of the motion: not what the solver spent, and not what jumps from turn to turn.
- */
-size_t smooth_outputs(fmi2ValueReference **list);
-
 #endif
