@@ -4,7 +4,7 @@
        fmi_calls SHEET LIBRARY KEY CALLS   just so many calls, for a tool that counts instructions within FUNCTIONS
 
    A target of 0 is none. */
-#include "library.h"
+#include "instance.h"
 #include "sheet.h"
 
 #include <math.h>
@@ -27,150 +27,60 @@ static fmi2ValueReference read_references[READ];
 static fmi2Real *states_now, *rates;
 static fmi2Byte *bytes;
 static size_t size;
-static double start, own_step;
+static double start, own_step, experiment_step;
 
-static void fail(const char *what)
-{
-    fprintf(stderr, "fmi_calls: %s\n", what);
-    exit(2);
-}
-
-static void must(fmi2Status status, const char *what)
-{
-    if (status != fmi2OK) {
-        fail(what);
+/* The bodies: `n` calls each, the `i`th of them. */
+#define BODY(name, ...) \
+    static void name(int n) \
+    { \
+        for (int i = 0; i < n; i++) { \
+            __VA_ARGS__; \
+        } \
     }
+
+static fmi2Real ten[READ];
+
+static void step(int i, double h)
+{
+    fmi.DoStep(rotor, start + i * h, h, fmi2True);
 }
 
-static void quiet(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
-                  fmi2String message, ...)
+static void step_and_look(int i, double h)
 {
-    (void)environment;
-    (void)instance;
-    (void)category;
-    fprintf(stderr, "%d %s\n", status, message);
+    step(i, h);
+    fmi.GetReal(rotor, read_references, READ, ten);
 }
 
-static fmi2Component instantiate(fmi2Type type)
+static void read_state(void)
 {
-    static const fmi2CallbackFunctions callbacks = {quiet, NULL, NULL, NULL, NULL};
-    fmi2Component made =
-        fmi.Instantiate("rotor", type, attribute("fmiModelDescription.guid"), NULL, &callbacks, fmi2False, fmi2False);
-    if (made == NULL) {
-        fail("fmi2Instantiate");
-    }
-    return made;
-}
-
-static void initialize(fmi2Component component)
-{
-    must(fmi.SetupExperiment(component, fmi2False, 0.0, 0.0, fmi2False, 0.0), "fmi2SetupExperiment");
-    must(fmi.EnterInitializationMode(component), "fmi2EnterInitializationMode");
-    must(fmi.ExitInitializationMode(component), "fmi2ExitInitializationMode");
-}
-
-static void read_ten(void)
-{
-    fmi2Real values[READ];
-    must(fmi.GetReal(rotor, read_references, READ, values), "fmi2GetReal");
-}
-
-/* The bodies: `n` calls each. */
-
-static void get_real(int n)
-{
-    fmi2Real values[READ];
-    for (int i = 0; i < n; i++) {
-        fmi.GetReal(rotor, read_references, READ, values);
-    }
-}
-
-static void get_state(int n)
-{
-    for (int i = 0; i < n; i++) {
-        fmi.GetFMUstate(rotor, &scratch);
-    }
-}
-
-static void set_state(int n)
-{
-    for (int i = 0; i < n; i++) {
-        fmi.SetFMUstate(rotor, at_start);
-    }
-}
-
-static void make_and_free(int n)
-{
-    for (int i = 0; i < n; i++) {
-        fmi.FreeInstance(instantiate(fmi2CoSimulation));
-    }
-}
-
-/* Steps within one of the solver's own. */
-static void step_unread(int n)
-{
-    double h = 0.5 * own_step / MOST_CALLS;
-    for (int i = 0; i < n; i++) {
-        fmi.DoStep(rotor, start + i * h, h, fmi2True);
-    }
-}
-
-static void step_and_read(int n)
-{
-    fmi2Real values[READ];
-    double h = 0.5 * own_step / MOST_CALLS;
-    for (int i = 0; i < n; i++) {
-        fmi.DoStep(rotor, start + i * h, h, fmi2True);
-        fmi.GetReal(rotor, read_references, READ, values);
-    }
-}
-
-/* Steps of the default experiment: the solver works, too. */
-static void step_of_experiment(int n)
-{
-    fmi2Real values[READ];
-    double h = number("DefaultExperiment.stepSize");
-    for (int i = 0; i < n; i++) {
-        fmi.DoStep(rotor, start + i * h, h, fmi2True);
-        fmi.GetReal(rotor, read_references, READ, values);
-    }
-}
-
-static void serialize(int n)
-{
-    for (int i = 0; i < n; i++) {
-        fmi.SerializeFMUstate(rotor, at_start, bytes, size);
-    }
-}
-
-static void deserialize(int n)
-{
-    for (int i = 0; i < n; i++) {
-        fmi2FMUstate state = NULL;
-        fmi.DeSerializeFMUstate(rotor, bytes, size, &state);
-        fmi.FreeFMUstate(rotor, &state);
-    }
-}
-
-/* With the states set anew each time, or the derivatives would stand ready. */
-static void derivatives(int n)
-{
-    for (int i = 0; i < n; i++) {
-        fmi.SetContinuousStates(exchange, states_now, states.count);
-        fmi.GetDerivatives(exchange, rates, states.count);
-    }
+    fmi2FMUstate state = NULL;
+    fmi.DeSerializeFMUstate(rotor, bytes, size, &state);
+    fmi.FreeFMUstate(rotor, &state);
 }
 
 /* Of all derivatives, along one state. */
-static void directional_derivative(int n)
+static void along(int i)
 {
     const fmi2Real one = 1.0;
-    for (int i = 0; i < n; i++) {
-        fmi.SetContinuousStates(exchange, states_now, states.count);
-        fmi.GetDirectionalDerivative(exchange, states.derivatives, states.count,
-                                     &states.references[i % (int)states.count], 1, &one, rates);
-    }
+    const fmi2ValueReference *known = &states.references[i % (int)states.count];
+    fmi.GetDirectionalDerivative(exchange, states.derivatives, states.count, known, 1, &one, rates);
 }
+
+BODY(get_real, fmi.GetReal(rotor, read_references, READ, ten))
+BODY(get_state, fmi.GetFMUstate(rotor, &scratch))
+BODY(set_state, fmi.SetFMUstate(rotor, at_start))
+BODY(make_and_free, fmi.FreeInstance(instantiate(fmi2CoSimulation)))
+/* Steps within one of the solver's own. */
+BODY(step_unread, step(i, 0.5 * own_step / MOST_CALLS))
+BODY(step_and_read, step_and_look(i, 0.5 * own_step / MOST_CALLS))
+/* Steps of the default experiment: the solver works, too. */
+BODY(step_of_experiment, step_and_look(i, experiment_step))
+BODY(serialize, fmi.SerializeFMUstate(rotor, at_start, bytes, size))
+BODY(deserialize, read_state())
+/* With the states set anew each time, or the derivatives would stand ready. */
+BODY(derivatives, fmi.SetContinuousStates(exchange, states_now, states.count);
+     fmi.GetDerivatives(exchange, rates, states.count))
+BODY(directional_derivative, fmi.SetContinuousStates(exchange, states_now, states.count); along(i))
 
 /* What stands before a repeat and is not measured. */
 
@@ -180,13 +90,13 @@ static void nothing(void)
 
 static void back(void)
 {
-    must(fmi.SetFMUstate(rotor, at_start), "fmi2SetFMUstate");
+    MUST(SetFMUstate, rotor, at_start);
 }
 
 static void back_and_read(void)
 {
     back();
-    read_ten();
+    MUST(GetReal, rotor, read_references, READ, ten);
 }
 
 enum needs { ALWAYS, STATES, BYTES, EXCHANGE, DIRECTIONAL };
@@ -246,25 +156,25 @@ static void prepare_co_simulation(void)
     }
     rotor = instantiate(fmi2CoSimulation);
     initialize(rotor);
-    must(fmi.DoStep(rotor, 0.0, MOVED, fmi2True), "fmi2DoStep");
+    MUST(DoStep, rotor, 0.0, MOVED, fmi2True);
     must(fmi.GetReal(rotor, &variable("solver.next_step")->reference, 1, &own_step), "solver.next_step");
     must(fmi.GetReal(rotor, &steps_reference, 1, &steps), "solver.steps");
     /* On to where the solver has just begun a step: nearly all of it lies ahead. */
     start = MOVED;
     do {
         steps_before = steps;
-        must(fmi.DoStep(rotor, start, own_step / 64.0, fmi2True), "fmi2DoStep");
+        MUST(DoStep, rotor, start, own_step / 64.0, fmi2True);
         start += own_step / 64.0;
         must(fmi.GetReal(rotor, &steps_reference, 1, &steps), "solver.steps");
     } while (steps == steps_before);
     if (can_be_measured(STATES)) {
-        must(fmi.GetFMUstate(rotor, &at_start), "fmi2GetFMUstate");
-        must(fmi.GetFMUstate(rotor, &scratch), "fmi2GetFMUstate");
+        MUST(GetFMUstate, rotor, &at_start);
+        MUST(GetFMUstate, rotor, &scratch);
     }
     if (can_be_measured(BYTES)) {
-        must(fmi.SerializedFMUstateSize(rotor, at_start, &size), "fmi2SerializedFMUstateSize");
+        MUST(SerializedFMUstateSize, rotor, at_start, &size);
         bytes = malloc(size);
-        must(fmi.SerializeFMUstate(rotor, at_start, bytes, size), "fmi2SerializeFMUstate");
+        MUST(SerializeFMUstate, rotor, at_start, bytes, size);
     }
 }
 
@@ -274,12 +184,12 @@ static void prepare_model_exchange(void)
     exchange = instantiate(fmi2ModelExchange);
     initialize(exchange);
     while (info.newDiscreteStatesNeeded) {
-        must(fmi.NewDiscreteStates(exchange, &info), "fmi2NewDiscreteStates");
+        MUST(NewDiscreteStates, exchange, &info);
     }
-    must(fmi.EnterContinuousTimeMode(exchange), "fmi2EnterContinuousTimeMode");
+    MUST(EnterContinuousTimeMode, exchange);
     states_now = malloc(states.count * sizeof *states_now);
     rates = malloc(states.count * sizeof *rates);
-    must(fmi.GetContinuousStates(exchange, states_now, states.count), "fmi2GetContinuousStates");
+    MUST(GetContinuousStates, exchange, states_now, states.count);
 }
 
 /* The time of `n` calls [ns]. */
@@ -308,10 +218,11 @@ int main(int count, char **arguments)
 {
     const char *only = count == 5 ? arguments[3] : NULL;
     if (count != 3 && count != 5) {
-        fail("usage: fmi_calls SHEET LIBRARY [KEY CALLS]");
+        must(fmi2Error, "usage: fmi_calls SHEET LIBRARY [KEY CALLS]");
     }
     read_sheet(arguments[1]);
     load_library(arguments[2]);
+    experiment_step = number("DefaultExperiment.stepSize");
     prepare_co_simulation();
     if (can_be_measured(EXCHANGE)) {
         prepare_model_exchange();

@@ -3,7 +3,7 @@
        spend SHEET LIBRARY STEPS STEP [NAME=VALUE ...]
 
    sets what is named, takes so many communication steps of STEP seconds, and tells what the solver evaluated. */
-#include "library.h"
+#include "instance.h"
 #include "sheet.h"
 
 #include <stdio.h>
@@ -11,23 +11,6 @@
 #include <string.h>
 
 static fmi2Component rotor;
-
-static void must(fmi2Status status, const char *what)
-{
-    if (status != fmi2OK) {
-        fprintf(stderr, "spend: %s\n", what);
-        exit(2);
-    }
-}
-
-static void quiet(fmi2ComponentEnvironment environment, fmi2String instance, fmi2Status status, fmi2String category,
-                  fmi2String message, ...)
-{
-    (void)environment;
-    (void)instance;
-    (void)category;
-    fprintf(stderr, "%d %s\n", status, message);
-}
 
 /* NAME=VALUE, whatever its type. */
 static void set(char *given)
@@ -54,7 +37,6 @@ static void set(char *given)
 
 int main(int count, char **arguments)
 {
-    static const fmi2CallbackFunctions callbacks = {quiet, NULL, NULL, NULL, NULL};
     if (count < 5) {
         must(fmi2Error, "usage: spend SHEET LIBRARY STEPS STEP [NAME=VALUE ...]");
     }
@@ -62,20 +44,16 @@ int main(int count, char **arguments)
     load_library(arguments[2]);
     int steps = atoi(arguments[3]);
     double step = strtod(arguments[4], NULL);
-    rotor = fmi.Instantiate("rotor", fmi2CoSimulation, attribute("fmiModelDescription.guid"), NULL, &callbacks,
-                            fmi2False, fmi2False);
-    must(rotor == NULL ? fmi2Error : fmi2OK, "fmi2Instantiate");
+    rotor = instantiate(fmi2CoSimulation);
     for (int i = 5; i < count; i++) {
         set(arguments[i]);
     }
-    must(fmi.SetupExperiment(rotor, fmi2False, 0.0, 0.0, fmi2False, 0.0), "fmi2SetupExperiment");
-    must(fmi.EnterInitializationMode(rotor), "fmi2EnterInitializationMode");
-    must(fmi.ExitInitializationMode(rotor), "fmi2ExitInitializationMode");
+    initialize(rotor);
     for (int i = 0; i < steps; i++) {
-        must(fmi.DoStep(rotor, i * step, step, fmi2True), "fmi2DoStep");
+        MUST(DoStep, rotor, i * step, step, fmi2True);
     }
     fmi2Real evaluations;
-    must(fmi.GetReal(rotor, &variable("solver.evaluations")->reference, 1, &evaluations), "fmi2GetReal");
+    MUST(GetReal, rotor, &variable("solver.evaluations")->reference, 1, &evaluations);
     printf("%.0f\n", evaluations);
     fmi.FreeInstance(rotor);
     return 0;

@@ -2,7 +2,8 @@
 
 use crate::paths;
 use crate::run::run;
-use anyhow::{Result, bail};
+use crate::unpacked::Unpacked;
+use anyhow::{Context, Result, bail, ensure};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -36,6 +37,31 @@ pub fn compile(name: &str, sources: &[PathBuf], flags: &[&str]) -> Result<PathBu
         .arg(&program)
         .args(["-ldl", "-lm"]))?;
     Ok(program)
+}
+
+/// Compiles a program of `benches`, with what reads a sheet and loads the library of an FMU.
+pub fn bench(name: &str) -> Result<PathBuf> {
+    let own = format!("benches/{name}.c");
+    let sources = [&own, "benches/instance.c", "tests/c/library.c", "tests/c/sheet.c"].map(PathBuf::from);
+    compile(name, &sources, &[])
+}
+
+/// Runs a program on an FMU under callgrind: the instructions within these functions, and what it printed.
+pub fn instructions<'f>(
+    program: &Path,
+    fmu: &Unpacked,
+    functions: impl IntoIterator<Item = &'f str>,
+    arguments: &[String],
+) -> Result<(f64, String)> {
+    let mut command = tool("valgrind", "valgrind")?;
+    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);
+    command.args(functions.into_iter().map(|function| format!("--toggle-collect={function}")));
+    let run = command.arg(program).arg(&fmu.sheet).arg(&fmu.library).args(arguments).output()?;
+    let said = String::from_utf8(run.stderr)?;
+    ensure!(run.status.success(), "{}: {said}", fmu.name);
+    let sum = said.lines().find_map(|line| line.split("Collected :").nth(1));
+    let sum = sum.with_context(|| format!("callgrind tells no sum: {said}"))?;
+    Ok((sum.trim().parse()?, String::from_utf8(run.stdout)?))
 }
 
 /// The C files in this folder of the project, sorted, relative to the project's own.

@@ -6,7 +6,7 @@ use crate::run::output;
 use crate::unpacked::{Unpacked, unpack};
 use crate::{c, package};
 use anyhow::{Context, Result, bail};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// What the C program tells of one measurement.
@@ -23,13 +23,12 @@ struct Line {
 
 /// Measures and prints tables.
 pub fn print() -> Result<()> {
-    let sources = ["benches/fmi_calls.c", "tests/c/library.c", "tests/c/sheet.c"].map(PathBuf::from);
-    let program = c::compile("fmi_calls", &sources, &[])?;
+    let program = c::bench("fmi_calls")?;
     let counts = c::is_installed("valgrind");
     for fmu in package::package(&scenes(), None)? {
         let fmu = unpack(&fmu)?;
         println!("{}", head(&[&fmu.name, "ns", "at most", "instructions"]));
-        let lines = output(program_on(&fmu, &mut Command::new(&program)))?;
+        let lines = output(Command::new(&program).arg(&fmu.sheet).arg(&fmu.library))?;
         for line in lines.lines() {
             let line = parse(line).with_context(|| format!("fmi_calls printed `{line}`"))?;
             let count = if counts { format!("{:.0}", instructions(&program, &fmu, &line)?) } else { "-".into() };
@@ -37,10 +36,6 @@ pub fn print() -> Result<()> {
         }
     }
     Ok(())
-}
-
-fn program_on<'c>(fmu: &Unpacked, command: &'c mut Command) -> &'c mut Command {
-    command.arg(&fmu.sheet).arg(&fmu.library)
 }
 
 fn parse(line: &str) -> Result<Line> {
@@ -59,17 +54,9 @@ fn parse(line: &str) -> Result<Line> {
 fn instructions(program: &Path, fmu: &Unpacked, line: &Line) -> Result<f64> {
     const CALLS: u32 = 1000;
     // The way to the first call uses the same functions: it is what no call at all counts.
-    let [none, many] = [0, CALLS].map(|calls| collected(program, fmu, line, calls));
-    Ok((many? - none?) / f64::from(CALLS))
-}
-
-/// Instructions within the line's functions while the program makes so many calls.
-fn collected(program: &Path, fmu: &Unpacked, line: &Line, calls: u32) -> Result<f64> {
-    let mut command = Command::new("valgrind");
-    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);
-    command.args(line.functions.iter().map(|function| format!("--toggle-collect={function}")));
-    program_on(fmu, command.arg(program)).args([&line.key, &calls.to_string()]);
-    let said = String::from_utf8(command.output().context("cannot run valgrind")?.stderr)?;
-    let sum = said.lines().find_map(|line| line.split("Collected :").nth(1));
-    Ok(sum.with_context(|| format!("callgrind tells no sum: {said}"))?.trim().parse()?)
+    let [none, many] = [0, CALLS].map(|calls| {
+        let functions = line.functions.iter().map(String::as_str);
+        c::instructions(program, fmu, functions, &[line.key.clone(), calls.to_string()])
+    });
+    Ok((many?.0 - none?.0) / f64::from(CALLS))
 }

@@ -5,10 +5,10 @@ use super::head;
 use super::sets::{self, Set};
 use crate::unpacked::{Unpacked, unpack};
 use crate::{c, package, paths};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::scene::Scene;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// A second, in so many communication steps.
 const STEPS: u32 = 10;
@@ -29,19 +29,9 @@ impl Spent {
 
 /// Runs an FMU for a second with these values set, `NAME=VALUE`.
 pub fn spent(fmu: &Unpacked, values: &[String]) -> Result<Spent> {
-    let sources = ["benches/spend.c", "tests/c/library.c", "tests/c/sheet.c"].map(PathBuf::from);
-    let program = c::compile("spend", &sources, &[])?;
-    let mut command = c::tool("valgrind", "valgrind")?;
-    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=fmi2DoStep"]);
-    command.arg(program).arg(&fmu.sheet).arg(&fmu.library).args([STEPS.to_string(), STEP.to_string()]).args(values);
-    let run = command.output().context("cannot run valgrind")?;
-    let said = String::from_utf8(run.stderr)?;
-    ensure!(run.status.success(), "{}: {said}", fmu.name);
-    let sum = said.lines().find_map(|line| line.split("Collected :").nth(1));
-    Ok(Spent {
-        instructions: sum.with_context(|| format!("callgrind tells no sum: {said}"))?.trim().parse()?,
-        evaluations: String::from_utf8(run.stdout)?.trim().parse()?,
-    })
+    let arguments = [&[STEPS.to_string(), STEP.to_string()], values].concat();
+    let (instructions, printed) = c::instructions(&c::bench("spend")?, fmu, ["fmi2DoStep"], &arguments)?;
+    Ok(Spent { instructions, evaluations: printed.trim().parse()? })
 }
 
 /// Packages the scene in this file, beside it.
