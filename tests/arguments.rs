@@ -9,10 +9,20 @@ use split_rotor::abi::*;
 use split_rotor::exports;
 use split_rotor::scene::Simulation;
 use split_rotor_model::variable::{Kind, Role};
+use std::fmt::Debug;
 use std::ptr::{null, null_mut};
 
 const KINDS: [Choice; 2] = [CO_SIMULATION, MODEL_EXCHANGE];
 const STATES: usize = Simulation::STATES;
+const INDICATORS: usize = Simulation::INDICATORS;
+
+/// Checks calls that have a null pointer for the argument of this name.
+macro_rules! null_pointers {
+    ($check:ident; $($function:ident($argument:literal: $($value:expr),*);)*) => {$(
+        // SAFETY: a live instance and a state of its own; pointers are null or to arrays as long as told.
+        $check(stringify!($function), $argument, &|c| unsafe { exports::$function(c, $($value),*) });
+    )*};
+}
 
 #[test]
 fn fmi_null_pointers_name_the_argument_and_change_nothing() {
@@ -27,91 +37,62 @@ fn fmi_null_pointers_name_the_argument_and_change_nothing() {
                 refused(&mut instance, call, &[&format!("{function}: "), argument, "null pointer"]);
             }
         };
-        // SAFETY: a live instance and a state of its own; pointers are null or to arrays as long as told.
-        unsafe {
-            check("fmi2GetReal", "vr", &|c| exports::fmi2GetReal(c, null(), 1, [0.0].as_mut_ptr()));
-            check("fmi2GetReal", "value", &|c| exports::fmi2GetReal(c, real.as_ptr(), 1, null_mut()));
-            check("fmi2GetInteger", "vr", &|c| exports::fmi2GetInteger(c, null(), 1, [0].as_mut_ptr()));
-            check("fmi2GetInteger", "value", &|c| exports::fmi2GetInteger(c, choice.as_ptr(), 1, null_mut()));
-            check("fmi2GetBoolean", "vr", &|c| exports::fmi2GetBoolean(c, null(), 1, [0].as_mut_ptr()));
-            check("fmi2GetString", "vr", &|c| exports::fmi2GetString(c, null(), 1, [null()].as_mut_ptr()));
-            check("fmi2SetReal", "vr", &|c| exports::fmi2SetReal(c, null(), 1, [6.0].as_ptr()));
-            check("fmi2SetReal", "value", &|c| exports::fmi2SetReal(c, real.as_ptr(), 1, null()));
-            check("fmi2SetInteger", "vr", &|c| exports::fmi2SetInteger(c, null(), 1, [2].as_ptr()));
-            check("fmi2SetInteger", "value", &|c| exports::fmi2SetInteger(c, choice.as_ptr(), 1, null()));
-            check("fmi2SetBoolean", "vr", &|c| exports::fmi2SetBoolean(c, null(), 1, [0].as_ptr()));
-            check("fmi2SetString", "vr", &|c| exports::fmi2SetString(c, null(), 1, [null()].as_ptr()));
-            check("fmi2SetDebugLogging", "categories", &|c| exports::fmi2SetDebugLogging(c, TRUE, 1, null()));
-            check("fmi2SetDebugLogging", "category", &|c| {
-                exports::fmi2SetDebugLogging(c, TRUE, 2, [c"logAll".as_ptr(), null()].as_ptr())
-            });
-            check("fmi2GetFMUstate", "FMUstate", &|c| exports::fmi2GetFMUstate(c, null_mut()));
-            check("fmi2SetFMUstate", "FMUstate", &|c| exports::fmi2SetFMUstate(c, null_mut()));
-            let (pointer, bytes) = (saved.pointer(), saved.bytes(&life.instance()));
-            check("fmi2SerializedFMUstateSize", "FMUstate", &|c| {
-                exports::fmi2SerializedFMUstateSize(c, null_mut(), [0].as_mut_ptr())
-            });
-            check("fmi2SerializedFMUstateSize", "size", &|c| {
-                exports::fmi2SerializedFMUstateSize(c, pointer, null_mut())
-            });
-            check("fmi2SerializeFMUstate", "FMUstate", &|c| {
-                exports::fmi2SerializeFMUstate(c, null_mut(), [0; 8].as_mut_ptr(), 8)
-            });
-            check("fmi2SerializeFMUstate", "serializedState", &|c| {
-                exports::fmi2SerializeFMUstate(c, pointer, null_mut(), bytes.len())
-            });
-            check("fmi2DeSerializeFMUstate", "serializedState", &|c| {
-                exports::fmi2DeSerializeFMUstate(c, null(), bytes.len(), [null_mut()].as_mut_ptr())
-            });
-            check("fmi2DeSerializeFMUstate", "FMUstate", &|c| {
-                exports::fmi2DeSerializeFMUstate(c, bytes.as_ptr().cast(), bytes.len(), null_mut())
-            });
-            let derivative = exports::fmi2GetDirectionalDerivative;
-            let name = "fmi2GetDirectionalDerivative";
-            let (seed, mut place) = ([1.0], [0.0]);
-            let (unknown, known, seed, place) = (output.as_ptr(), state.as_ptr(), seed.as_ptr(), place.as_mut_ptr());
-            check(name, "vUnknown_ref", &|c| derivative(c, null(), 1, known, 1, seed, place));
-            check(name, "vKnown_ref", &|c| derivative(c, unknown, 1, null(), 1, seed, place));
-            check(name, "dvKnown", &|c| derivative(c, unknown, 1, known, 1, null(), place));
-            check(name, "dvUnknown", &|c| derivative(c, unknown, 1, known, 1, seed, null_mut()));
-            check("fmi2NewDiscreteStates", "eventInfo", &|c| exports::fmi2NewDiscreteStates(c, null_mut()));
-            let completed = exports::fmi2CompletedIntegratorStep;
-            check("fmi2CompletedIntegratorStep", "enterEventMode", &|c| {
-                completed(c, TRUE, null_mut(), [0].as_mut_ptr())
-            });
-            check("fmi2CompletedIntegratorStep", "terminateSimulation", &|c| {
-                completed(c, TRUE, [0].as_mut_ptr(), null_mut())
-            });
-            check("fmi2SetContinuousStates", "x", &|c| exports::fmi2SetContinuousStates(c, null(), STATES));
-            check("fmi2GetDerivatives", "derivatives", &|c| exports::fmi2GetDerivatives(c, null_mut(), STATES));
-            check("fmi2GetContinuousStates", "x", &|c| exports::fmi2GetContinuousStates(c, null_mut(), STATES));
-            check("fmi2GetNominalsOfContinuousStates", "x_nominal", &|c| {
-                exports::fmi2GetNominalsOfContinuousStates(c, null_mut(), STATES)
-            });
-            let send = exports::fmi2SetRealInputDerivatives;
-            let name = "fmi2SetRealInputDerivatives";
-            check(name, "vr", &|c| send(c, null(), 1, [1].as_ptr(), [0.0].as_ptr()));
-            check(name, "order", &|c| send(c, output.as_ptr(), 1, null(), [0.0].as_ptr()));
-            check(name, "value", &|c| send(c, output.as_ptr(), 1, [1].as_ptr(), null()));
-            let read = exports::fmi2GetRealOutputDerivatives;
-            let name = "fmi2GetRealOutputDerivatives";
-            check(name, "vr", &|c| read(c, null(), 1, [1].as_ptr(), [0.0].as_mut_ptr()));
-            check(name, "order", &|c| read(c, output.as_ptr(), 1, null(), [0.0].as_mut_ptr()));
-            check(name, "value", &|c| read(c, output.as_ptr(), 1, [1].as_ptr(), null_mut()));
-            check("fmi2GetStatus", "value", &|c| exports::fmi2GetStatus(c, status_kind::DO_STEP, null_mut()));
-            let time = status_kind::LAST_SUCCESSFUL_TIME;
-            check("fmi2GetRealStatus", "value", &|c| exports::fmi2GetRealStatus(c, time, null_mut()));
-            let end = status_kind::TERMINATED;
-            check("fmi2GetBooleanStatus", "value", &|c| exports::fmi2GetBooleanStatus(c, end, null_mut()));
+        let (pointer, bytes) = (saved.pointer(), saved.bytes(&life.instance()));
+        let (n, packed) = (bytes.len(), bytes.as_ptr().cast());
+        let (unknown, known, seed, mut place) = (output.as_ptr(), state.as_ptr(), [1.0], [0.0]);
+        let (seed, place) = (seed.as_ptr(), place.as_mut_ptr());
+        null_pointers! { check;
+            fmi2GetReal("vr": null(), 1, [0.0].as_mut_ptr());
+            fmi2GetReal("value": real.as_ptr(), 1, null_mut());
+            fmi2GetInteger("vr": null(), 1, [0].as_mut_ptr());
+            fmi2GetInteger("value": choice.as_ptr(), 1, null_mut());
+            fmi2GetBoolean("vr": null(), 1, [0].as_mut_ptr());
+            fmi2GetString("vr": null(), 1, [null()].as_mut_ptr());
+            fmi2SetReal("vr": null(), 1, [6.0].as_ptr());
+            fmi2SetReal("value": real.as_ptr(), 1, null());
+            fmi2SetInteger("vr": null(), 1, [2].as_ptr());
+            fmi2SetInteger("value": choice.as_ptr(), 1, null());
+            fmi2SetBoolean("vr": null(), 1, [0].as_ptr());
+            fmi2SetString("vr": null(), 1, [null()].as_ptr());
+            fmi2SetDebugLogging("categories": TRUE, 1, null());
+            fmi2SetDebugLogging("category": TRUE, 2, [c"logAll".as_ptr(), null()].as_ptr());
+            fmi2GetFMUstate("FMUstate": null_mut());
+            fmi2SetFMUstate("FMUstate": null_mut());
+            fmi2SerializedFMUstateSize("FMUstate": null_mut(), [0].as_mut_ptr());
+            fmi2SerializedFMUstateSize("size": pointer, null_mut());
+            fmi2SerializeFMUstate("FMUstate": null_mut(), [0; 8].as_mut_ptr(), 8);
+            fmi2SerializeFMUstate("serializedState": pointer, null_mut(), n);
+            fmi2DeSerializeFMUstate("serializedState": null(), n, [null_mut()].as_mut_ptr());
+            fmi2DeSerializeFMUstate("FMUstate": packed, n, null_mut());
+            fmi2GetDirectionalDerivative("vUnknown_ref": null(), 1, known, 1, seed, place);
+            fmi2GetDirectionalDerivative("vKnown_ref": unknown, 1, null(), 1, seed, place);
+            fmi2GetDirectionalDerivative("dvKnown": unknown, 1, known, 1, null(), place);
+            fmi2GetDirectionalDerivative("dvUnknown": unknown, 1, known, 1, seed, null_mut());
+            fmi2NewDiscreteStates("eventInfo": null_mut());
+            fmi2CompletedIntegratorStep("enterEventMode": TRUE, null_mut(), [0].as_mut_ptr());
+            fmi2CompletedIntegratorStep("terminateSimulation": TRUE, [0].as_mut_ptr(), null_mut());
+            fmi2SetContinuousStates("x": null(), STATES);
+            fmi2GetDerivatives("derivatives": null_mut(), STATES);
+            fmi2GetContinuousStates("x": null_mut(), STATES);
+            fmi2GetNominalsOfContinuousStates("x_nominal": null_mut(), STATES);
+            fmi2SetRealInputDerivatives("vr": null(), 1, [1].as_ptr(), [0.0].as_ptr());
+            fmi2SetRealInputDerivatives("order": unknown, 1, null(), [0.0].as_ptr());
+            fmi2SetRealInputDerivatives("value": unknown, 1, [1].as_ptr(), null());
+            fmi2GetRealOutputDerivatives("vr": null(), 1, [1].as_ptr(), place);
+            fmi2GetRealOutputDerivatives("order": unknown, 1, null(), place);
+            fmi2GetRealOutputDerivatives("value": unknown, 1, [1].as_ptr(), null_mut());
+            fmi2GetStatus("value": status_kind::DO_STEP, null_mut());
+            fmi2GetRealStatus("value": status_kind::LAST_SUCCESSFUL_TIME, null_mut());
+            fmi2GetBooleanStatus("value": status_kind::TERMINATED, null_mut());
         }
         saved.free(&instance);
         assert_eq!(life.future(instance), life.future(life.instance()), "{life:?}: the way on is the same");
     }
 }
 
-/// The words of the refusal of a vector of the wrong length.
-fn wrong_number(function: &str, n: usize) -> [String; 2] {
-    [format!("{function}: nx = {n} "), format!("must be {STATES}")]
+unsafe extern "C" fn set_states(c: Component, x: *mut Real, n: Size) -> Status {
+    // SAFETY: as the caller has it.
+    unsafe { exports::fmi2SetContinuousStates(c, x, n) }
 }
 
 #[test]
@@ -122,33 +103,19 @@ fn fmi_wrong_counts_name_the_right_one() {
         let allows = |name: &str| life.allows(RULES.iter().find(|rule| rule.name == name).expect("a function of FMI"));
         let mut values = [0.5; ROOM];
         for n in [0, 1, STATES - 1, STATES + 1, ROOM] {
-            type Get = unsafe extern "C" fn(Component, *mut Real, Size) -> Status;
-            let gets: [(&str, Get); 3] = [
-                ("fmi2GetContinuousStates", exports::fmi2GetContinuousStates),
-                ("fmi2GetDerivatives", exports::fmi2GetDerivatives),
-                ("fmi2GetNominalsOfContinuousStates", exports::fmi2GetNominalsOfContinuousStates),
+            type Pass = unsafe extern "C" fn(Component, *mut Real, Size) -> Status;
+            let passes: [(&str, &str, usize, Pass); 5] = [
+                ("fmi2GetContinuousStates", "nx", STATES, exports::fmi2GetContinuousStates),
+                ("fmi2GetDerivatives", "nx", STATES, exports::fmi2GetDerivatives),
+                ("fmi2GetNominalsOfContinuousStates", "nx", STATES, exports::fmi2GetNominalsOfContinuousStates),
+                ("fmi2SetContinuousStates", "nx", STATES, set_states),
+                ("fmi2GetEventIndicators", "ni", INDICATORS, exports::fmi2GetEventIndicators),
             ];
-            for (function, get) in gets.into_iter().filter(|(name, _)| allows(name)) {
-                let words = wrong_number(function, n);
+            for (function, name, right, pass) in passes.into_iter().filter(|pass| allows(pass.0) && n != pass.2) {
                 // SAFETY: a live instance, and an array at least as long as told.
-                let call = |c| unsafe { get(c, values.as_mut_ptr(), n) };
-                refused(&mut instance, call, &[&words[0], &words[1]]);
+                let call = |c| unsafe { pass(c, values.as_mut_ptr(), n) };
+                refused(&mut instance, call, &[&format!("{function}: {name} = {n} "), &format!("must be {right}")]);
                 assert_eq!(values, [0.5; ROOM], "nothing is written");
-            }
-            if allows("fmi2SetContinuousStates") {
-                let words = wrong_number("fmi2SetContinuousStates", n);
-                // SAFETY: the same.
-                let call = |c| unsafe { exports::fmi2SetContinuousStates(c, values.as_ptr(), n) };
-                refused(&mut instance, call, &[&words[0], &words[1]]);
-            }
-            if n != Simulation::INDICATORS && allows("fmi2GetEventIndicators") {
-                // SAFETY: the same.
-                let call = |c| unsafe { exports::fmi2GetEventIndicators(c, values.as_mut_ptr(), n) };
-                refused(
-                    &mut instance,
-                    call,
-                    &["fmi2GetEventIndicators: ", &format!("ni = {n} must be {}", Simulation::INDICATORS)],
-                );
             }
         }
         let saved = Saved::of(&instance);
@@ -325,29 +292,34 @@ fn fmi_wrong_unknowns_knowns_and_seeds_are_refused() {
 #[test]
 fn fmi_no_values_from_null_arrays_is_fine() {
     for kind in KINDS {
-        no_values_from_null_arrays(&Life::new(kind, Stage::Initialization).instance());
+        let instance = Life::new(kind, Stage::Initialization).instance();
+        let c = instance.component();
+        // SAFETY: a live instance; no element is read or written.
+        let statuses = unsafe {
+            [
+                exports::fmi2GetReal(c, null(), 0, null_mut()),
+                exports::fmi2GetInteger(c, null(), 0, null_mut()),
+                exports::fmi2GetBoolean(c, null(), 0, null_mut()),
+                exports::fmi2GetString(c, null(), 0, null_mut()),
+                exports::fmi2SetReal(c, null(), 0, null()),
+                exports::fmi2SetInteger(c, null(), 0, null()),
+                exports::fmi2SetBoolean(c, null(), 0, null()),
+                exports::fmi2SetString(c, null(), 0, null()),
+                exports::fmi2SetDebugLogging(c, FALSE, 0, null()),
+                exports::fmi2GetDirectionalDerivative(c, null(), 0, null(), 0, null(), null_mut()),
+            ]
+        };
+        assert_eq!(statuses, [Status::Ok; 10]);
+        assert_eq!(instance.journal.take(), []);
     }
 }
 
-fn no_values_from_null_arrays(instance: &Instance) {
-    let c = instance.component();
-    // SAFETY: a live instance; no element is read or written.
-    let statuses = unsafe {
-        [
-            exports::fmi2GetReal(c, null(), 0, null_mut()),
-            exports::fmi2GetInteger(c, null(), 0, null_mut()),
-            exports::fmi2GetBoolean(c, null(), 0, null_mut()),
-            exports::fmi2GetString(c, null(), 0, null_mut()),
-            exports::fmi2SetReal(c, null(), 0, null()),
-            exports::fmi2SetInteger(c, null(), 0, null()),
-            exports::fmi2SetBoolean(c, null(), 0, null()),
-            exports::fmi2SetString(c, null(), 0, null()),
-            exports::fmi2SetDebugLogging(c, FALSE, 0, null()),
-            exports::fmi2GetDirectionalDerivative(c, null(), 0, null(), 0, null(), null_mut()),
-        ]
-    };
-    assert_eq!(statuses, [Status::Ok; 10]);
-    assert_eq!(instance.journal.take(), []);
+/// The status of a call that writes one value, which it leaves as it was where it is refused.
+fn asked<T: Copy + PartialEq + Debug>(untouched: T, call: impl FnOnce(*mut T) -> Status) -> Status {
+    let mut value = untouched;
+    let status = call(&raw mut value);
+    assert!(status == Status::Ok || value == untouched, "{value:?}: nothing is written");
+    status
 }
 
 /// Tries one value reference through all eight functions that get and set; those that `right` names must succeed.
@@ -355,34 +327,14 @@ fn through_every_type(instance: &mut Instance, reference: ValueReference, right:
     type Attempt = (&'static str, unsafe fn(Component, ValueReference) -> Status);
     // SAFETY of the calls below: a live instance, arrays of one.
     let attempts: [Attempt; 8] = [
-        ("fmi2GetReal", |c, r| {
-            let mut value = [0.5];
-            // SAFETY: see above.
-            let status = unsafe { exports::fmi2GetReal(c, [r].as_ptr(), 1, value.as_mut_ptr()) };
-            assert!(status == Status::Ok || value == [0.5], "nothing is written");
-            status
-        }),
-        ("fmi2GetInteger", |c, r| {
-            let mut value = [77];
-            // SAFETY: see above.
-            let status = unsafe { exports::fmi2GetInteger(c, [r].as_ptr(), 1, value.as_mut_ptr()) };
-            assert!(status == Status::Ok || value == [77], "nothing is written");
-            status
-        }),
-        ("fmi2GetBoolean", |c, r| {
-            let mut value = [77];
-            // SAFETY: see above.
-            let status = unsafe { exports::fmi2GetBoolean(c, [r].as_ptr(), 1, value.as_mut_ptr()) };
-            assert_eq!(value, [77], "nothing is written");
-            status
-        }),
-        ("fmi2GetString", |c, r| {
-            let mut value = [null()];
-            // SAFETY: see above.
-            let status = unsafe { exports::fmi2GetString(c, [r].as_ptr(), 1, value.as_mut_ptr()) };
-            assert_eq!(value, [null()], "nothing is written");
-            status
-        }),
+        // SAFETY: see above.
+        ("fmi2GetReal", |c, r| asked(0.5, |value| unsafe { exports::fmi2GetReal(c, &raw const r, 1, value) })),
+        // SAFETY: see above.
+        ("fmi2GetInteger", |c, r| asked(77, |value| unsafe { exports::fmi2GetInteger(c, &raw const r, 1, value) })),
+        // SAFETY: see above.
+        ("fmi2GetBoolean", |c, r| asked(77, |value| unsafe { exports::fmi2GetBoolean(c, &raw const r, 1, value) })),
+        // SAFETY: see above.
+        ("fmi2GetString", |c, r| asked(null(), |value| unsafe { exports::fmi2GetString(c, &raw const r, 1, value) })),
         // SAFETY: see above.
         ("fmi2SetReal", |c, r| unsafe { exports::fmi2SetReal(c, [r].as_ptr(), 1, [6.0].as_ptr()) }),
         // SAFETY: see above.
@@ -487,25 +439,19 @@ fn fmi_status_kinds_without_an_answer_are_errors() {
         let (do_step, pending) = (status_kind::DO_STEP, status_kind::PENDING);
         let (time, terminated) = (status_kind::LAST_SUCCESSFUL_TIME, status_kind::TERMINATED);
         for kind in [pending, time, terminated, -1, 4, Choice::MAX] {
-            let mut value = Status::Pending;
-            // SAFETY: a live instance, and a place to write to.
-            let call = |c| unsafe { exports::fmi2GetStatus(c, kind, &raw mut value) };
+            // SAFETY: a live instance, and a place to write to; the same below.
+            let call = |c| asked(Status::Pending, |value| unsafe { exports::fmi2GetStatus(c, kind, value) });
             refused(&mut instance, call, &["fmi2GetStatus", &kind.to_string(), "fmi2DoStepStatus"]);
-            assert_eq!(value, Status::Pending, "nothing is written");
         }
         for kind in [do_step, pending, terminated, -1, 4, Choice::MIN] {
-            let mut value = 0.5;
-            // SAFETY: a live instance, and a place to write to.
-            let call = |c| unsafe { exports::fmi2GetRealStatus(c, kind, &raw mut value) };
+            // SAFETY: see above.
+            let call = |c| asked(0.5, |value| unsafe { exports::fmi2GetRealStatus(c, kind, value) });
             refused(&mut instance, call, &["fmi2GetRealStatus", &kind.to_string(), "fmi2LastSuccessfulTime"]);
-            assert_eq!(value, 0.5, "nothing is written");
         }
         for kind in [do_step, pending, time, -1, 4] {
-            let mut value = 77;
-            // SAFETY: a live instance, and a place to write to.
-            let call = |c| unsafe { exports::fmi2GetBooleanStatus(c, kind, &raw mut value) };
+            // SAFETY: see above.
+            let call = |c| asked(77, |value| unsafe { exports::fmi2GetBooleanStatus(c, kind, value) });
             refused(&mut instance, call, &["fmi2GetBooleanStatus", &kind.to_string(), "fmi2Terminated"]);
-            assert_eq!(value, 77, "nothing is written");
         }
     }
 }
@@ -568,23 +514,18 @@ fn fmi_impossible_parameters_are_named_at_exit_of_initialization_and_can_be_mend
         let life = Life::new(CO_SIMULATION, Stage::Initialization);
         assert_eq!(life.future(instance), life.future(life.instance()), "{name} = {value}");
     }
-    for method in [0, 6, -1, Integer::MAX, Integer::MIN] {
+    const WHOLE: [(&str, &[Integer], &str); 3] = [
+        ("solver.method", &[0, 6, -1, Integer::MAX, Integer::MIN], "2 (dopri5) or 3 (dop853)"),
+        ("solver.method_number", &[-1, 6, Integer::MAX, Integer::MIN], "0 or 1 or 2 or 3 or 4 or 5"),
+        ("solver.order", &[0, 1, 3, 5, 10, -2, Integer::MAX, Integer::MIN], "2 or 4 or 6 or 8"),
+    ];
+    for (name, number, words) in
+        WHOLE.iter().flat_map(|(name, these, words)| these.iter().map(move |n| (name, n, words)))
+    {
         let mut instance = Instance::quiet();
-        instance.set_method(method);
+        assert_eq!(instance.set_integer(reference(name), *number), Status::Ok);
         assert_eq!(instance.enter_initialization(), Status::Ok);
-        refused(&mut instance, exit, &["solver.method", &method.to_string(), "2 (dopri5)", "3 (dop853)"]);
-    }
-    for number in [-1, 6, Integer::MAX, Integer::MIN] {
-        let mut instance = Instance::quiet();
-        assert_eq!(instance.set_integer(reference("solver.method_number"), number), Status::Ok);
-        assert_eq!(instance.enter_initialization(), Status::Ok);
-        refused(&mut instance, exit, &["solver.method_number", &number.to_string(), "0 or 1 or 2 or 3 or 4 or 5"]);
-    }
-    for order in [0, 1, 3, 5, 10, -2, Integer::MAX, Integer::MIN] {
-        let mut instance = Instance::quiet();
-        assert_eq!(instance.set_integer(reference("solver.order"), order), Status::Ok);
-        assert_eq!(instance.enter_initialization(), Status::Ok);
-        refused(&mut instance, exit, &["solver.order", &order.to_string(), "2 or 4 or 6 or 8"]);
+        refused(&mut instance, exit, &[name, &number.to_string(), words]);
     }
 }
 
@@ -607,19 +548,13 @@ fn fmi_the_limits_themselves_are_possible() {
 fn regress_an_energy_that_overflows_at_the_start_names_the_parameters() {
     // SAFETY: a live instance.
     let exit = |c| unsafe { exports::fmi2ExitInitializationMode(c) };
-    let cases: [&[(&str, Real)]; 4] = [
-        &[("rotor.m", 1e308), ("start.v_c.x", 100.0)],
-        &[("start.omega.y", -1e200)],
-        &[("start.v_c.x", 1e155), ("start.v_c.z", 1e160)],
-        &[("rotor.Jt", 1e300), ("start.omega.z", 1e10)],
+    const CASES: [(&[(&str, Real)], &str); 4] = [
+        (&[("rotor.m", 1e308), ("start.v_c.x", 100.0)], "rotor.m = 1e308"),
+        (&[("start.omega.y", -1e200)], "start.omega.y = -1e200"),
+        (&[("start.v_c.x", 1e155), ("start.v_c.z", 1e160)], "start.v_c.z = 1e160 and start.v_c.x = 1e155"),
+        (&[("rotor.Jt", 1e300), ("start.omega.z", 1e10)], "rotor.Jt = 1e300"),
     ];
-    let names = [
-        "rotor.m = 1e308",
-        "start.omega.y = -1e200",
-        "start.v_c.z = 1e160 and start.v_c.x = 1e155",
-        "rotor.Jt = 1e300",
-    ];
-    for (values, name) in cases.into_iter().zip(names) {
+    for (values, name) in CASES {
         let mut instance = Instance::quiet();
         instance.set_all(values);
         assert_eq!(instance.enter_initialization(), Status::Ok);
