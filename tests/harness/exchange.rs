@@ -6,21 +6,6 @@ use split_rotor::exports::*;
 use split_rotor::scene::Simulation;
 
 impl Instance {
-    pub fn set_time(&mut self, time: Real) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2SetTime(self.component, time) }
-    }
-
-    pub fn enter_event_mode(&mut self) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2EnterEventMode(self.component) }
-    }
-
-    pub fn enter_continuous_time_mode(&mut self) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2EnterContinuousTimeMode(self.component) }
-    }
-
     /// fmi2NewDiscreteStates; whether the continuous states changed.
     pub fn new_discrete_states(&mut self) -> Result<bool, Status> {
         const UNTOUCHED: Boolean = 77;

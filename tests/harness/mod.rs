@@ -190,6 +190,29 @@ impl Drop for Instance {
     }
 }
 
+/// Methods that make a call with no more than numbers.
+macro_rules! plain {
+    ($($name:ident($($argument:ident: $kind:ty),*): $function:ident $(($($more:expr),*))?;)*) => {
+        impl Instance {$(
+            pub fn $name(&mut self $(, $argument: $kind)*) -> Status {
+                // SAFETY: a live instance.
+                unsafe { $function(self.component $(, $argument)* $($(, $more)*)?) }
+            }
+        )*}
+    };
+}
+
+plain! {
+    enter_initialization(): fmi2EnterInitializationMode;
+    exit_initialization(): fmi2ExitInitializationMode;
+    do_step(from: Real, step: Real): fmi2DoStep(TRUE);
+    terminate(): fmi2Terminate;
+    reset(): fmi2Reset;
+    set_time(time: Real): fmi2SetTime;
+    enter_event_mode(): fmi2EnterEventMode;
+    enter_continuous_time_mode(): fmi2EnterContinuousTimeMode;
+}
+
 /// A value as an instance gives it, in bits, or what it returned instead.
 pub type Readable = Result<u64, Status>;
 
@@ -234,31 +257,6 @@ impl Instance {
         let (tolerance, stop) = (tolerance.unwrap_or(Real::NAN), stop.unwrap_or(Real::NAN));
         // SAFETY: a live instance.
         unsafe { fmi2SetupExperiment(self.component, tolerance_defined, tolerance, start, stop_defined, stop) }
-    }
-
-    pub fn enter_initialization(&mut self) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2EnterInitializationMode(self.component) }
-    }
-
-    pub fn exit_initialization(&mut self) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2ExitInitializationMode(self.component) }
-    }
-
-    pub fn do_step(&mut self, from: Real, step: Real) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2DoStep(self.component, from, step, TRUE) }
-    }
-
-    pub fn terminate(&mut self) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2Terminate(self.component) }
-    }
-
-    pub fn reset(&mut self) -> Status {
-        // SAFETY: a live instance.
-        unsafe { fmi2Reset(self.component) }
     }
 
     pub fn debug_logging(&mut self, on: bool, categories: &[&CStr]) -> Status {
@@ -306,20 +304,22 @@ impl Instance {
         }
     }
 
+    /// What a call writes, from `start`, or the status with which it was refused.
+    fn asked<T>(&self, mut value: T, call: impl FnOnce(Component, *mut T) -> Status) -> Result<T, Status> {
+        let status = call(self.component, &raw mut value);
+        if status == Status::Ok { Ok(value) } else { Err(status) }
+    }
+
     /// fmi2GetInteger of one reference.
     pub fn get_integer(&mut self, reference: ValueReference) -> Result<Integer, Status> {
-        let mut value = Integer::MIN;
         // SAFETY: a live instance, and arrays of one.
-        let status = unsafe { fmi2GetInteger(self.component, &raw const reference, 1, &raw mut value) };
-        if status == Status::Ok { Ok(value) } else { Err(status) }
+        self.asked(Integer::MIN, |c, value| unsafe { fmi2GetInteger(c, &raw const reference, 1, value) })
     }
 
     /// fmi2GetBoolean of one reference.
     pub fn get_boolean(&mut self, reference: ValueReference) -> Result<Boolean, Status> {
-        let mut value = Boolean::MIN;
         // SAFETY: a live instance, and arrays of one.
-        let status = unsafe { fmi2GetBoolean(self.component, &raw const reference, 1, &raw mut value) };
-        if status == Status::Ok { Ok(value) } else { Err(status) }
+        self.asked(Boolean::MIN, |c, value| unsafe { fmi2GetBoolean(c, &raw const reference, 1, value) })
     }
 
     /// fmi2SetInteger of one reference.
@@ -335,25 +335,20 @@ impl Instance {
 
     /// What the last fmi2DoStep returned.
     pub fn step_status(&mut self) -> Result<Status, Status> {
-        let mut value = Status::Pending;
         // SAFETY: a live instance, and a place to write to.
-        let status = unsafe { fmi2GetStatus(self.component, status_kind::DO_STEP, &raw mut value) };
-        if status == Status::Ok { Ok(value) } else { Err(status) }
+        self.asked(Status::Pending, |c, value| unsafe { fmi2GetStatus(c, status_kind::DO_STEP, value) })
     }
 
     pub fn last_successful_time(&mut self) -> Result<Real, Status> {
-        let mut value = Real::NAN;
         // SAFETY: a live instance, and a place to write to.
-        let status = unsafe { fmi2GetRealStatus(self.component, status_kind::LAST_SUCCESSFUL_TIME, &raw mut value) };
-        if status == Status::Ok { Ok(value) } else { Err(status) }
+        self.asked(Real::NAN, |c, value| unsafe { fmi2GetRealStatus(c, status_kind::LAST_SUCCESSFUL_TIME, value) })
     }
 
     pub fn terminated(&mut self) -> Result<bool, Status> {
-        let mut value = -1;
         // SAFETY: a live instance, and a place to write to.
-        let status = unsafe { fmi2GetBooleanStatus(self.component, status_kind::TERMINATED, &raw mut value) };
-        assert!((0..=1).contains(&value) || status != Status::Ok, "fmi2True is 1 and fmi2False is 0");
-        if status == Status::Ok { Ok(value == TRUE) } else { Err(status) }
+        let value = self.asked(-1, |c, value| unsafe { fmi2GetBooleanStatus(c, status_kind::TERMINATED, value) })?;
+        assert!((0..=1).contains(&value), "fmi2True is 1 and fmi2False is 0");
+        Ok(value == TRUE)
     }
 
     /// Its FMU state as bytes: all that it remembers.
@@ -407,6 +402,17 @@ impl Instance {
     }
 }
 
+/// Checks that these are one record, of this status and of its category, in these words.
+#[track_caller]
+pub fn only<'r>(records: &'r [Record], status: Status, words: &[&str]) -> &'r Record {
+    let [record] = records else { panic!("{words:?}: one line, not {records:?}") };
+    assert_eq!((record.status, &*record.category), (status, &*format!("logStatus{status:?}")), "{record:?}");
+    for word in words {
+        assert!(record.message.contains(word), "{word:?} must be in {:?}", record.message);
+    }
+    record
+}
+
 /// Calls a function that must be refused with one log line that says so in these words, and must change nothing: neither
 /// what can be read, nor what the instance remembers.
 #[track_caller]
@@ -417,11 +423,7 @@ pub fn refused(instance: &mut Instance, call: impl FnOnce(Component) -> Status, 
     let status = call(instance.component());
     let records = instance.journal.take();
     assert_eq!(status, Status::Error, "{words:?}: {records:?}");
-    let [record] = &records[..] else { panic!("{words:?}: one line, not {records:?}") };
-    assert_eq!((record.status, record.category.as_str()), (Status::Error, "logStatusError"), "{record:?}");
-    for word in words {
-        assert!(record.message.contains(word), "{word:?} must be in {:?}", record.message);
-    }
+    only(&records, status, words);
     let bytes = instance.serialized();
     assert_eq!(before, (instance.snapshot(), bytes), "{words:?}");
 }
