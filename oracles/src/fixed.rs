@@ -75,6 +75,11 @@ impl Fixed {
         Self(self.0.abs())
     }
 
+    /// √self, cut at the last place.
+    pub fn sqrt(&self) -> Self {
+        Self((&self.0 << PLACES).sqrt())
+    }
+
     /// The greatest whole number not above it.
     pub fn floor(&self) -> i64 {
         // A shift to the right rounds down, for negative numbers too.

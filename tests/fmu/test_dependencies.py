@@ -1,7 +1,7 @@
 """What ModelStructure says that a variable depends on, against what the packaged FMU does near its start.
 
-All that changes is listed; that nothing else is, and at random motions, model/tests/all/dependencies.rs tests of the lists that the XML
-is written from.
+All that changes is listed; that nothing else is, and at random motions, model/tests/all/dependencies.rs and dependencies_of_draws.rs
+test of the lists that the XML is written from.
 """
 
 import numpy as np

@@ -1,4 +1,6 @@
-"""Scenes that cannot be: each message names the file, the line, the key, the value and what would be right."""
+"""Scenes that cannot be: each message names the file, the line, the key, the value and what would be right.
+
+Those of several effects of a kind: model/tests/all/scenes.rs."""
 
 import project
 import pytest
@@ -98,18 +100,6 @@ CASES = {
         'title = "Rotor in a block of springs (Sorokin and Zhang 2018)"', 'title = "Rotor',
         ', line 3: is not TOML: invalid basic string, expected `"`',
     ),
-    "several where there is one": (
-        "[effects.support]", "[[effects.support]]",
-        ", line 18: there is only one support: write [effects.support]",
-    ),
-    "one where there may be several": (
-        "[effects.gravity]", "[effects.bearing]\nposition = 0.0\n\n[effects.gravity]",
-        ", line 15: there may be several of bearing: write [[effects.bearing]], once for each, up to 4",
-    ),
-    "too many": (
-        "[effects.gravity]", "[[effects.probe]]\nposition = 0.0\n" * 5 + "[effects.gravity]",
-        ", line 15: [[effects.probe]] stands 5 times: there may be up to 4",
-    ),
     "too many in a general scene": (
         "[rotor]", "general = true\n" + 5 * "[[effects.probe]]\n" + "[rotor]",
         ", line 6: [[effects.probe]] stands 5 times: there may be up to 4",
@@ -117,22 +107,9 @@ CASES = {
     "number for a truth": (
         "[rotor]", "general = 1\n[rotor]", ", line 5: general = 1 is not possible: it must be true or false",
     ),
-    "missing place": (
-        "[effects.gravity]", "[[effects.port]]\n[effects.gravity]",
-        ": `port[1].position` is missing: give the place along t from c in m as `position = ...` under [[effects.port]]",
-    ),
-    "unknown key in one of several": (
-        "[effects.gravity]", "[[effects.port]]\nposition = 0.0\n[[effects.port]]\nplace = 0.0\n[effects.gravity]",
-        ", line 18: unknown key `effects.port[2].place`: [[effects.port]] knows position, f, m",
-    ),
     "unknown component of an input": (
         "[effects.gravity]", "[[effects.port]]\nposition = 0.0\nf = { a = 1.0 }\n[effects.gravity]",
         ", line 17: unknown key `effects.port[1].f.a`: [effects.port.f] knows x, y, z",
-    ),
-    "damping that drives": (
-        "[effects.gravity]", "[[effects.bearing]]\nposition = 0.0\ncyz = 1.0\n[effects.gravity]",
-        ", line 17: bearing[1].cyz = 1.0 is not possible: it must be such that (cyz + czy)/2 is at most "
-        "sqrt(cyy czz) = 0.0 in size, or the bearing would drive what it damps",
     ),
     "same key twice": ("m = 5.0", "m = 5.0\nm = 6.0", ", line 7: is not TOML: duplicate key `m`"),
 }

@@ -4,12 +4,12 @@ mod advice;
 mod auto;
 mod files;
 mod machine;
-mod motion;
+pub mod motion;
 mod peers;
 mod reference;
 mod repeats;
 mod row;
-mod run;
+pub mod run;
 mod span;
 mod sweep;
 mod table;
@@ -90,13 +90,13 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
 }
 
 /// A bar where a person watches.
-fn bar(length: usize) -> ProgressBar {
+pub fn bar(length: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
     ProgressBar::new(length as u64).with_style(style)
 }
 
 /// Says what is measured now: on the bar, or as a line where there is none.
-fn tell(progress: &ProgressBar, what: &str) {
+pub fn tell(progress: &ProgressBar, what: &str) {
     progress.set_message(what.to_owned());
     if progress.is_hidden() {
         println!("measuring {what}");

@@ -45,21 +45,42 @@ struct Callbacks {
     environment: *mut c_void,
 }
 
-/// The functions of an FMU that xtask calls; they stay valid as long as the library is loaded.
-pub struct Fmu {
-    guid: CString,
-    instantiate: unsafe extern "C" fn(Text, c_int, Text, Text, *const Callbacks, c_int, c_int) -> Component,
-    free_instance: unsafe extern "C" fn(Component),
-    setup_experiment: unsafe extern "C" fn(Component, c_int, c_double, c_double, c_int, c_double) -> Status,
-    enter_initialization: unsafe extern "C" fn(Component) -> Status,
-    exit_initialization: unsafe extern "C" fn(Component) -> Status,
-    set_real: unsafe extern "C" fn(Component, *const Reference, usize, *const c_double) -> Status,
-    set_integer: unsafe extern "C" fn(Component, *const Reference, usize, *const c_int) -> Status,
-    set_boolean: unsafe extern "C" fn(Component, *const Reference, usize, *const c_int) -> Status,
-    get_real: unsafe extern "C" fn(Component, *const Reference, usize, *mut c_double) -> Status,
-    do_step: unsafe extern "C" fn(Component, c_double, c_double, c_int) -> Status,
-    get_real_status: unsafe extern "C" fn(Component, c_int, *mut c_double) -> Status,
-    _library: Library,
+/// A struct of the functions of an FMU that xtask calls, by the names of the standard, and what loads it.
+macro_rules! functions {
+    ($($name:ident: $symbol:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
+        /// The functions of an FMU that xtask calls; they stay valid as long as the library is loaded.
+        pub struct Fmu {
+            guid: CString,
+            $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
+            _library: Library,
+        }
+
+        impl Fmu {
+            fn of(library: Library, guid: CString) -> Result<Self> {
+                let lacks = "the library lacks a function of FMI 2.0";
+                Ok(Self {
+                    guid,
+                    // SAFETY: the standard gives the function under this name the type of the field that it goes to.
+                    $($name: *unsafe { library.get($symbol) }.context(lacks)?,)*
+                    _library: library,
+                })
+            }
+        }
+    };
+}
+
+functions! {
+    instantiate: "fmi2Instantiate" (Text, c_int, Text, Text, *const Callbacks, c_int, c_int) -> Component;
+    free_instance: "fmi2FreeInstance" (Component);
+    setup_experiment: "fmi2SetupExperiment" (Component, c_int, c_double, c_double, c_int, c_double) -> Status;
+    enter_initialization: "fmi2EnterInitializationMode" (Component) -> Status;
+    exit_initialization: "fmi2ExitInitializationMode" (Component) -> Status;
+    set_real: "fmi2SetReal" (Component, *const Reference, usize, *const c_double) -> Status;
+    set_integer: "fmi2SetInteger" (Component, *const Reference, usize, *const c_int) -> Status;
+    set_boolean: "fmi2SetBoolean" (Component, *const Reference, usize, *const c_int) -> Status;
+    get_real: "fmi2GetReal" (Component, *const Reference, usize, *mut c_double) -> Status;
+    do_step: "fmi2DoStep" (Component, c_double, c_double, c_int) -> Status;
+    get_real_status: "fmi2GetRealStatus" (Component, c_int, *mut c_double) -> Status;
 }
 
 impl Fmu {
@@ -67,27 +88,7 @@ impl Fmu {
     pub fn load(library: &Path, guid: &str) -> Result<Self> {
         // SAFETY: the library of an FMU of ours does nothing when it is loaded or unloaded.
         let library = unsafe { Library::new(library) }.with_context(|| format!("cannot load {}", library.display()))?;
-        macro_rules! function {
-            ($name:literal) => {
-                // SAFETY: the standard gives the function under this name the type of the field that it goes to.
-                *unsafe { library.get($name) }.context("the library lacks a function of FMI 2.0")?
-            };
-        }
-        Ok(Self {
-            guid: CString::new(guid)?,
-            instantiate: function!("fmi2Instantiate"),
-            free_instance: function!("fmi2FreeInstance"),
-            setup_experiment: function!("fmi2SetupExperiment"),
-            enter_initialization: function!("fmi2EnterInitializationMode"),
-            exit_initialization: function!("fmi2ExitInitializationMode"),
-            set_real: function!("fmi2SetReal"),
-            set_integer: function!("fmi2SetInteger"),
-            set_boolean: function!("fmi2SetBoolean"),
-            get_real: function!("fmi2GetReal"),
-            do_step: function!("fmi2DoStep"),
-            get_real_status: function!("fmi2GetRealStatus"),
-            _library: library,
-        })
+        Self::of(library, CString::new(guid)?)
     }
 
     /// A new instance for co-simulation.

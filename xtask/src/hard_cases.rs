@@ -22,11 +22,10 @@ mod top;
 mod whirl;
 mod whirling;
 
-use crate::package;
+use crate::{accuracy, package};
 use anyhow::{Result, bail, ensure};
 use bench::{Bench, Stages};
 use case::Case;
-use indicatif::{ProgressBar, ProgressStyle};
 use row::{Outcome, Row};
 use std::time::Instant;
 
@@ -95,14 +94,10 @@ fn gallery(whole: bool) -> Vec<Case> {
 }
 
 fn measure(stages: &Stages, cases: &[Case], mutants: bool) -> Result<Vec<Row>> {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
-    let progress = ProgressBar::new(cases.len() as u64).with_style(style);
+    let progress = accuracy::bar(cases.len());
     let mut rows = Vec::new();
     for case in cases {
-        progress.set_message(case.name.clone());
-        if progress.is_hidden() {
-            println!("{}", case.name);
-        }
+        accuracy::tell(&progress, &case.name);
         for (method, bound) in &case.methods {
             let stage = stages.of(case.scene)?;
             let (bench, began) = (Bench::new(stage, method, None), Instant::now());

@@ -1,9 +1,30 @@
-//! Rows of named values as comma-separated ones.
+//! Rows of named values, as comma-separated ones and as JSON, and what a command leaves behind in target/.
 
-use serde_json::{Value, json};
+use crate::paths;
+use anyhow::{Context, Result};
+use serde_json::{Map, Value, json};
+use std::path::PathBuf;
+
+/// A row: columns' names and values.
+pub type Row = Vec<(&'static str, Value)>;
+
+/// Writes these files, names and texts, into a folder of target/, which is made where it is not there.
+pub fn write(folder: &str, files: [(&str, &str); 3]) -> Result<PathBuf> {
+    let folder = paths::target().join(folder);
+    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    for (name, text) in files {
+        std::fs::write(folder.join(name), text)?;
+    }
+    Ok(folder)
+}
+
+/// Rows as objects of JSON.
+pub fn objects(rows: impl IntoIterator<Item = Row>) -> Vec<Map<String, Value>> {
+    rows.into_iter().map(|row| row.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()).collect()
+}
 
 /// Rows of columns' names and values, with a header.
-pub fn csv(rows: &[Vec<(&'static str, Value)>]) -> String {
+pub fn csv(rows: &[Row]) -> String {
     let header = rows.first().into_iter().map(|row| line(row.iter().map(|(name, _)| json!(name))));
     header.chain(rows.iter().map(|row| line(row.iter().map(|(_, value)| value.clone())))).collect()
 }

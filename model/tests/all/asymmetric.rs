@@ -110,8 +110,7 @@ fn balanced() -> Case {
 fn exact_equal_moments_are_a_symmetric_rotor() {
     let case = balanced();
     let even = case.text(EXACTLY).replace("[effects.asymmetry]\nJt2 = 0.078125\n", "");
-    let mut even = Named::written(&even);
-    even.start();
+    let mut even = Named::started(&even);
     same("Jt2 = Jt", &at(&mut case.started(EXACTLY), 1.0), &at(&mut even, 1.0));
 }
 

@@ -51,8 +51,7 @@ fn whirl(spin: f64, effects: &str, z: Complex<f64>, rate: Complex<f64>, t: f64) 
         z.re, z.im, v.re, v.im
     );
     let solver = format!("{SOLVER}absolute_tolerance = 1e-18\n");
-    let mut named = Named::written(&[ROTOR, &start, effects, &solver].concat());
-    named.start();
+    let mut named = Named::started(&[ROTOR, &start, effects, &solver].concat());
     named.simulation.advance(t).expect("a possible motion");
     (Complex::new(named.get("r_c.y"), named.get("r_c.z")), named.get("energy.residual"))
 }
@@ -143,8 +142,7 @@ fn exact_drag_slows_an_upright_rotor() {
         let text = format!(
             "{ROTOR}[start]\nomega = {{ x = {spin:?} }}\n[effects.drag]\nlinear = {linear:?}\nquadratic = {quadratic:?}\n{SOLVER}"
         );
-        let mut named = Named::written(&text);
-        named.start();
+        let mut named = Named::started(&text);
         for i in 1..=10 {
             let t = f64::from(i);
             named.simulation.advance(t).expect("a possible motion");
@@ -172,8 +170,7 @@ fn exact_drag_brakes_the_spin_and_not_the_coning() {
         "{ROTOR}[start]\ngamma = {{ y = 0.5, z = -0.2 }}\nomega = {{ x = 30.0, y = 8.0, z = -5.0 }}\n\
          [effects.drag]\nlinear = {linear:?}\n{SOLVER}"
     );
-    let mut named = Named::written(&text);
-    named.start();
+    let mut named = Named::started(&text);
     let parts = |named: &mut Named| {
         let (k, axis) = (named.vector("K_c"), named.vector("axis"));
         let along = k.dot(&axis);
@@ -207,8 +204,7 @@ fn exact_drag_has_no_limit_at_the_antipode() {
          [effects.drag]\nlinear = 0.5\nquadratic = 0.1\n{SOLVER}",
         omega.x, omega.y, omega.z
     );
-    let mut named = Named::written(&text);
-    named.start();
+    let mut named = Named::started(&text);
     let mut nearest = 1.0;
     for i in 1..=100 {
         let t = 0.01 * f64::from(i);
@@ -233,8 +229,7 @@ fn exact_rotating_damping_leaves_the_stator_alone() {
         "{ROTOR}[start]\nr_c = {{ y = 0.1, z = -0.05 }}\ngamma = {{ y = 2.5, z = 0.05 }}\n\
          omega = {{ x = 0.3, y = 3.0, z = 0.2 }}\n[effects.rotating_damping]\nd = 2.0\nposition = 0.3\n{SOLVER}"
     );
-    let mut named = Named::written(&text);
-    named.start();
+    let mut named = Named::started(&text);
     let about_line = |named: &mut Named| {
         let [r, v, k] = ["r_c", "v_c", "K_c"].map(|name| named.vector(name));
         5.0 * (r.y * v.z - r.z * v.y) + k.x

@@ -162,7 +162,7 @@ fn exact_dependencies_later_are_those_of_dual_numbers() {
                 }
                 named.start();
                 let state: [f64; Any::STATES] = std::array::from_fn(|_| random.within(-1.5, 1.5));
-                named.simulation.exchange().expect("for a host").set_state(&state);
+                named.host().set_state(&state);
                 let is_state = |v: &&Variable| named.simulation.is_state(v.place);
                 let states: Vec<_> = named.scene.variables.iter().filter(is_state).collect();
                 let knowns: Vec<Variable> = states.into_iter().cloned().chain(inputs(&named)).collect();

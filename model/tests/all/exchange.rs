@@ -36,16 +36,14 @@ struct Host {
 impl Host {
     fn start(name: &str, starts: &[(&str, f64)], inputs: &[f64]) -> Self {
         let mut named = begin(name, starts, inputs, Integrator::Host);
-        named.simulation.exchange().expect("for a host").settle();
+        named.host().settle();
         Self { named: RefCell::new(named), t: 0.0, events: 0 }
     }
 
     fn advance(&mut self, h: f64) {
         let rates = |t: f64, y: &[f64; Any::STATES]| {
             let mut named = self.named.borrow_mut();
-            let mut exchange = named.simulation.exchange().expect("for a host");
-            exchange.set_time(t);
-            exchange.set_state(y);
+            named.go_to(t, y);
             named.simulation.admits().expect("a possible state");
             named.simulation.rates().expect("possible parameters")
         };
@@ -53,15 +51,13 @@ impl Host {
         let state = step(rates, self.t, &state, h);
         self.t += h;
         let named = self.named.get_mut();
-        let mut exchange = named.simulation.exchange().expect("for a host");
-        exchange.set_time(self.t);
-        exchange.set_state(&state);
+        named.go_to(self.t, &state);
         let phi = named.get("phi");
-        let mut exchange = named.simulation.exchange().expect("for a host");
+        let mut exchange = named.host();
         let wants_event = exchange.complete_step();
         assert_eq!(named.get("phi"), phi, "to complete a step changes nothing that is shown");
         if wants_event {
-            let mut exchange = named.simulation.exchange().expect("for a host");
+            let mut exchange = named.host();
             assert!(exchange.settle().chart, "an event that was asked for changes the chart");
             assert!(!exchange.settle().any(), "once");
             self.events += 1;

@@ -129,10 +129,9 @@ fn what_is_remembered_goes_with_the_state() {
 #[test]
 fn order_zero_is_to_hold() {
     let run = |text: &str| {
-        let mut named = Named::written(&format!(
+        let mut named = Named::started(&format!(
             "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.drive]\n{text}"
         ));
-        named.start();
         let tau = named.place("drive.tau");
         for k in 0..POINTS.len() - 1 {
             named.simulation.set_input(tau, torque(2, POINTS[k])[0]);

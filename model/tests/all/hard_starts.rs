@@ -1,10 +1,9 @@
 //! Starts and steps at the edge of what can be done: tiny communication steps, late times, a rotor at rest, a start at the
-//! singular point, absurd forces, impossible parameters.
+//! singular point, absurd forces. Impossible parameters: tests/arguments.rs.
 
 use crate::harness::named::Named;
 use crate::harness::{Method, Scene, Supported, at, largest, times, within};
 use nalgebra::{Vector2, Vector3};
-use split_rotor_model::body::Body;
 use split_rotor_model::integrate::{Fault, Refusal};
 use split_rotor_model::variables::Reading;
 
@@ -26,26 +25,6 @@ fn assert_finite(reading: &Reading) {
 }
 
 // ------------------------------------------------------------------------------------------ communication steps
-
-#[test]
-fn communication_step_changes_nothing() {
-    // The solver steps on its own account: where a communication point falls changes no bit of what it answers.
-    for method in Method::PAIRS {
-        for damping in [0.0, 2.0] {
-            let scene = Scene { method, d1: damping, ..Scene::paper() };
-            let direct = scene.run::<Supported>([10.0])[0];
-            for step in [1e-2, 0.1, 1.0, 2.5] {
-                let mut simulation = scene.started::<Supported>();
-                let parts = (10.0 / step) as u32;
-                let readings: Vec<_> = times(10.0, parts).map(|t| at(&mut simulation, t)).collect();
-                let reached = &readings[parts as usize];
-                assert_eq!(reached.motion.at, direct.motion.at, "{method:?}, steps of {step} s");
-                assert_eq!((reached.motion.angle(), reached.ledger), (direct.motion.angle(), direct.ledger));
-                assert_eq!(reached.cost.steps, direct.cost.steps);
-            }
-        }
-    }
-}
 
 #[test]
 fn tiny_communication_steps() {
@@ -114,18 +93,6 @@ fn regress_start_beyond_the_limit() {
 // ------------------------------------------------------------------------------------------------- absurd forces
 
 #[test]
-fn regress_a_start_whose_energy_overflows_is_invalid() {
-    let aside = Scene { r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
-    for (scene, name) in [
-        (Scene { omega: Vector3::new(1e200, 1e200, 0.0), ..aside.clone() }, "start.omega.x"),
-        (Scene { g: Vector3::new(0.0, -f64::MAX, 0.0), ..aside.clone() }, "gravity.g.y"),
-    ] {
-        let invalid = scene.simulation::<Supported>().start(0.0, None).expect_err("impossible");
-        assert!(invalid.variable.starts_with(name), "{}", invalid.variable);
-    }
-}
-
-#[test]
 fn regress_forces_that_would_take_for_ever_are_faults() {
     let stretched = Scene { r_c: Vector3::new(1.0, 0.5, 0.0), ..Scene::paper() };
     let mut scenes = [1e20, 1e80, 1e140, 1e160, 1e300, f64::MAX].map(|c1| Scene { c1, ..stretched.clone() }).to_vec();
@@ -133,41 +100,6 @@ fn regress_forces_that_would_take_for_ever_are_faults() {
     for scene in scenes {
         let fault = scene.started::<Supported>().advance(1000.0).expect_err("more than 10¹² steps");
         assert!(matches!(fault, Fault::Spent { .. } | Fault::Underflow { .. } | Fault::NotFinite { .. }), "{fault:?}");
-    }
-}
-
-// ---------------------------------------------------------------------------------------- impossible parameters
-
-#[test]
-fn regress_impossible_parameters_are_named() {
-    let paper = Scene::paper();
-    let body = paper.body;
-    let with = |body: Body| Scene { body, ..paper.clone() };
-    let cases = [
-        ("rotor.m", with(Body { m: 0.0, ..body })),
-        ("rotor.m", with(Body { m: -1.0, ..body })),
-        ("rotor.m", with(Body { m: f64::NAN, ..body })),
-        ("rotor.Ja", with(Body { Ja: 0.0, ..body })),
-        ("rotor.Ja", with(Body { Ja: 2.001 * body.Jt, ..body })),
-        ("rotor.Jt", with(Body { Jt: f64::INFINITY, ..body })),
-        ("rotor.l", with(Body { l: f64::NAN, ..body })),
-        ("start.r_c.z", Scene { r_c: Vector3::new(0.0, 0.0, f64::INFINITY), ..paper.clone() }),
-        ("start.omega.x", Scene { omega: Vector3::new(f64::NAN, 0.0, 0.0), ..paper.clone() }),
-        ("|start.gamma|", Scene { gamma: Vector2::new(2.5, 2.5), ..paper.clone() }),
-        ("gravity.g.y", Scene { g: Vector3::new(0.0, f64::NAN, 0.0), ..paper.clone() }),
-        ("support.c1", Scene { c1: -1.0, ..paper.clone() }),
-        ("support.d2", Scene { d2: f64::NEG_INFINITY, ..paper.clone() }),
-        ("solver.relative_tolerance", Scene { tolerance: 0.0, ..paper.clone() }),
-        ("solver.relative_tolerance", Scene { tolerance: 1e-15, ..paper.clone() }),
-        ("solver.relative_tolerance", Scene { tolerance: f64::NAN, ..paper.clone() }),
-        ("solver.relative_tolerance", Scene { tolerance: 1.0, ..paper.clone() }),
-    ];
-    for (variable, scene) in cases {
-        let mut simulation = scene.simulation::<Supported>();
-        let invalid = simulation.start(0.0, None).expect_err(variable);
-        assert_eq!(invalid.variable, variable);
-        assert!(invalid.to_string().contains(variable) && invalid.to_string().contains("must be"), "{invalid}");
-        assert!(simulation.read().is_err(), "nothing to read either");
     }
 }
 
@@ -192,8 +124,7 @@ fn a_law_without_a_limit_is_named() {
             if (effect.contains("imposed"), method) == (true, "symplectic") {
                 continue;
             }
-            let mut rotor = Named::written(&format!("{rotor}{effect}[solver]\nmethod = \"{method}\"\n"));
-            rotor.start();
+            let mut rotor = Named::started(&format!("{rotor}{effect}[solver]\nmethod = \"{method}\"\n"));
             let fault = rotor.simulation.advance(1.0).expect_err("it goes past the antipode");
             let reason = format!("the tilt |gamma| reaches 3.1 rad, and {what} has no limit at pi");
             assert!(

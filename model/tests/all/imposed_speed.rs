@@ -45,8 +45,7 @@ fn exact_response_to_unbalance_below_at_and_above_the_critical_speed() {
 /// A held rotor with masses on it that is run up by an imposed speed.
 fn driven(w: f64, a: f64, solver: &str) -> (Case, Moving, Named) {
     let case = Case { omega: Vector3::new(3.0, 0.5, -0.4), ..Case::held() };
-    let mut named = Named::written(&format!("{}[effects.imposed_speed]\nw = {w:?}\na = {a:?}\n", case.text(solver)));
-    named.start();
+    let named = Named::started(&format!("{}[effects.imposed_speed]\nw = {w:?}\na = {a:?}\n", case.text(solver)));
     // It is struck along n at the start, as by every jump.
     let start = case.body.jumped(&case.start(), w);
     (case, start, named)
@@ -183,11 +182,9 @@ fn exact_run_up_by_a_host_that_sets_both_inputs_at_every_time() {
     named.start();
     case.body.imposed = Some(rate);
     let exact = case.body.run(0.0, &case.body.jumped(&case.start(), 30.0), 1.0, 800);
-    named.simulation.exchange().expect("for a host").leave_event();
-    let tell = |named: &mut Named, t: f64, state: &[f64]| {
-        let mut exchange = named.simulation.exchange().expect("for a host");
-        exchange.set_time(t);
-        exchange.set_state(state);
+    named.host().leave_event();
+    let tell = |named: &mut Named, t: f64, state: &[f64; split_rotor_model::simulation::Any::STATES]| {
+        named.go_to(t, state);
         named.set("imposed_speed.w", 30.0 + t * (20.0 + t * (-15.0 + t * 40.0 / 3.0)));
         named.set("imposed_speed.a", rate(t));
     };
@@ -286,8 +283,7 @@ const HELD: f64 = 1e-13;
 #[test]
 fn exact_speed_is_kept_to_rounding() {
     let case = Case { gamma: Vector2::new(0.4, -0.2), ..Case::held() };
-    let mut named = Named::written(&format!("{}[effects.imposed_speed]\nw = 50.0\n", case.text(EXACTLY)));
-    named.start();
+    let mut named = Named::started(&format!("{}[effects.imposed_speed]\nw = 50.0\n", case.text(EXACTLY)));
     let reading = at(&mut named, 2.0 * PI);
     within("speed", (reading.motion.axial_rate() / 50.0 - 1.0).abs(), HELD);
     within("angle", (reading.motion.phi() - case.phi - 100.0 * PI).abs() / (100.0 * PI), HELD);
@@ -302,11 +298,11 @@ fn exact_jump_at_an_event_is_supplied() {
     named.start();
     for w in [25.0, -3.0] {
         let (before, supplied) = (named.get("energy.kinetic"), named.get("energy.supplied"));
-        named.simulation.exchange().expect("for a host").enter_event();
+        named.host().enter_event();
         named.set("imposed_speed.w", w);
-        let settled = named.simulation.exchange().expect("for a host").settle();
+        let settled = named.host().settle();
         assert!(settled.work && !settled.chart, "{settled:?}");
-        let mut exchange = named.simulation.exchange().expect("for a host");
+        let mut exchange = named.host();
         assert!(!exchange.settle().any(), "once");
         exchange.leave_event();
         let jump = named.get("energy.kinetic") - before;
@@ -316,9 +312,20 @@ fn exact_jump_at_an_event_is_supplied() {
     }
 }
 
-/// A tilted free rotor.
-const TILTED: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[start]\n\
-                      gamma = { y = 0.7, z = -0.3 }\nomega = { x = 3.0, y = 0.5, z = -0.4 }\n";
+const IMPOSED: &str = "[effects.imposed_speed]\n";
+
+/// A rotor with this start and these effects, not yet started.
+fn free(start: &str, effects: &str) -> Named {
+    let rotor = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n";
+    Named::written(&format!("{rotor}[start]\n{start}\n{effects}\n[solver]\n{EXACTLY}\n"))
+}
+
+/// A tilted one that was started.
+fn tilted(effects: &str) -> Named {
+    let mut named = free("gamma = { y = 0.7, z = -0.3 }\nomega = { x = 3.0, y = 0.5, z = -0.4 }", effects);
+    named.start();
+    named
+}
 
 /// What is imposed at the start and what is set there later are blows along n: their order does not matter [1]. The blow itself:
 /// measured 2.9e-17; the motion after 0.3 s: measured 1.0e-13.
@@ -327,9 +334,7 @@ const STRUCK: [f64; 2] = [1e-15, 5e-13];
 #[test]
 fn exact_the_start_is_struck_along_n() {
     let motions = [[20.0, 20.0], [0.0, 20.0], [-7.0, 20.0]].map(|[first, then]| {
-        let text = format!("{TILTED}[effects.imposed_speed]\nw = {first:?}\n[solver]\n{EXACTLY}\n");
-        let mut named = Named::written(&text);
-        named.start();
+        let mut named = tilted(&format!("{IMPOSED}w = {first:?}\n"));
         named.set("imposed_speed.w", then);
         let reading = at(&mut named, 0.3);
         (reading.motion.momentum(), *reading.motion.axis())
@@ -339,8 +344,7 @@ fn exact_the_start_is_struck_along_n() {
         within("axis", (axis - motions[0].1).norm(), STRUCK[1]);
     }
     let [free, struck] = ["", "[effects.imposed_speed]\nw = 20.0\n"].map(|effect| {
-        let mut named = Named::written(&format!("{TILTED}{effect}[solver]\n{EXACTLY}\n"));
-        named.start();
+        let mut named = tilted(effect);
         *named.simulation.read().expect("possible parameters")
     });
     let (blow, n) = (struck.motion.momentum() - free.motion.momentum(), struck.motion.tilt.joint_axis());
@@ -350,8 +354,7 @@ fn exact_the_start_is_struck_along_n() {
 
 /// What a host sets at each whole second, and the speed a second later.
 fn ramp(steps: &[(Option<f64>, Option<f64>, f64)]) {
-    let mut named = Named::written(&format!("{TILTED}[effects.imposed_speed]\nw = 20.0\n[solver]\n{EXACTLY}\n"));
-    named.start();
+    let mut named = tilted(&format!("{IMPOSED}w = 20.0\n"));
     for (n, (w, a, expected)) in steps.iter().enumerate() {
         for (name, value) in [("imposed_speed.w", w), ("imposed_speed.a", a)] {
             if let Some(value) = value {
@@ -383,9 +386,7 @@ fn exact_a_sampled_speed_is_followed_point_by_point() {
 
 #[test]
 fn exact_derivatives_of_the_speed_bend_it_from_where_it_is() {
-    let mut named =
-        Named::written(&format!("{TILTED}[effects.imposed_speed]\nw = 20.0\na = 10.0\n[solver]\n{EXACTLY}\n"));
-    named.start();
+    let mut named = tilted(&format!("{IMPOSED}w = 20.0\na = 10.0\n"));
     named.simulation.advance(0.1).expect("a possible motion");
     let place = named.place("imposed_speed.w");
     named.simulation.set_input_derivative(place, 1, -5.0);
@@ -414,10 +415,7 @@ fn partner(
     [own, rotor]: [f64; 2],
     steps: u32,
 ) -> Vec<[f64; 2]> {
-    let mut named = Named::written(&format!(
-        "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[start]\nomega = {{ x = {rotor:?} }}\n{effects}\n\
-         [solver]\n{EXACTLY}\n"
-    ));
+    let mut named = free(&format!("omega = {{ x = {rotor:?} }}"), effects);
     named.set("imposed_speed.w", rotor);
     named.start();
     assert_eq!(named.get("imposed_speed.tau_mean"), 0.0, "before the first step");
@@ -496,10 +494,8 @@ const MEAN: f64 = 5e-15;
 #[test]
 fn exact_the_mean_torque_is_that_of_the_step() {
     // Nothing jumps: a ramp against drag at an upright axis, τ = Ja a + c ω_φ.
-    let mut named = Named::written(&format!(
-        "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[start]\nomega = {{ x = 20.0 }}\n\
-         [effects.drag]\nlinear = 0.05\n[effects.imposed_speed]\nw = 20.0\na = 10.0\n[solver]\n{EXACTLY}\n"
-    ));
+    let effects = "[effects.drag]\nlinear = 0.05\n[effects.imposed_speed]\nw = 20.0\na = 10.0";
+    let mut named = free("omega = { x = 20.0 }", effects);
     named.start();
     for (from, to) in [(0.0, 0.1), (0.1, 0.25), (0.25, 1.0)] {
         named.simulation.advance(to).expect("a possible motion");

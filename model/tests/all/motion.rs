@@ -1,6 +1,7 @@
-//! Whole runs against motions in closed form (`oracles/src/motion.rs`); the gallery (`cargo xtask hard-cases`) has more of them.
+//! Whole runs against motions in closed form (`oracles/src/motion.rs`); the gallery (`cargo xtask hard-cases`) has more of them, steady whirl
+//! at any tilt among them.
 
-use crate::harness::{Scene, Supported, at, largest, times, within};
+use crate::harness::{Scene, Supported, largest, times, within};
 use nalgebra::{SMatrix, Vector2, Vector3};
 use oracles::motion::{Oscillator, Whirl, small_whirl};
 use oracles::numerics::root;
@@ -10,68 +11,6 @@ use split_rotor_model::dual::Dual;
 use split_rotor_model::state::COORDINATES;
 use split_rotor_model::variables::Reading;
 use std::f64::consts::TAU;
-
-// ------------------------------------------------------------------------------------------------- steady whirl
-
-fn scene_of(whirl: &Whirl) -> Scene {
-    Scene {
-        body: Body { m: whirl.m, Ja: whirl.Ja, Jt: whirl.Jt, l: whirl.l },
-        r_c: whirl.r_c(0.0),
-        v_c: whirl.v_c(0.0),
-        gamma: whirl.gamma(0.0),
-        omega: whirl.omega(0.0),
-        g: Vector3::new(-whirl.g, 0.0, 0.0),
-        c1: whirl.c1,
-        c2: whirl.c2,
-        tolerance: 1e-12,
-        ..Scene::paper()
-    }
-}
-
-/// Errors of r_c [m], of the axis [1] and of φ [rad].
-fn whirl_errors(whirl: &Whirl, t: f64, reading: &Reading) -> [f64; 3] {
-    let motion = &reading.motion;
-    [
-        (motion.at.r - whirl.r_c(t)).norm(),
-        (motion.axis() - rotation::axis(&whirl.gamma(t))).norm(),
-        (reading.motion.phi() - whirl.phi(t)).abs(),
-    ]
-}
-
-/// Tilt [rad]; errors of r_c [m], axis [1] and φ [rad] over 100 whirl periods at the tightest tolerance, 1e-14: a third of
-/// what is allowed, at most 3.3e-10. At the middle tilts the error grows with the square of the time, and at 1e-12 is
-/// 3.5e-8 at worst. From 2 rad on the motion is in the chart from −e.
-const WHIRLS: [(f64, [f64; 3]); 9] = [
-    (0.1, [3e-14, 1e-13, 2e-13]),
-    (0.5, [1.3e-13, 4e-12, 5.5e-12]),
-    (1.0, [1.7e-12, 5.5e-11, 4.5e-11]),
-    (1.25, [1.1e-11, 3.5e-10, 2.6e-10]),
-    (1.5, [2.3e-11, 7.5e-10, 5.5e-10]),
-    (1.75, [1.1e-12, 3.5e-11, 2.5e-11]),
-    (2.0, [1.9e-12, 6e-11, 8e-11]),
-    (2.5, [7e-13, 2.3e-11, 7.6e-11]),
-    (3.0, [1.7e-14, 5.4e-13, 7e-12]),
-];
-
-#[test]
-fn exact_steady_whirl_at_any_tilt() {
-    let period = TAU / 100.0;
-    for (theta, allowed) in WHIRLS {
-        let whirl = Whirl::paper(theta, 100.0);
-        let mut simulation = Scene { tolerance: 1e-14, ..scene_of(&whirl) }.started::<Supported>();
-        let mut worst = [0.0; 3];
-        for i in 1..=100 {
-            // Whole periods and a third: a phase error must show in every component.
-            let t = (f64::from(i) - 2.0 / 3.0) * period;
-            let reading = at(&mut simulation, t);
-            let errors = whirl_errors(&whirl, t, &reading);
-            worst = std::array::from_fn(|n| largest([worst[n], errors[n]]));
-        }
-        for (n, name) in ["r_c", "axis", "phi"].into_iter().enumerate() {
-            within(&format!("theta = {theta}, {name}"), worst[n], allowed[n]);
-        }
-    }
-}
 
 // ------------------------------------------------------------------------------------------------- small whirl
 

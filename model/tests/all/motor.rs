@@ -82,6 +82,12 @@ fn upright(lag: f64, rest: &str) -> String {
 const COMMANDS: [(f64, f64); 4] = [(0.0, 1.0), (1.5, 0.4), (3.2, -0.5), (6.0, 0.9)];
 const END: f64 = 10.0;
 
+/// From when until when \[s] which command holds.
+fn pieces() -> impl Iterator<Item = (f64, f64, f64)> {
+    let ends = COMMANDS.into_iter().skip(1).map(|next| next.0).chain([END]);
+    COMMANDS.into_iter().zip(ends).map(|((begin, command), end)| (begin, end, command))
+}
+
 /// Worst errors of a run under these commands: φ, ω_φ and τ relative to their largest, the work and what the ledger lacks relative
 /// to the largest energy.
 fn errors(named: &mut Named, lag: f64) -> [f64; 5] {
@@ -89,8 +95,7 @@ fn errors(named: &mut Named, lag: f64) -> [f64; 5] {
     let mut from = Turning { phi: 0.4, speed: SPIN, torque: exact.steady(1.0, SPIN) };
     let mut worst = [0.0; 5];
     let energy = 0.5 * EXACT.inertia * EXACT.synchronous * EXACT.synchronous;
-    for (i, (begin, command)) in COMMANDS.into_iter().enumerate() {
-        let end = COMMANDS.get(i + 1).map_or(END, |next| next.0);
+    for (begin, end, command) in pieces() {
         named.set("motor.command", command);
         for part in 0..=10 {
             let after = (end - begin) * f64::from(part) / 10.0;
@@ -125,8 +130,7 @@ fn exact_upright_rotor_under_steps_of_the_command() {
         for method in ["auto", "dopri5", "dop853", "stiff"] {
             for tolerance in [1e-6, 1e-9] {
                 let solver = format!("[solver]\nmethod = \"{method}\"\nrelative_tolerance = {tolerance:?}\n");
-                let mut named = Named::written(&upright(lag, &solver));
-                named.start();
+                let mut named = Named::started(&upright(lag, &solver));
                 for ((what, error), allowed) in SHOWN.iter().zip(errors(&mut named, lag)).zip(TOLERANCES) {
                     within(&format!("{what}, lag {lag}, {method} at {tolerance:e}"), error / tolerance, allowed);
                 }
@@ -143,8 +147,7 @@ fn exact_upright_rotor_by_symplectic() {
     for lag in LAGS {
         for (order, allowed) in [2, 4, 6, 8].into_iter().zip(BY_ORDER) {
             let solver = format!("[solver]\nmethod = \"symplectic\"\norder = {order}\nstep_size = 0.02\n");
-            let mut named = Named::written(&upright(lag, &solver));
-            named.start();
+            let mut named = Named::started(&upright(lag, &solver));
             within(&format!("order {order}, lag {lag}"), largest(errors(&mut named, lag)), allowed);
         }
     }
@@ -190,8 +193,7 @@ fn exact_ledger_of_a_tilted_rotor_closes() {
     for method in ["auto", "dopri5", "dop853", "stiff"] {
         for tolerance in [1e-6, 1e-9] {
             let solver = format!("[solver]\nmethod = \"{method}\"\nrelative_tolerance = {tolerance:?}\n");
-            let mut named = Named::written(&swinging(3.0, &solver));
-            named.start();
+            let mut named = Named::started(&swinging(3.0, &solver));
             let (mut residual, mut kinetic) = (0.0, 0.0);
             for i in 1..=40 {
                 named.simulation.advance(0.05 * f64::from(i)).expect("a possible motion");
@@ -207,8 +209,7 @@ fn exact_ledger_of_a_tilted_rotor_closes() {
 #[test]
 fn without_stall_torque_the_motor_is_not_there() {
     let motion = |stall: f64, method: &str| {
-        let mut named = Named::written(&swinging(stall, &format!("[solver]\nmethod = \"{method}\"\n")));
-        named.start();
+        let mut named = Named::started(&swinging(stall, &format!("[solver]\nmethod = \"{method}\"\n")));
         let mut bits = Vec::new();
         for i in 0..=20 {
             named.simulation.advance(0.03 * f64::from(i)).expect("a possible motion");
@@ -227,25 +228,6 @@ fn without_stall_torque_the_motor_is_not_there() {
     }
 }
 
-#[test]
-fn a_saved_run_goes_on_with_the_same_bits() {
-    for method in ["auto", "dopri5", "dop853", "stiff", "symplectic"] {
-        let mut named = Named::written(&swinging(3.0, &format!("[solver]\nmethod = \"{method}\"\n")));
-        named.start();
-        named.simulation.advance(0.123).expect("a possible motion");
-        let saved = named.simulation.clone();
-        let mut go_on = |command: f64| {
-            named.simulation = saved.clone();
-            named.set("motor.command", command);
-            named.simulation.advance(0.2).expect("a possible motion");
-            named.simulation.advance(0.4567).expect("a possible motion");
-            named.bits()
-        };
-        let [first, _, again] = [0.4, -1.0, 0.4].map(&mut go_on);
-        assert_eq!(first, again, "{method}");
-    }
-}
-
 // ---------------------------------------------------------------------------------------------------- model exchange
 
 /// The number of the motor's state among those of a host.
@@ -254,11 +236,11 @@ fn number(named: &mut Named) -> usize {
     let moves = |n: &usize| {
         let mut moved = state;
         moved[*n] += 1.0;
-        named.simulation.exchange().expect("for a host").set_state(&moved);
+        named.host().set_state(&moved);
         named.get("motor.state.tau") != state[*n] && named.get("motor.state.tau").to_bits() == moved[*n].to_bits()
     };
     let found: Vec<usize> = (0..Any::STATES).filter(moves).collect();
-    named.simulation.exchange().expect("for a host").set_state(&state);
+    named.host().set_state(&state);
     assert_eq!(found.len(), 1, "one state is the motor's: {found:?}");
     found[0]
 }
@@ -266,7 +248,7 @@ fn number(named: &mut Named) -> usize {
 fn hosted(lag: f64) -> Named {
     let mut named = Named::written_for(&upright(lag, ""), Integrator::Host);
     named.start();
-    named.simulation.exchange().expect("for a host").settle();
+    named.host().settle();
     named
 }
 
@@ -285,7 +267,7 @@ fn exact_the_torque_is_a_continuous_state() {
         assert_eq!(named.simulation.nominals()[n], EXACT.stall);
         let mut moved = named.simulation.state().expect("started");
         moved[n] = 1.25;
-        named.simulation.exchange().expect("for a host").set_state(&moved);
+        named.host().set_state(&moved);
         let steady = Exact { lag, ..EXACT }.steady(1.0, SPIN);
         let [tau, slope] = if lag > 0.0 { [1.25, (steady - 1.25) / lag] } else { [steady, 0.0] };
         within("torque", (named.get("motor.tau") / tau - 1.0).abs(), DERIVATIVES);
@@ -321,12 +303,11 @@ fn exact_upright_rotor_by_a_host() {
         let exact = Exact { lag, ..EXACT };
         let mut from = Turning { phi: 0.4, speed: SPIN, torque: exact.steady(1.0, SPIN) };
         let (mut t, h) = (0.0, 0.1);
-        for (i, (begin, command)) in COMMANDS.into_iter().enumerate() {
-            let end = COMMANDS.get(i + 1).map_or(END, |next| next.0);
-            let mut exchange = named.simulation.exchange().expect("for a host");
+        for (begin, end, command) in pieces() {
+            let mut exchange = named.host();
             exchange.enter_event();
             named.set("motor.command", command);
-            let mut exchange = named.simulation.exchange().expect("for a host");
+            let mut exchange = named.host();
             assert!(!exchange.settle().any(), "a step of the command moves no state");
             exchange.leave_event();
             while t < end - 0.5 * h {
@@ -334,17 +315,12 @@ fn exact_upright_rotor_by_a_host() {
                 let cell = std::cell::RefCell::new(&mut named);
                 let rates = |t: f64, y: &[f64; Any::STATES]| {
                     let mut named = cell.borrow_mut();
-                    let mut exchange = named.simulation.exchange().expect("for a host");
-                    exchange.set_time(t);
-                    exchange.set_state(y);
-                    named.simulation.rates().expect("possible parameters")
+                    named.rates_at(t, y)
                 };
                 let state = step(rates, t, &state, h);
                 t += h;
-                let mut exchange = named.simulation.exchange().expect("for a host");
-                exchange.set_time(t);
-                exchange.set_state(&state);
-                exchange.complete_step();
+                named.go_to(t, &state);
+                named.host().complete_step();
                 let Turning { phi, speed, .. } = exact.run(command, &from, t - begin);
                 within("phi", (named.get("phi") - phi).abs() / 400.0, HOST);
                 within("speed", (named.get("omega_phi") - speed).abs() / EXACT.synchronous, HOST);
@@ -386,37 +362,29 @@ fn exact_a_motor_ends_at_the_limit() {
 
 // ------------------------------------------------------------------------------------------------------------ bad input
 
+fn refusal(rest: &str) -> String {
+    let scene = Scene::parse(Path::new("bad.toml"), &format!("{ROTOR}[effects.motor]\n{rest}"));
+    scene.expect_err("a scene that cannot be").to_string()
+}
+
 #[test]
 fn messages_of_motors_that_cannot_be() {
-    let error = |rest: &str| {
-        let scene = Scene::parse(Path::new("bad.toml"), &format!("{ROTOR}[effects.motor]\n{rest}"));
-        scene.expect_err("a scene that cannot be").to_string()
-    };
-    for (rest, message) in [
-        (
-            "stall_torque = 1.0\n",
-            "bad.toml: `motor.synchronous_speed` is missing: give the axial rate at which it gives no torque at full command in \
-             rad/s as `synchronous_speed = ...` under [effects.motor]",
-        ),
-        (
-            "synchronous_speed = 0.0\n",
-            "bad.toml, line 7: effects.motor.synchronous_speed = 0.0 is not possible: it must be a finite number > 0",
-        ),
-        (
-            "synchronous_speed = -5.0\n",
-            "bad.toml, line 7: effects.motor.synchronous_speed = -5.0 is not possible: it must be a finite number > 0",
-        ),
-        (
-            "synchronous_speed = 5.0\ntime_constant = -0.1\n",
-            "bad.toml, line 8: effects.motor.time_constant = -0.1 is not possible: it must be a finite number >= 0",
-        ),
-        (
-            "synchronous_speed = 5.0\nstall_torque = -1.0\n",
-            "bad.toml, line 8: effects.motor.stall_torque = -1.0 is not possible: it must be a finite number >= 0",
-        ),
+    const ABOVE: &str = "it must be a finite number > 0";
+    const NOT_BELOW: &str = "it must be a finite number >= 0";
+    for (line, rest, value, bound) in [
+        (7, "", "synchronous_speed = 0.0", ABOVE),
+        (7, "", "synchronous_speed = -5.0", ABOVE),
+        (8, "synchronous_speed = 5.0\n", "time_constant = -0.1", NOT_BELOW),
+        (8, "synchronous_speed = 5.0\n", "stall_torque = -1.0", NOT_BELOW),
     ] {
-        assert_eq!(error(rest), message);
+        let expected = format!("bad.toml, line {line}: effects.motor.{value} is not possible: {bound}");
+        assert_eq!(refusal(&format!("{rest}{value}\n")), expected);
     }
+    assert_eq!(
+        refusal("stall_torque = 1.0\n"),
+        "bad.toml: `motor.synchronous_speed` is missing: give the axial rate at which it gives no torque at full command in \
+         rad/s as `synchronous_speed = ...` under [effects.motor]"
+    );
     // By a host.
     for (name, value) in [("synchronous_speed", 0.0), ("time_constant", -1.0), ("stall_torque", f64::NAN)] {
         let mut named = Named::written(&upright(0.3, ""));

@@ -57,17 +57,6 @@ fn literature_errors_fall_with_the_tolerance() {
     }
 }
 
-/// K_c·t over 10 s, relative [1]: measured 1.1e-13.
-const AXIAL_MOMENTUM: f64 = 4e-13;
-
-#[test]
-fn exact_axial_momentum_is_constant() {
-    for reading in Scene::paper().run::<Supported>(times(10.0, 1000)) {
-        let axial = reading.motion.at.k.dot(reading.motion.axis());
-        within("K_c·t", (axial / 7.8125 - 1.0).abs(), AXIAL_MOMENTUM);
-    }
-}
-
 /// Half a unit of the last digit in print [% and s].
 const HALF_DIGIT: f64 = 0.000_05;
 

@@ -41,8 +41,7 @@ const LEDGER: f64 = 1e-11;
 fn exact_force_and_moment_beside_a_rigid_body() {
     // A force F at p is one at the end a and the moment (p + l) t×F; here held so that F at a is a spring's of the oracle.
     let port = "[[effects.port]]\nposition = -0.75\nm = { x = 2.0, y = -3.0, z = 1.5 }\nf = { x = 5.0, y = 20.0, z = -30.0 }\n";
-    let mut named = Named::written(&[ROTOR, SUPPORT, port, SOLVER].concat());
-    named.start();
+    let mut named = Named::started(&[ROTOR, SUPPORT, port, SOLVER].concat());
     named.simulation.advance(0.5).expect("a possible motion");
     let body = RigidBody {
         c: [2000.0, 500.0],
@@ -69,8 +68,7 @@ fn exact_force_and_moment_beside_a_rigid_body() {
 fn exact_a_port_and_a_probe_show_their_station() {
     let stations =
         "[[effects.port]]\nposition = 0.4\n[[effects.probe]]\nposition = -0.2\n[[effects.probe]]\nposition = 0.4\n";
-    let mut named = Named::written(&[ROTOR, SUPPORT, stations, SOLVER].concat());
-    named.start();
+    let mut named = Named::started(&[ROTOR, SUPPORT, stations, SOLVER].concat());
     named.simulation.advance(0.7).expect("a possible motion");
     let [r, v, t, omega] = ["r_c", "v_c", "axis", "omega"].map(|of| named.vector(of));
     let at = |p: f64| (r + t * p, v + omega.cross(&t) * p);

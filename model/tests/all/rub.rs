@@ -35,8 +35,7 @@ impl Bounce {
 
     /// After a bounce in so many steps a contact, whatever the tolerance would allow: the error of its place along z over the gap \[1].
     fn in_steps(&self, steps: f64) -> f64 {
-        let mut rotor = Named::written(&format!("{}[[effects.port]]\nposition = 0.0\n", self.text));
-        rotor.start();
+        let mut rotor = Named::started(&format!("{}[[effects.port]]\nposition = 0.0\n", self.text));
         let count = (self.period * steps / self.contact).ceil();
         for n in 1..=count as u32 {
             // Who sets an input ends a step; what pulls along the axis does nothing across it.
@@ -48,8 +47,7 @@ impl Bounce {
 
     /// After a hundred bounces: the error of its place along z over the gap \[1], and the evaluations that it took.
     fn hundred(&self) -> (f64, f64) {
-        let mut rotor = Named::written(&self.text);
-        rotor.start();
+        let mut rotor = Named::started(&self.text);
         let reading = at(&mut rotor.simulation, 100.0 * self.period);
         ((reading.motion.r_c().z / GAP).abs(), reading.cost.evaluations)
     }
@@ -108,8 +106,7 @@ fn exact_ledger_closes_with_friction() {
     /// Of the energy that was lost \[1].
     const RESIDUAL: f64 = 1e-8;
     for method in ["dopri5", "dop853", "auto", "stiff"] {
-        let mut rotor = Named::written(&format!("{RUBBING}method = \"{method}\"\nrelative_tolerance = 1e-10\n"));
-        rotor.start();
+        let mut rotor = Named::started(&format!("{RUBBING}method = \"{method}\"\nrelative_tolerance = 1e-10\n"));
         let (mut contacts, mut before) = (0, 0.0);
         for n in 1..=400 {
             at(&mut rotor.simulation, 0.005 * f64::from(n));

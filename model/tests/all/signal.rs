@@ -1,4 +1,5 @@
-//! Inputs: polynomials about communication points, their pieces, and the order of what is held or extrapolated.
+//! Inputs: polynomials about communication points, their pieces, and the order of what is held or extrapolated. What a host may send
+//! when, and what becomes of it: tests/inputs.rs.
 
 use crate::harness::swinging::within_order;
 use crate::harness::{Driven, Method, Scene, TORQUE, at, largest, within};
@@ -26,41 +27,6 @@ fn exact_sum_over_time() {
     signal.set_derivative(2.0, 2, 6.0);
     // s − 2s² + s³ from s = 0 and from s = 1.
     assert_eq!([signal.sum::<f64>(2.0, 4.0), signal.sum(3.0, 4.0), signal.sum(3.0, 2.0)], [2.0, 2.0, 0.0]);
-}
-
-#[test]
-fn exact_a_value_alone_is_held() {
-    let mut signal = Signal::default();
-    signal.set(1.0, 2.0);
-    signal.set_derivative(1.0, 1, 5.0);
-    assert_eq!(signal.at::<f64>(3.0), 12.0);
-    signal.set(3.0, -1.0);
-    assert_eq!([signal.at::<f64>(3.0), signal.at(9.0)], [-1.0; 2]);
-    assert_eq!(signal.rate_at(9.0), 0.0);
-}
-
-#[test]
-fn exact_a_derivative_alone_goes_on_from_the_value_there() {
-    let mut signal = Signal::default();
-    signal.set(0.0, 1.0);
-    signal.set_derivative(0.0, 1, 2.0);
-    signal.set_derivative(0.0, 2, 4.0);
-    // 1 + 2·3 + ½·4·9 = 25 at 3; the curvature is forgotten.
-    signal.set_derivative(3.0, 1, -1.0);
-    assert_eq!([signal.at::<f64>(3.0), signal.at(5.0)], [25.0, 23.0]);
-    assert_eq!(signal.rate_at(5.0), -1.0);
-}
-
-#[test]
-fn exact_what_was_set_before_the_run_counts_from_its_start() {
-    let mut signal = Signal::default();
-    signal.set(0.0, 1.0);
-    signal.set_derivative(0.0, 1, 2.0);
-    signal.begin(10.0);
-    assert_eq!([signal.at::<f64>(10.0), signal.at(11.0)], [1.0, 3.0]);
-    // Still the same communication point.
-    signal.set(10.0, 5.0);
-    assert_eq!(signal.at::<f64>(11.0), 7.0);
 }
 
 #[test]
@@ -102,8 +68,6 @@ const STEPS: [f64; 5] = [1e-4, 1e-3, 0.0123, 0.2, 1.0];
 /// [1], φ [rad] and work [J], measured 5.6e-11 and 1.8e-12; the residual of the energy [J], measured 1.4e-9.
 const PIECES: [f64; 2] = [2e-10, 5e-12];
 const RESIDUAL: f64 = 5e-9;
-/// The axis where nothing is sent, one in the dense output and one at the end of a step [1]: measured 5.5e-14.
-const UNSENT: f64 = 1.6e-13;
 
 #[test]
 fn exact_a_polynomial_is_the_sum_of_its_pieces() {
@@ -130,50 +94,6 @@ fn exact_a_polynomial_is_the_sum_of_its_pieces() {
             within("residual", pieces.ledger.residual().abs(), RESIDUAL);
         }
     }
-}
-
-#[test]
-fn a_polynomial_stays_in_force() {
-    // Communication points at which nothing is sent change nothing but the steps.
-    let run = |step: f64| {
-        let mut simulation = scene(Method::Dop853).started::<Driven>();
-        send(&mut simulation, &torque(0.0));
-        let mut t = 0.0;
-        while t < 1.0 {
-            t = f64::min(t + step, 1.0);
-            at(&mut simulation, t);
-        }
-        *simulation.read().unwrap()
-    };
-    let whole = run(1.0);
-    for step in STEPS {
-        within("axis", (run(step).motion.axis() - whole.motion.axis()).norm(), UNSENT);
-    }
-}
-
-#[test]
-fn inputs_are_read_as_they_are_at_the_communication_point() {
-    let mut simulation = scene(Method::Dop853).started::<Driven>();
-    send(&mut simulation, &torque(0.0));
-    assert_eq!(simulation.get(TORQUE), Ok(Some(2.0)));
-    at(&mut simulation, 0.5);
-    assert_eq!(simulation.get(TORQUE), Ok(Some(torque(0.5)[0])));
-    simulation.set_input(TORQUE, 7.0);
-    assert_eq!(simulation.get(TORQUE), Ok(Some(7.0)));
-    assert!(!simulation.set_input(split_rotor_model::variables::state_place(0), 1.0), "a state is no input");
-}
-
-#[test]
-fn regress_a_start_that_fails_leaves_the_inputs_where_they_were() {
-    let mut simulation = Scene { tolerance: 0.0, ..scene(Method::Dop853) }.simulation::<Driven>();
-    send(&mut simulation, &torque(0.0));
-    simulation.start(3.0, None).expect_err("an impossible tolerance");
-    assert_eq!(simulation.get(TORQUE), Ok(Some(2.0)));
-    // Still the same communication point: the derivatives stay.
-    simulation.set_input(TORQUE, 5.0);
-    simulation.start(3.0, Some(1e-10)).expect("a possible tolerance");
-    at(&mut simulation, 4.0);
-    assert_eq!(simulation.get(TORQUE), Ok(Some(5.0 + torque(1.0)[0] - 2.0)));
 }
 
 /// The state's error falls with the communication step as its power 1, 2, 3 (ORACLES.md 12), within this [1]: measured

@@ -1,8 +1,9 @@
-//! A run that is walked out and in goes on with the same bits: every kind of run, in both charts, at any moment.
+//! A run that is walked out and in goes on with the same bits: every kind of run, in both charts, at any moment. Damaged bytes:
+//! tests/serialized.rs.
 
 use crate::harness::named::Named;
 use split_rotor_model::simulation::{Any, Integrator, Simulation};
-use split_rotor_model::stored::{Damaged, from_bytes, to_bytes};
+use split_rotor_model::stored::{from_bytes, to_bytes};
 use split_rotor_model::variables::Parameters;
 
 /// Somewhere in a run, in the chart from e, or `far` from e in that from −e.
@@ -40,11 +41,9 @@ fn go_on(named: &mut Named, span: f64) -> Vec<Vec<u64>> {
             let rates = named.simulation.rates().expect("possible parameters");
             let mut state = named.simulation.state().expect("possible parameters");
             state.iter_mut().zip(rates).for_each(|(x, rate)| *x += 1e-4 * rate);
-            let mut exchange = named.simulation.exchange().expect("for a host");
-            exchange.set_time(t);
-            exchange.set_state(&state);
-            if exchange.complete_step() {
-                exchange.settle();
+            named.go_to(t, &state);
+            if named.host().complete_step() {
+                named.host().settle();
             }
         }
         named.bits()
@@ -130,31 +129,5 @@ fn what_was_there_before_does_not_matter() {
             assert_eq!(other.simulation.integrator(), integrator);
             assert_eq!(go_on(&mut other, 0.1), expected, "{scene} after {before}");
         }
-    }
-}
-
-#[test]
-fn an_input_that_the_method_has_not_heard_of_is_stored() {
-    let mut one = under_way("driven", Integrator::Method, 3.0, false);
-    let tau = one.place("drive.tau");
-    one.simulation.set_input(tau, 11.0);
-    let mut other = restored(&mut one, nothing(Integrator::Method));
-    assert_eq!(other.get("drive.tau"), 11.0);
-    assert_eq!(go_on(&mut other, 0.2), go_on(&mut one, 0.2));
-}
-
-#[test]
-fn damaged_bytes_are_refused() {
-    let mut one = under_way("driven", Integrator::Method, 3.0, false);
-    let bytes = to_bytes(&mut one.simulation);
-    for length in [0, 8, 100, bytes.len() - 8, bytes.len() - 1] {
-        assert_eq!(from_bytes(&mut nothing(Integrator::Method), &bytes[..length]), Err(Damaged), "{length} bytes");
-    }
-    let longer = [&bytes[..], &[0; 8]].concat();
-    assert_eq!(from_bytes(&mut nothing(Integrator::Method), &longer), Err(Damaged));
-    // The first number is one of two choices.
-    for wrong in [2.0, 0.5, -1.0, f64::NAN] {
-        let other = [&f64::to_le_bytes(wrong), &bytes[8..]].concat();
-        assert_eq!(from_bytes(&mut nothing(Integrator::Method), &other), Err(Damaged), "{wrong}");
     }
 }

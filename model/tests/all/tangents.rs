@@ -52,7 +52,7 @@ fn inputs(named: &Named) -> Vec<Place> {
 }
 
 fn move_to(named: &mut Named, state: &Whole<f64>) {
-    named.simulation.exchange().expect("for a host").set_state(state);
+    named.host().set_state(state);
 }
 
 /// Exact derivatives by one state or input of all that is calculated.
@@ -243,8 +243,7 @@ fn exact_time_derivatives_follow_an_imposed_speed() {
         let mut worst: BTreeMap<String, f64> = BTreeMap::new();
         let case = Case { omega: Vector3::new(20.0, 0.5, -0.4), ..Case::held() };
         let solver = "method = \"dop853\"\nrelative_tolerance = 1e-13";
-        let mut named = Named::written(&format!("{}[effects.imposed_speed]\nw = 20.0\na = -10.0\n", case.text(solver)));
-        named.start();
+        let mut named = Named::started(&format!("{}[effects.imposed_speed]\nw = 20.0\na = -10.0\n", case.text(solver)));
         for (name, order, value) in sent {
             let place = named.place(&format!("imposed_speed.{name}"));
             named.simulation.set_input_derivative(place, *order, *value);

@@ -5,22 +5,18 @@ use super::run::Setting;
 use super::span::POINTS;
 use super::{Accuracy, machine, table};
 use crate::run::run;
-use crate::{paths, python};
-use anyhow::{Context, Result};
-use serde_json::{Map, Value, json};
+use crate::{python, sheets};
+use anyhow::Result;
+use serde_json::{Value, json};
 use split_rotor_model::scene::Scene;
 
 /// Writes the files, and shows the tables.
 pub fn write(scene: &Scene, result: &Accuracy) -> Result<()> {
-    let folder = paths::target().join("accuracy").join(&scene.name);
-    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let report = table::report(result);
     let json = serde_json::to_string_pretty(&json(scene, result)?)? + "\n";
-    for (name, text) in
-        [("accuracy.md", &report), ("accuracy.csv", &csv(&result.rows, result.scale)), ("accuracy.json", &json)]
-    {
-        std::fs::write(folder.join(name), text)?;
-    }
+    let csv = csv(&result.rows, result.scale);
+    let files = [("accuracy.md", &*report), ("accuracy.csv", &csv), ("accuracy.json", &json)];
+    let folder = sheets::write(&format!("accuracy/{}", scene.name), files)?;
     run(python::python()?.arg("xtask/python/accuracy.py").arg(&folder))?;
     println!("\n{}: {}\n\n{report}", scene.name, scene.title);
     println!("{}", folder.join("accuracy.svg").display());
@@ -29,9 +25,6 @@ pub fn write(scene: &Scene, result: &Accuracy) -> Result<()> {
 
 fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
     let Accuracy { reference, rows, scale, sentences, left_out, .. } = result;
-    let row = |row: &super::Row| -> Map<String, Value> {
-        row.columns(*scale).into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
-    };
     let experiment = result.experiment;
     let setting = |setting: &Setting| json!({ "method": setting.method, setting.parameter: setting.value });
     let [end, worst] = reference
@@ -63,6 +56,6 @@ fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
         },
         "sentences": sentences,
         "left_out": left_out,
-        "rows": rows.iter().map(row).collect::<Vec<_>>(),
+        "rows": sheets::objects(rows.iter().map(|row| row.columns(*scale))),
     }))
 }

@@ -13,7 +13,7 @@ use split_rotor_model::xml;
 use std::path::Path;
 
 /// What is read at each point.
-const OUTPUTS: [&str; 11] = [
+pub const OUTPUTS: [&str; 11] = [
     "r_c.x",
     "r_c.y",
     "r_c.z",
@@ -174,7 +174,8 @@ fn references<const N: usize>(scene: &Scene, names: [&str; N]) -> Result<[Refere
     Ok(references)
 }
 
-fn point(outputs: [f64; OUTPUTS.len()]) -> Point {
+/// What these outputs show.
+pub fn point(outputs: [f64; OUTPUTS.len()]) -> Point {
     let [x, y, z, t_x, t_y, t_z, turns, angle, residual, energy, kinetic] = outputs;
     Point { r_c: Vector3::new(x, y, z), axis: Vector3::new(t_x, t_y, t_z), turns, angle, residual, energy, kinetic }
 }

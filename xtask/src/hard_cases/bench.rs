@@ -2,36 +2,23 @@
 
 use super::case::Setting;
 use super::method::Method;
+use crate::accuracy::motion::Point;
+use crate::accuracy::run::{OUTPUTS, point};
 use crate::fmu::{Fmu, Instance, Reference};
 use crate::unpacked::unpack;
 use crate::{paths, scenes};
 use anyhow::{Context, Result, ensure};
-use nalgebra::Vector3;
 use split_rotor_model::variable::Kind;
 use split_rotor_model::xml;
 use std::cell::Cell;
 use std::collections::BTreeMap;
-
-/// What is read at a communication point.
-const SHOWN: [&str; 10] = [
-    "r_c.x",
-    "r_c.y",
-    "r_c.z",
-    "axis.x",
-    "axis.y",
-    "axis.z",
-    "turns",
-    "angle",
-    "energy.residual",
-    "solver.evaluations",
-];
 
 /// The loaded FMU of a scene.
 pub struct Stage {
     fmu: Fmu,
     /// Value reference and type of each variable.
     variables: BTreeMap<String, (Reference, Kind)>,
-    shown: [Reference; SHOWN.len()],
+    outputs: [Reference; OUTPUTS.len()],
 }
 
 /// The stages, by their scenes.
@@ -58,24 +45,9 @@ impl Stage {
         let fmu = Fmu::load(&unpacked.library, &xml::guid(&scene))?;
         let variables: BTreeMap<_, _> =
             (scene.variables.iter()).map(|v| (v.name.clone(), (v.place.value_reference(), v.meta.kind))).collect();
-        let shown = SHOWN.map(|name| variables[name].0);
-        Ok(Self { fmu, variables, shown })
+        let outputs = OUTPUTS.map(|name| variables[name].0);
+        Ok(Self { fmu, variables, outputs })
     }
-}
-
-/// The rotor at a communication point.
-#[derive(Clone, Copy, Debug)]
-pub struct Shown {
-    /// Position of the mass centre \[m].
-    pub r_c: Vector3<f64>,
-    /// The axis.
-    pub axis: Vector3<f64>,
-    /// φ = 2π `turns` + `angle` \[rad].
-    pub turns: f64,
-    /// See `turns`.
-    pub angle: f64,
-    /// What the energy ledger leaves over \[J].
-    pub residual: f64,
 }
 
 /// Where a task gets its rotors: an FMU, a method, and what a mutant changes.
@@ -171,12 +143,10 @@ impl Rotor<'_> {
     }
 
     /// What the communication point shows.
-    pub fn shown(&self) -> Result<Shown> {
-        let [x, y, z, t_x, t_y, t_z, turns, angle, residual, evaluations] =
-            self.instance.get_real(&self.bench.stage.shown)?;
+    pub fn shown(&self) -> Result<Point> {
+        let (shown, evaluations) = (self.instance.get_real(&self.bench.stage.outputs)?, self.evaluations()?);
         self.bench.evaluations.set(self.bench.evaluations.get() + evaluations - self.spent.replace(evaluations));
-        let (r_c, axis) = (Vector3::new(x, y, z), Vector3::new(t_x, t_y, t_z));
-        Ok(Shown { r_c, axis, turns, angle, residual })
+        Ok(point(shown))
     }
 
     /// Reads variables by name.

@@ -1,7 +1,8 @@
 //! A hard case: what happens, what is hard about it, who knows the answer, and what must make it fail.
 
-use super::bench::{Bench, Shown};
+use super::bench::Bench;
 use super::method::Method;
+use crate::accuracy::motion::Point;
 use anyhow::Result;
 use nalgebra::{Vector2, Vector3};
 use oracles::{motion, rotation};
@@ -89,7 +90,7 @@ impl Exact {
     }
 
     /// How far off what is shown is, in units of `scale` but for φ.
-    pub fn error(&self, shown: &Shown, scale: f64, found: Found) -> Found {
+    pub fn error(&self, shown: &Point, scale: f64, found: Found) -> Found {
         let phi = match self.phi {
             Phi::Whole(phi) => TAU * shown.turns + shown.angle - phi,
             Phi::Unasked => 0.0,

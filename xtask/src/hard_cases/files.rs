@@ -2,28 +2,18 @@
 
 use super::row::Row;
 use super::{Extent, table};
-use crate::paths;
-use crate::sheets::csv;
-use anyhow::{Context, Result};
-use serde_json::{Map, Value, json};
+use crate::sheets;
+use anyhow::Result;
+use serde_json::json;
 
 /// Writes the files, and shows the table.
 pub fn write(rows: &[Row], extent: &Extent) -> Result<()> {
-    let folder = paths::target().join("hard-cases");
-    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let objects: Vec<Map<String, Value>> = rows
-        .iter()
-        .map(|row| row.columns().into_iter().map(|(name, value)| (name.to_owned(), value)).collect())
-        .collect();
+    let objects = sheets::objects(rows.iter().map(Row::columns));
     let json = json!({ "part": extent.part, "whole": extent.whole, "mutants": extent.mutants, "rows": objects });
-    let table = table::markdown(rows);
-    for (name, text) in [
-        ("hard-cases.md", table.clone()),
-        ("hard-cases.csv", csv(&rows.iter().map(Row::columns).collect::<Vec<_>>())),
-        ("hard-cases.json", serde_json::to_string_pretty(&json)? + "\n"),
-    ] {
-        std::fs::write(folder.join(name), text)?;
-    }
+    let (json, table) = (serde_json::to_string_pretty(&json)? + "\n", table::markdown(rows));
+    let csv = sheets::csv(&rows.iter().map(Row::columns).collect::<Vec<_>>());
+    let files = [("hard-cases.md", &*table), ("hard-cases.csv", &csv), ("hard-cases.json", &json)];
+    let folder = sheets::write("hard-cases", files)?;
     println!("\n{table}\n{}", folder.join("hard-cases.md").display());
     Ok(())
 }

@@ -78,9 +78,7 @@ impl Case {
 
     /// Its simulation, started.
     pub fn started(&self, solver: &str) -> Named {
-        let mut named = Named::written(&self.text(solver));
-        named.start();
-        named
+        Named::started(&self.text(solver))
     }
 
     /// Its start, for the oracle.

@@ -1,7 +1,6 @@
 //! What every test of a whole run needs: a scene as a value, its simulation, and a bound that prints what it measured.
 
 pub mod asymmetric;
-pub mod double_double;
 pub mod named;
 pub mod swinging;
 

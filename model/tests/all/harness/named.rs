@@ -2,8 +2,9 @@
 
 use nalgebra::Vector3;
 use oracles::machine::Machine;
+use split_rotor_model::effects::All;
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::{Any, Integrator, Simulation};
+use split_rotor_model::simulation::{Any, Hosted, Integrator, Simulation};
 use split_rotor_model::variable::{Meta, Place};
 use split_rotor_model::variables::Variable;
 use std::path::Path;
@@ -94,7 +95,14 @@ impl Named {
         Self::written_for(text, Integrator::Method)
     }
 
-    /// The same, for who integrates it.
+    /// The scene of this text, started at time 0.
+    pub fn started(text: &str) -> Self {
+        let mut named = Self::written(text);
+        named.start();
+        named
+    }
+
+    /// The scene of this text, for who integrates it.
     pub fn written_for(text: &str, integrator: Integrator) -> Self {
         let scene = Scene::parse(Path::new("test.toml"), text).unwrap_or_else(|error| panic!("{error}"));
         Self::of(scene, integrator)
@@ -144,6 +152,24 @@ impl Named {
     /// The value of a vector that is shown.
     pub fn vector(&mut self, name: &str) -> Vector3<f64> {
         Vector3::from(["x", "y", "z"].map(|axis| self.get(&format!("{name}.{axis}"))))
+    }
+
+    /// What a host of model exchange may do.
+    pub fn host(&mut self) -> Hosted<'_, All, { Any::STATES }> {
+        self.simulation.exchange().expect("for a host")
+    }
+
+    /// As a host that integrates: goes to this time and state.
+    pub fn go_to(&mut self, t: f64, state: &[f64; Any::STATES]) {
+        let mut exchange = self.host();
+        exchange.set_time(t);
+        exchange.set_state(state);
+    }
+
+    /// The rates that a host is told at this time and state.
+    pub fn rates_at(&mut self, t: f64, state: &[f64; Any::STATES]) -> [f64; Any::STATES] {
+        self.go_to(t, state);
+        self.simulation.rates().expect("possible parameters")
     }
 
     /// Starts at time 0.
