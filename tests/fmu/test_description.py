@@ -155,11 +155,6 @@ def test_exact_dependencies_are_known_and_ascending(fmu, kind):
     assert any(dependencies for _, dependencies in found)
 
 
-def test_exact_value_references_are_unique(fmu):
-    references = [v.get("valueReference") for v, _ in scalars(fmu)]
-    assert len(set(references)) == len(references) > 0
-
-
 def test_exact_value_references_are_the_same_in_all_scenes(fmus):
     by_name, by_reference = {}, {}
     for fmu in fmus.values():

@@ -1,20 +1,11 @@
-//! Starts and steps at the edge of what can be done: tiny communication steps, late times, a rotor at rest, a start at the
-//! singular point, absurd forces. Impossible parameters: tests/arguments.rs.
+//! Starts and steps at the edge of what can be done: a rotor at rest, a start at the singular point, absurd forces. Late times and tiny
+//! communication steps: the gallery (`xtask/src/hard_cases/times.rs`); impossible parameters: tests/arguments.rs.
 
 use crate::harness::named::Named;
-use crate::harness::{Method, Scene, Supported, at, largest, times, within};
+use crate::harness::{Method, Scene, Supported, at};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::integrate::{Fault, Refusal};
 use split_rotor_model::variables::Reading;
-
-/// Position [m], axis [1] and φ [rad] of two readings: the largest difference.
-fn distance(a: &Reading, b: &Reading) -> f64 {
-    largest([
-        (a.motion.at.r - b.motion.at.r).norm(),
-        (a.motion.axis() - b.motion.axis()).norm(),
-        (a.motion.phi() - b.motion.phi()).abs(),
-    ])
-}
 
 /// Every number that an instant shows is finite.
 fn assert_finite(reading: &Reading) {
@@ -22,47 +13,6 @@ fn assert_finite(reading: &Reading) {
     let numbers = motion.at.r.iter().chain(&motion.at.v).chain(&motion.at.k).chain(&motion.at.gamma);
     assert!(numbers.chain(motion.axis()).chain(&motion.omega).all(|x| x.is_finite()), "{motion:?}");
     assert!(reading.motion.phi().is_finite() && reading.ledger.total().is_finite());
-}
-
-// ------------------------------------------------------------------------------------------ communication steps
-
-#[test]
-fn tiny_communication_steps() {
-    // 1e-9 s, 2000 of them, and each instant asked for by itself.
-    let scene = Scene::paper();
-    let mut simulation = scene.started::<Supported>();
-    at(&mut simulation, 0.3);
-    for i in 1..=2000 {
-        let t = 0.3 + 1e-9 * f64::from(i);
-        let reading = at(&mut simulation, t);
-        if i % 500 == 0 {
-            assert_eq!(reading.motion.at, scene.run::<Supported>([t])[0].motion.at, "t = {t}");
-        }
-    }
-    // Not advancing at all is no step.
-    let (before, t) = (at(&mut simulation, 0.31), 0.31);
-    assert_eq!(at(&mut simulation, t).motion.at, before.motion.at);
-}
-
-// ---------------------------------------------------------------------------------------------------- late times
-
-/// Start [s], and the motion from there against that from 0 [m, 1, rad], over 2 s: measured 2.1e-13 and 5.7e-14, because a
-/// step spans what the rounded times span. At 1e9 s a double knows the time to 1.2e-7 s.
-const LATE: [(f64, f64); 3] = [(1e6, 6e-13), (-1e6, 6e-13), (1e9, 2e-13)];
-
-#[test]
-fn regress_late_start() {
-    let scene = Scene::paper();
-    let early = scene.run::<Supported>(times(2.0, 8));
-    for (start, allowed) in LATE {
-        let mut simulation = scene.simulation::<Supported>();
-        simulation.start(start, None).unwrap();
-        // Quarters of a second are whole doubles at any of these times.
-        let late: Vec<_> = times(2.0, 8).map(|t| at(&mut simulation, start + t)).collect();
-        late.iter().for_each(assert_finite);
-        let worst = largest(early.iter().zip(&late).map(|(a, b)| distance(a, b)));
-        within(&format!("start at {start:e} s"), worst, allowed);
-    }
 }
 
 // --------------------------------------------------------------------------------------------------------- at rest
