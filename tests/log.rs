@@ -1,4 +1,5 @@
-//! fmi2Instantiate, and what an instance says: to whom, under which name, in which categories.
+//! fmi2Instantiate, and what an instance says: to whom, under which name, in which categories. That the struct of callbacks may go
+//! meanwhile, the harness tries with each instance; percent signs in messages: tests/c/logs.c.
 #![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
 mod harness;
@@ -66,15 +67,6 @@ fn fmi_an_instance_without_a_logger_works() {
 }
 
 #[test]
-fn fmi_the_struct_of_callbacks_may_go_after_instantiate() {
-    // The harness overwrites it (with a logger that aborts) and frees it in each test; here its messages still arrive.
-    let mut instance = Instance::talkative();
-    assert_eq!(instance.journal.take().len(), 1);
-    assert_eq!(instance.do_step(0.0, 0.01), Status::Error);
-    assert_eq!(instance.journal.take().len(), 1);
-}
-
-#[test]
 fn fmi_messages_go_to_the_environment_and_under_the_name_of_their_instance() {
     let named = |name: &CStr| Request { name: Some(name.into()), ..Request::default() }.instantiate().expect("right");
     // The name is no format either; it is handed back as it came.
@@ -88,18 +80,6 @@ fn fmi_messages_go_to_the_environment_and_under_the_name_of_their_instance() {
     let (mine, theirs) = (one.journal.take(), other.journal.take());
     assert_eq!((mine.len(), theirs.len()), (0, 1));
     assert_eq!(theirs[0].instance, "the other");
-}
-
-#[test]
-fn fmi_percent_signs_are_doubled_in_messages() {
-    let mut instance = Instance::quiet();
-    assert_eq!(instance.debug_logging(true, &[c"100%"]), Status::Error);
-    assert_eq!(instance.debug_logging(true, &[c"%s%n"]), Status::Error);
-    let records = instance.journal.take();
-    assert!(records[0].message.contains("100%%\""), "{records:?}");
-    assert!(records[1].message.contains("\"%%s%%n\""), "{records:?}");
-    let record = not_instantiated(Request { guid: Some(c"%d".into()), ..Request::default() });
-    assert!(record.message.contains("\"%%d\""), "{record:?}");
 }
 
 /// The categories of which an instance logs something on the way through an error, a chosen tolerance, a step that cannot

@@ -1,12 +1,12 @@
 //! What fmi2DoStep does through the C interface: which times it takes and refuses, what stands in the way of a step and
 //! what is left then, and that a motion depends on nothing but its parameters: not on the communication steps, not on a
-//! reset, not on other instances. `solver.rs` says which tolerance and method are in force; `tests/c` runs threads.
+//! reset. `solver.rs` says which tolerance and method are in force; `tests/c` runs instances beside one another, and threads.
 #![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
 mod harness;
 
-use harness::{Instance, Life, Stage, only, reference, scene, there, tumbling};
-use split_rotor::abi::{CO_SIMULATION, Real, Status, TRUE, ValueReference};
+use harness::{Instance, only, reference, scene, there, tumbling};
+use split_rotor::abi::{Real, Status, TRUE, ValueReference};
 use split_rotor::exports::fmi2DoStep;
 use split_rotor_model::variable::{Kind, Role};
 
@@ -354,21 +354,6 @@ fn fmi_outputs_follow_the_parameters_before_the_start() {
         assert_eq!(instance.get_all(SHOWN), expected);
         assert_eq!(instance.exit_initialization(), Status::Ok);
         assert_eq!(instance.get_all(SHOWN), expected);
-    }
-}
-
-#[test]
-fn fmi_instances_do_not_know_of_one_another() {
-    let kinds: [&[(&str, Real)]; 3] = [&[], &[("start.gamma.z", 0.5), ("rotor.m", 6.0)], &[("start.omega.x", 80.0)]];
-    let alone = kinds.map(|values| Instance::quiet().started(values).run(0.0, 0.01, 30));
-    let mut together = kinds.map(|values| Instance::quiet().started(values));
-    for i in 0..30 {
-        // One more comes and goes between their steps.
-        let status = Life::new(CO_SIMULATION, Stage::StepFailed).instance().step_status();
-        assert_eq!(status, Ok(Status::Discard));
-        for (instance, alone) in together.iter_mut().zip(&alone) {
-            assert_eq!(instance.run(f64::from(i) * 0.01, 0.01, 1)[0], alone[i as usize]);
-        }
     }
 }
 

@@ -5,6 +5,7 @@ use super::elliptic::{inverse, jacobi, quarter_period};
 use super::numerics::integral;
 use super::rotation;
 use nalgebra::{Matrix3, Vector2, Vector3};
+use std::f64::consts::TAU;
 
 /// A torque-free rotor with moments of inertia J about its axis x, y and z, the first of which is t.
 ///
@@ -123,11 +124,9 @@ impl Asymmetric {
         let fastest = self.p + self.momentum / self.j.min();
         let panels = |time: f64| 1 + (10.0 * fastest * time) as usize;
         let (halves, rest) = ((t / half).floor(), t - half * (t / half).floor());
-        let whole = if halves == 0.0 {
-            0.0
-        } else {
-            super::elliptic::reduced(halves * integral(rate, 0.0, half, panels(half)))
-        };
+        // Less its whole turns.
+        let whole =
+            if halves == 0.0 { 0.0 } else { libm::remainder(halves * integral(rate, 0.0, half, panels(half)), TAU) };
         whole + integral(rate, 0.0, rest, panels(rest))
     }
 }

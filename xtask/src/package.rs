@@ -1,9 +1,8 @@
 //! `package`: each scene as an FMU, a zip of its modelDescription.xml, its library, and what describes it to people.
 
 use crate::run::{cargo, run};
-use crate::{licences, page, paths, scenes, terminals};
+use crate::{accuracy, licences, page, paths, scenes, terminals};
 use anyhow::{Context, Result, bail};
-use indicatif::{ProgressBar, ProgressStyle};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
 use std::collections::BTreeSet;
@@ -23,8 +22,7 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     }
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
-    let progress = ProgressBar::new(scenes.len() as u64).with_style(style);
+    let progress = accuracy::bar(scenes.len());
     let mut packaged = Vec::new();
     for scene in &scenes {
         progress.set_message(format!("building {}", scene.name));

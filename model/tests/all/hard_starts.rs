@@ -2,7 +2,7 @@
 //! communication steps: the gallery (`xtask/src/hard_cases/times.rs`); impossible parameters: tests/arguments.rs.
 
 use crate::harness::named::Named;
-use crate::harness::{Method, Scene, Supported, at};
+use crate::harness::{Method, Scene, Supported, at, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::integrate::{Fault, Refusal};
 use split_rotor_model::variables::Reading;
@@ -70,17 +70,17 @@ fn a_law_without_a_limit_is_named() {
         ),
         ("[effects.imposed_speed]\nw = 0.0\n", "the speed that imposed_speed gives a joint"),
     ] {
-        for method in ["dop853", "symplectic"] {
+        for method in ["auto", "dopri5", "dop853", "stiff", "symplectic"] {
             if (effect.contains("imposed"), method) == (true, "symplectic") {
                 continue;
             }
             let mut rotor = Named::started(&format!("{rotor}{effect}[solver]\nmethod = \"{method}\"\n"));
             let fault = rotor.simulation.advance(1.0).expect_err("it goes past the antipode");
             let reason = format!("the tilt |gamma| reaches 3.1 rad, and {what} has no limit at pi");
-            assert!(
-                matches!(fault, Fault::Refused { reason: Refusal(said), .. } if said == reason),
-                "{effect} {method}: {fault:?}"
-            );
+            let Fault::Refused { t, reason: Refusal(said) } = fault else { panic!("{effect} {method}: {fault:?}") };
+            assert_eq!(said, reason, "{effect} {method}");
+            // 5 t = 3.1, or soon after, for a composition to the shortest part of a step that is tried.
+            within(&format!("{effect} {method}"), (t - 0.62).abs(), if method == "symplectic" { 1e-6 } else { 1e-14 });
         }
     }
 }

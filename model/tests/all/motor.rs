@@ -1,5 +1,5 @@
-//! The motor: its law, an upright rotor in closed form, model exchange, where its law ends, and Sommerfeld's jump in the scene
-//! `run_up`.
+//! The motor: its law, an upright rotor in closed form, model exchange, and Sommerfeld's jump in the scene `run_up`. Where its law
+//! ends: hard_starts.rs.
 
 use crate::harness::named::Named;
 use crate::harness::{Random, Scene as Plain, largest, within};
@@ -10,7 +10,6 @@ use oracles::rigid_body::joint;
 use oracles::rotation;
 use split_rotor_model::effects::motor::Motor;
 use split_rotor_model::effects::{Effect, Motion};
-use split_rotor_model::integrate::Fault;
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::scene::Scene;
 use split_rotor_model::signal::Signal;
@@ -327,36 +326,6 @@ fn exact_upright_rotor_by_a_host() {
             }
             from = exact.run(command, &from, end - begin);
         }
-    }
-}
-
-// -------------------------------------------------------------------------------------------------------------- limit
-
-/// A free rotor that turns end over end at 10 rad/s, straight through −e.
-fn end_over_end(stall: f64, method: &str) -> Named {
-    let mut named = Named::written(&format!(
-        "{ROTOR}[start]\nomega = {{ z = 10.0 }}\n[effects.motor]\nstall_torque = {stall:?}\nsynchronous_speed = 60.0\n\
-         [solver]\nmethod = \"{method}\"\n"
-    ));
-    // It gives next to nothing, which acts all the same.
-    named.set("motor.command", 1e-300);
-    named.start();
-    named
-}
-
-/// When it is refused \[s]: measured 1.7e-16.
-const REFUSED_AT: f64 = 1e-15;
-
-#[test]
-fn exact_a_motor_ends_at_the_limit() {
-    for method in ["auto", "dopri5", "dop853", "stiff"] {
-        let mut named = end_over_end(1.0, method);
-        let fault = named.simulation.advance(1.0).expect_err("a torque acts where it has no limit");
-        let Fault::Refused { t, reason } = fault else { panic!("{fault:?}") };
-        assert!(reason.0.contains("3.1 rad") && reason.0.contains("tau"), "{fault}");
-        within("refused at", (t - 0.31).abs(), REFUSED_AT);
-        // Without torque nothing is refused.
-        end_over_end(0.0, method).simulation.advance(1.0).expect("a possible motion");
     }
 }
 

@@ -70,7 +70,7 @@ fn past_the_limit() -> Case {
         scene: "paper",
         methods: with(4e-14),
         mutant: ("support.c2", 0.0),
-        task: discarded(settings, 1.0, |t| Found { error: (t - 0.31).abs(), of: "time".into() }, "3.1 rad"),
+        task: discarded(settings, 1.0, |t| (t - 0.31).abs(), "3.1 rad"),
     }
 }
 
@@ -91,7 +91,7 @@ fn absurd_springs() -> Case {
         scene: "paper",
         methods: with(1e-6),
         mutant: ("support.c1", 1e-297),
-        task: discarded(settings, 1.0, |t| Found { error: t, of: "time".into() }, "no step"),
+        task: discarded(settings, 1.0, |t| t, "no step"),
     }
 }
 
@@ -143,7 +143,7 @@ fn too_long_steps() -> Case {
         scene: "paper",
         methods: [2, 4, 6, 8].map(|order| (symplectic(order, 1e-3), 0.01)).into(),
         mutant: ("support.c1", 1e-6),
-        task: discarded(settings, 1.0, |t| Found { error: t, of: "time".into() }, "shorten solver.step_size"),
+        task: discarded(settings, 1.0, |t| t, "shorten solver.step_size"),
     }
 }
 
@@ -159,14 +159,14 @@ fn too_short_steps() -> Case {
         task: discarded(
             [tilted(), vec![("solver.step_size", 1e-15)]].concat(),
             1.0,
-            |t| Found { error: t, of: "time".into() },
+            |t| t,
             "a longer solver.step_size",
         ),
     }
 }
 
 /// Runs to `end` \[s], in steps of a hundredth, and must be discarded with this reason; the time reached decides.
-fn discarded(settings: Vec<Setting>, end: f64, judge: impl Fn(f64) -> Found + 'static, reason: &'static str) -> Task {
+fn discarded(settings: Vec<Setting>, end: f64, off: impl Fn(f64) -> f64 + 'static, reason: &'static str) -> Task {
     Box::new(move |bench| {
         let mut rotor = bench.rotor(&settings)?;
         rotor.start(0.0, end)?;
@@ -177,7 +177,7 @@ fn discarded(settings: Vec<Setting>, end: f64, judge: impl Fn(f64) -> Found + 's
             if let Err(error) = rotor.shown() {
                 refused(Err(error), DISCARD, &["is infinite or undefined here"])?;
             }
-            return Ok(judge(rotor.last_successful_time()?));
+            return Ok(Found { error: off(rotor.last_successful_time()?), of: "time".into() });
         }
         anyhow::bail!("every step was done")
     })
