@@ -79,7 +79,7 @@ def test_exact_tumbling_between_rare_communication_points(fmus):
 
 
 def test_exact_tumbling_keeps_its_turns_a_second_at_a_time(fmus):
-    """Three passages of −e between two communication points, each nearly a whole turn, and none is lost."""
+    """A passage of −e or two between communication points, each nearly a whole turn, and none is lost."""
     options = {"output_interval": 1.0, "output": ["phi"]}
     # CVode takes at most 500 steps between two of them: at 1e-10 it would need more.
     result = fmus["tumbling"].simulate(fmi_type="ModelExchange", relative_tolerance=1e-9, **options)
