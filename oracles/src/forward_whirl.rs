@@ -5,7 +5,7 @@
 //! m z̈ + c ż + d (ż − iωz) + (k − is) z = 0,   z = a exp(λt),   m λ² + (c + d) λ + k − i(ωd + s) = 0
 //! ```
 //!
-//! Forward whirl is of the frequency ω_n where it begins to grow: at ωd + s = (c + d) ω_n (ORACLES.md 7 and 8).
+//! Forward whirl is of the frequency ω_n where it begins to grow: at ωd + s = (c + d) ω_n.
 
 use super::numerics::quadratic;
 use nalgebra::Complex;

@@ -1,4 +1,4 @@
-//! A rotor with all effects at once, as EFFECTS.md has their laws, in variables that the library does not know.
+//! A rotor with all effects at once, in variables that the library does not know.
 //!
 //! The attitude is P·S: a unit quaternion P that carries e to the axis without spinning about it, and S, a turn by ψ about e.
 //! So a small tilt keeps its digits beside a great spin, no attitude is singular, and a rotor that is even about its axis does

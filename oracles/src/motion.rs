@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 /// A torque-free symmetric rotor.
 ///
-/// Source: Poinsot (1834); ORACLES.md 2: L(t) = L(K t/Jt)·L(γ₀)·L((φ₀ + K_a t(1/Ja − 1/Jt))e), K_a = K·t.
+/// Source: Poinsot (1834): L(t) = L(K t/Jt)·L(γ₀)·L((φ₀ + K_a t(1/Ja − 1/Jt))e), K_a = K·t.
 #[derive(Clone, Debug)]
 #[allow(non_snake_case, reason = "the paper's symbols")]
 pub struct FreeRotor {
@@ -65,7 +65,7 @@ impl FreeRotor {
         self.phi + self.Ja * self.axial_spin() * t * (1.0 / self.Ja - 1.0 / self.Jt) + 2.0 * turned
     }
 
-    /// φ at time `t` \[s], whole turns included: spin plus swept solid angle (ORACLES.md, `paper`), where
+    /// φ at time `t` \[s], whole turns included: spin plus swept solid angle (eq. 19), where
     /// (1 − cos θ)dψ = e·(t×dt)/(1 + cos θ) and dt/dt = K×t/Jt. `panels`: parts of the quadrature.
     pub fn phi(&self, t: f64, panels: usize) -> f64 {
         let momentum = self.momentum();
@@ -79,7 +79,7 @@ impl FreeRotor {
 
 /// Steady whirl of the rotor on its elastic support (c2 too), with gravity g along −e.
 ///
-/// Source: ORACLES.md 1 and 4: ρ = c1 l sin θ/(c1 − mΩ²), r_c = (l cos θ − m g/c1, ρ cos Ωt, ρ sin Ωt),
+/// It solves eq. 12 (derived here): ρ = c1 l sin θ/(c1 − mΩ²), r_c = (l cos θ − m g/c1, ρ cos Ωt, ρ sin Ωt),
 /// γ = θ(0, −sin Ωt, cos Ωt), ω_a = [Jt Ω cos θ + l² c1 mΩ cos θ/(c1 − mΩ²) − c2 θ/(Ω sin θ) + m g l/Ω]/Ja.
 #[derive(Clone, Debug)]
 #[allow(non_snake_case, reason = "the paper's symbols")]
@@ -155,7 +155,7 @@ impl Whirl {
 
 /// The whirl rates of small motions about the straight rotor without gravity, in order [rad/s].
 ///
-/// Source: ORACLES.md 5: (c1 − mΩ²)(c2 + l²c1 + Ja ω Ω − Jt Ω²) = (c1 l)²; the roots lie between the poles and beyond.
+/// Eq. 12, linear in the displacement and the tilt: (c1 − mΩ²)(c2 + l²c1 + Ja ω Ω − Jt Ω²) = (c1 l)²; the roots lie between the poles and beyond.
 pub fn small_whirl(paper: &Whirl, spin: f64) -> [f64; 4] {
     let defect = |w: f64| {
         let tilt = paper.c2 + paper.l * paper.l * paper.c1 + paper.Ja * spin * w - paper.Jt * w * w;
@@ -168,7 +168,7 @@ pub fn small_whirl(paper: &Whirl, spin: f64) -> [f64; 4] {
 
 /// m ẍ + d ẋ + c x = 0.
 ///
-/// Source: ORACLES.md 9; any textbook. Under-, over- and critically damped.
+/// Source: any textbook. Under-, over- and critically damped.
 #[derive(Clone, Copy, Debug)]
 pub struct Oscillator {
     /// Inertia: m \[kg], or Jt [kg·m²] where x is an angle.

@@ -37,7 +37,7 @@ impl Lagrange {
 
 /// The rates Ω [rad/s] of small motions e^(iΩt) of an upright top on an elastic pivot; with Im Ω < 0 they grow.
 ///
-/// Source: ORACLES.md 4 and 5, linear in the tilt, gravity in place of the tilt spring:
+/// Eq. 12, linear in the tilt, gravity in place of the tilt spring:
 /// (c1 − mΩ²)(l²c1 − m g l + Ja ω Ω − Jt Ω²) = (c1 l)².
 #[allow(non_snake_case, reason = "the paper's symbols")]
 #[derive(Clone, Copy, Debug)]

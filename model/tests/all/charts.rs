@@ -1,4 +1,4 @@
-//! The two charts against the closed form of the torque-free symmetric rotor (ORACLES.md item 2): passages of the
+//! The two charts against the closed form of the torque-free symmetric rotor: passages of the
 //! antipode −e at distances down to 0, whirl about it, and φ with all its turns.
 
 use crate::harness::{Method, Scene, at, times, within};

@@ -48,7 +48,7 @@ fn exact_small_whirl_frequencies() {
     }
 }
 
-/// The modes about the sag to five or six digits (ORACLES.md 5) [rad/s].
+/// The modes about the sag to five or six digits, by an independent program [rad/s].
 const SAGGED: [f64; 5] = [10.363, 11.684, 20.0, 104.519, 203.198];
 
 #[test]

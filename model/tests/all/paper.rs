@@ -76,7 +76,7 @@ fn literature_axial_rate_stays_within_a_tenth_of_a_percent() {
         theta = largest([theta, motion.at.gamma.norm()]);
         r_a = largest([r_a, motion.station(-0.75).norm()]);
     }
-    // "Does not exceed 0.1 %" (paper, section 4); the digits of ORACLES.md.
+    // "Does not exceed 0.1 %" (paper, section 4).
     within("0.0702 %", (most - 0.0702).abs(), HALF_DIGIT);
     within("at 2.704 s", (when - 2.704).abs(), 10.0 * HALF_DIGIT);
     within("0.0449 % in the first second", (in_first_second - 0.0449).abs(), HALF_DIGIT);

@@ -8,7 +8,6 @@ use split_rotor_model::body::{Inertia, Shape};
 use split_rotor_model::dual::Tangent;
 use split_rotor_model::effects::{Act, All, CATALOGUE, Effects, Info, MOST_INDICATORS};
 use split_rotor_model::rotation::Chart;
-use split_rotor_model::scalar::Scalar;
 use split_rotor_model::state::{Coordinates, Kinematics};
 use split_rotor_model::variable::{Bound, Place, Role};
 

@@ -1,4 +1,4 @@
-//! The laws of EFFECTS.md as rates of the state.
+//! The laws of docs/theory.md, written here once more as rates of the state.
 
 use super::inputs::Inputs;
 use super::tabled::Tabled;

@@ -1,4 +1,4 @@
-//! Contact with a ring, EFFECTS.md's law of `rub` in its two branches: it presses, or it does not.
+//! Contact with a ring, the law of `rub` (eq. 97 to 99) in its two branches: it presses, or it does not.
 
 use super::Rub;
 use nalgebra::Vector3;

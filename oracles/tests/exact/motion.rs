@@ -90,7 +90,7 @@ fn exact_whirl_obeys_newton_and_euler() {
     within("defect of the whirl", worst, WHIRL_DEFECT);
 }
 
-/// ORACLES.md 5 gives four and five digits [rad/s].
+/// An independent program gave four and five digits [rad/s].
 const WHIRL_RATES: [(f64, f64); 4] = [(-104.43, 0.005), (-10.34, 0.005), (11.67, 0.005), (203.1, 0.05)];
 
 #[test]

@@ -32,7 +32,7 @@ fn precessing(spin: f64, bounds: [f64; 4]) -> Case {
     Case {
         name: format!("precession at {spin:e} rad/s, 1 s"),
         hard: "the nutation's rate holds explicit steps by stability",
-        oracle: "steady whirl in closed form (ORACLES.md 1)",
+        oracle: "steady whirl in closed form",
         scene: "paper",
         methods: methods.into_iter().zip(bounds).collect(),
         mutant: ("support.c2", 1.01),
@@ -47,7 +47,7 @@ fn nutating(spin: f64, bounds: [f64; 3]) -> Case {
     Case {
         name: format!("nutation at {spin:e} rad/s, 0.1 s"),
         hard: "the fast motion itself is wanted",
-        oracle: "steady whirl in closed form (ORACLES.md 1)",
+        oracle: "steady whirl in closed form",
         scene: "paper",
         methods: methods.into_iter().zip(bounds).collect(),
         mutant: ("rotor.Jt", 1.0 + 1e-4),

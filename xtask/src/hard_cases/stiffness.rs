@@ -31,7 +31,7 @@ fn support(c1: f64, bounds: [f64; 3]) -> Case {
     Case {
         name: format!("support of {c1:e} N/m, {end} s"),
         hard: if c1 < 1e3 { "springs next to nothing" } else { "fast motion of the support beside a slow one" },
-        oracle: "steady whirl in closed form (ORACLES.md 1)",
+        oracle: "steady whirl in closed form",
         scene: "paper",
         methods: methods.into_iter().zip(bounds).collect(),
         mutant: ("support.c2", 1.001),

@@ -30,7 +30,7 @@ fn late() -> Case {
     Case {
         name: "start at t = 10⁹ s, 10 s in quarters".into(),
         hard: "a double knows that time to 1.2e-7 s",
-        oracle: "steady whirl in closed form (ORACLES.md 1)",
+        oracle: "steady whirl in closed form",
         scene: "paper",
         methods: usual([7e-12, 8e-10, 6e-8], [(symplectic(8, 1.0 / 1024.0), 1.5e-10), (at("auto", 1e-8), 2e-7)]),
         mutant: ("support.c2", 1.0 + 1e-5),
@@ -46,7 +46,7 @@ fn steps(from: f64, h: f64, count: u32, bounds: [f64; 3]) -> Case {
     Case {
         name: format!("{count} communication steps of {h:.3e} s from t = {from:e} s"),
         hard: "solver and communication steps of different sizes",
-        oracle: "steady whirl in closed form (ORACLES.md 1); steps counted",
+        oracle: "steady whirl in closed form; steps counted",
         scene: "paper",
         methods: methods.into_iter().zip(bounds).collect(),
         mutant: ("start.omega.y", 1.001),

@@ -23,7 +23,7 @@ fn steady() -> Case {
     Case {
         name: "Lagrange's top, steady at 0.6 rad".into(),
         hard: "gravity, spin and an elastic pivot balance",
-        oracle: "steady whirl in closed form (ORACLES.md 4)",
+        oracle: "steady whirl in closed form",
         scene: "paper",
         methods: usual([2e-12, 3e-12, 3e-10], []),
         mutant: ("gravity.g.x", 1.0 + 1e-6),

@@ -7,7 +7,7 @@ use oracles::motion::{Whirl, small_whirl};
 use std::f64::consts::TAU;
 
 /// The closed form of all of these.
-const STEADY: &str = "steady whirl in closed form (ORACLES.md 1)";
+const STEADY: &str = "steady whirl in closed form";
 
 /// Tilt \[rad] of a whirl at 100 rad/s, and the bounds of dop853, dopri5, stiff and symplectic.
 const TILTS: [(f64, [f64; 4]); 9] = [
