@@ -145,3 +145,31 @@ fn regress_a_start_on_the_ring_is_an_event_to_come() {
         pressed = rotor.get("rub[1].F.z");
     }
 }
+
+/// A swing whose peak just touches the ring, wherever in a step that comes: contacts of a two hundredth of a step are heard.
+#[test]
+fn a_touch_is_heard_anywhere_in_a_step() {
+    const PHASES: u32 = 1500;
+    /// Angle of the swing [rad] that the touch takes: steps of dop853 take some 2 rad.
+    const TOUCH: f64 = 0.01;
+    let (rate, amplitude) = (20.0, 0.01);
+    let gap = amplitude * libm::cos(0.5 * TOUCH);
+    let mut unheard = Vec::new();
+    for n in 0..PHASES {
+        let phase = 1.0 + 2.5 * f64::from(n) / f64::from(PHASES);
+        let mut rotor = Named::written(&format!(
+            "rotor = {{ m = 5.0, Ja = 0.15625, Jt = 0.078125, l = 0.0 }}\nstart.r_c.z = {:?}\nstart.v_c.z = {:?}\n\
+             solver = {{ method = \"dop853\", relative_tolerance = 1e-6 }}\n[effects]\nsupport.c1 = {:?}\n\
+             rub = [{{ position = 0.0, gap = {gap:?}, stiffness = 1e3, damping = 1.0, radius = 0.0, v0 = 1.0 }}]",
+            amplitude * libm::cos(phase),
+            amplitude * rate * libm::sin(phase),
+            5.0 * rate * rate,
+        ));
+        rotor.start();
+        at(&mut rotor.simulation, (phase + 1.0) / rate);
+        if rotor.get("energy.dissipated") == 0.0 {
+            unheard.push(phase);
+        }
+    }
+    assert!(unheard.is_empty(), "{unheard:?} rad before the touch");
+}
