@@ -120,6 +120,12 @@ pub trait Effect: Clone + Default + Send + 'static {
         [0.0; MOST_OWN]
     }
 
+    /// How fast its own states die out, with its present parameters [1/s]: a composition steps backwards too, where they grow, and so takes
+    /// no step that is longer than one over this.
+    fn own_decay(&self) -> f64 {
+        if Self::OWN > 0 { f64::INFINITY } else { 0.0 }
+    }
+
     /// What its own states count with until they have been larger, in their units, > 0.
     fn own_nominal(&self) -> [f64; MOST_OWN] {
         [1.0; MOST_OWN]

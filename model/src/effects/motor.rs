@@ -99,6 +99,10 @@ impl Effect for Motor {
         own
     }
 
+    fn own_decay(&self) -> f64 {
+        if self.time_constant > 0.0 { 1.0 / self.time_constant } else { 0.0 }
+    }
+
     fn own_nominal(&self) -> [f64; MOST_OWN] {
         [if self.stall_torque > 0.0 { self.stall_torque } else { 1.0 }; MOST_OWN]
     }

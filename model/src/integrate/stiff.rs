@@ -15,6 +15,7 @@ use crate::scalar::ulp;
 use crate::stored::stored;
 use collocation::Collocation;
 use radau::{ERROR, STAGES, combined, weights};
+use spectrum::spectral_radius;
 use std::ops::Range;
 
 /// A system that knows its derivatives.
@@ -79,6 +80,9 @@ const PRECISION: f64 = 0.1;
 
 /// A first step is no longer than this \[s].
 const LONGEST_FIRST: f64 = 1e-2;
+
+/// Under a new law the first step spans no more than this of the fastest motion's phase \[rad].
+const FRESH: f64 = 0.5;
 
 /// Its equations round about so many sums one after another.
 const SUMS: f64 = 10.0;
@@ -187,6 +191,17 @@ impl<const N: usize> Stiff<N> {
         self.y = y;
         self.rate = self.evaluate(system, self.t, &y);
         self.smooth = false;
+    }
+
+    /// Goes on under another law, whose fastest motion may be one that the last step knew nothing of: a long step would take it for what
+    /// has died out, and a hard ring would catch what it must throw back.
+    pub fn go_on_under(&mut self, system: &impl Differentiable<N>, y: [f64; N]) {
+        self.go_on_from(system, y);
+        let rate = spectral_radius(&system.jacobian(self.t, &y), system.depended_on());
+        self.cost.evaluations += system.differentiated() as f64;
+        if rate > 0.0 {
+            self.limit_step(FRESH / rate);
+        }
     }
 
     /// Replaces a component of the state on which the rates do not depend.

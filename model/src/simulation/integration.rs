@@ -6,7 +6,7 @@ use super::growth::Watch;
 use super::method::Method;
 use super::plan::Plan;
 use super::start::{Motion, tolerance};
-use crate::effects::Effects;
+use crate::effects::{Block, Effects};
 use crate::energy::{Ledger, kinetic};
 use crate::integrate::{Cost, Fault, Refusal, Tolerance};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
@@ -105,6 +105,9 @@ const LONGEST_TURN: f64 = 16.0 * TAU;
 /// γ \[rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
 /// keep the step from growing beyond what its dense output can follow.
 const LONGEST_TILT: f64 = 1.0;
+
+/// An exact drift in which events are looked for nutates by at most so much \[rad], so that places in it tell where a station goes.
+const LONGEST_LOOK: f64 = 1.0;
 
 /// The azimuth of γ from −e \[rad] advances by about so much at most in a step, so that its turns can be counted.
 const LONGEST_WHIRL: f64 = 1.0;
@@ -271,7 +274,7 @@ impl<const N: usize> Integration<N> {
                 let y = *self.method.state();
                 let motion = self.frame.under(effects).motion(self.method.time(), &y);
                 self.events.switch(effects, &motion, &y);
-                self.method.go_on_from(&self.frame.under(effects), y);
+                self.method.go_on_under(&self.frame.under(effects));
             }
             let before = self.method.time();
             // Laws that switch to and fro in one place must still go on.
@@ -339,8 +342,17 @@ impl<const N: usize> Integration<N> {
     }
 
     /// A step that keeps to what the chart and the counting of turns allow.
-    fn limit_step(&mut self) {
-        let Some(rates) = self.method.rate() else { return };
+    fn limit_step<E: Effects>(&mut self, effects: &E) {
+        let Some(rates) = self.method.rate() else {
+            if self.frame.has_events() {
+                self.method.limit_step(LONGEST_LOOK / self.nutation().sqrt());
+            }
+            if E::FACTS.own > 0 {
+                let decay = effects.active().map(Block::own_decay).fold(0.0, f64::max);
+                self.method.limit_step(1.0 / decay);
+            }
+            return;
+        };
         let (at, rate) = (gamma(self.method.state()), gamma(rates));
         // Mostly nothing limits the step, and products tell: divisions and roots would hold up the next step.
         let (h, turning) = (self.method.next_step(), rigid(rates)[PHI].abs());
@@ -348,9 +360,7 @@ impl<const N: usize> Integration<N> {
             self.method.limit_step(LONGEST_TURN / turning);
         }
         // A nutation that nothing damps would grow out of rounding, unseen until it is as large as what moves the axis.
-        let nutation = Coordinates::from_slice(rigid(self.method.state())).k.norm_squared()
-            * self.frame.body.per_jt
-            * self.frame.body.per_jt;
+        let nutation = self.nutation();
         if let Some(most) = self.method.swings()
             && nutation * h * h > most * most
         {
@@ -365,6 +375,13 @@ impl<const N: usize> Integration<N> {
             // dβ/dt = e·(γ×dγ/dt)/|γ|²
             self.method.limit_step(LONGEST_WHIRL * at.norm_squared() / at.perp(&rate).abs());
         }
+    }
+
+    /// The square of the rate at which the axis nutates [1/s²].
+    #[inline(always)]
+    fn nutation(&self) -> f64 {
+        let k = Coordinates::from_slice(rigid(self.method.state())).k;
+        k.norm_squared() * self.frame.body.per_jt * self.frame.body.per_jt
     }
 
     /// A step, or the part of it up to the first event.
@@ -393,7 +410,7 @@ impl<const N: usize> Integration<N> {
     }
 
     fn step<E: Effects>(&mut self, effects: &E, most: f64, until: f64) -> Result<(), Fault> {
-        self.limit_step();
+        self.limit_step(effects);
         let rotor = self.frame.under(effects);
         // Near −e a step can pass where it may not end; then it is taken back.
         let counts_turns = self.method.counts_turns();

@@ -142,6 +142,16 @@ impl<const N: usize> Method<N> {
         }
     }
 
+    /// Goes on from the state reached under another law.
+    pub fn go_on_under<E: Effects>(&mut self, rotor: &Rotor<'_, E>) {
+        let y = *self.state();
+        match self {
+            OfPair(method) => method.go_on_from(rotor, y),
+            OfComposition(method) => method.go_on_from(y),
+            OfCollocation(method) => method.go_on_under(rotor, y),
+        }
+    }
+
     /// Replaces a component of the state on which the rates do not depend.
     pub fn replace(&mut self, component: usize, value: f64) {
         each!(self, method => method.replace(component, value));

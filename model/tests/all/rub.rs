@@ -173,3 +173,52 @@ fn a_touch_is_heard_anywhere_in_a_step() {
     }
     assert!(unheard.is_empty(), "{unheard:?} rad before the touch");
 }
+
+/// A hard ring throws back what falls on it, whichever method is at work: `stiff` took its long step of the free fall into the contact,
+/// and the rotor lay still.
+#[test]
+fn regress_a_hard_ring_throws_back() {
+    for (method, tolerance) in ["auto", "stiff", "dop853"].into_iter().flat_map(|m| [1e-3, 1e-4, 1e-6].map(|t| (m, t)))
+    {
+        for stiffness in [1e7, 1e9, 1e11] {
+            let mut rotor = Named::started(&format!(
+                "rotor = {{ m = {M:?}, Ja = 0.15625, Jt = 0.078125, l = 0.0 }}\nstart.r_c.z = 0.005\nstart.omega.x = 50.0\n\
+                 solver = {{ method = \"{method}\", relative_tolerance = {tolerance:e} }}\n[effects]\ngravity.g.z = -{G:?}\n\
+                 bearing = [{{ position = 0.0, kt = 1e6 }}]\n\
+                 rub = [{{ position = 0.0, gap = {GAP:?}, stiffness = {stiffness:e}, radius = 0.0, v0 = 1.0 }}]"
+            ));
+            let reading = at(&mut rotor.simulation, 0.5);
+            let (lost, fallen) = (reading.ledger.residual().abs(), M * G * 1.5 * GAP);
+            println!(
+                "{method} {tolerance:e} {stiffness:e}: {:.1e}, {} evaluations",
+                lost / fallen,
+                reading.cost.evaluations
+            );
+            assert!(
+                lost < 100.0 * tolerance * fallen,
+                "{method} at {tolerance:e} on {stiffness:e} N/m: {:e} of the energy lost",
+                lost / fallen
+            );
+        }
+    }
+}
+
+/// Drifts are exact however long, but where a station touches a ring on the way must be seen.
+#[test]
+fn regress_an_exact_drift_does_not_pass_through_a_ring() {
+    let last = |method: &str, tolerance: f64| {
+        let mut rotor = Named::started(&format!(
+            "rotor = {{ m = 5.0, Ja = 0.15625, Jt = 0.078125, l = 0.0 }}\n\
+             start = {{ r_c.y = 0.02, omega = {{ x = 40.0, y = 2.0 }}, gamma.y = 0.03 }}\n\
+             solver = {{ method = \"{method}\", relative_tolerance = {tolerance:e} }}\n[effects]\n\
+             rub = [{{ position = 0.5, gap = 0.045, stiffness = 1e4, radius = 0.0, v0 = 1.0 }}]"
+        ));
+        at(&mut rotor.simulation, 2.0).motion.v_c()
+    };
+    let truth = last("dop853", 1e-12);
+    for tolerance in [1e-4, 1e-6, 1e-8, 1e-10] {
+        let error = (last("symplectic", tolerance) - truth).norm() / truth.norm();
+        println!("{tolerance:e}: {error:e}");
+        assert!(error < 300.0 * tolerance, "{tolerance:e}: {error:e}");
+    }
+}

@@ -81,6 +81,8 @@ pub trait Block {
     fn begin(&mut self, start: &Motion<f64>);
     /// Its own states there.
     fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN];
+    /// How fast they die out [1/s].
+    fn own_decay(&self) -> f64;
     /// What they count with until they have been larger.
     fn own_nominal(&self) -> [f64; MOST_OWN];
     /// Hears that a communication step begins at time `t` \[s].

@@ -232,6 +232,10 @@ impl<M: Member> Block for M {
         self.effect().own_at_start(start)
     }
 
+    fn own_decay(&self) -> f64 {
+        self.effect().own_decay()
+    }
+
     fn own_nominal(&self) -> [f64; MOST_OWN] {
         self.effect().own_nominal()
     }
