@@ -125,8 +125,8 @@ impl Scene {
             experiment: found.experiment,
         };
         scene.parameters().check().map_err(|invalid| {
-            // A bound on several components, such as |start.gamma|, is shown at the first that the file names.
-            let name = invalid.variable.trim_matches('|');
+            // A bound on several components, such as |start.gamma|, or on a table is shown at the first that the file names.
+            let name = invalid.variable.trim_matches('|').split(' ').next().unwrap_or_default();
             let line = found.lines.iter().find(|(key, _)| key.starts_with(name)).map(|(_, line)| *line);
             file_error(line, invalid.to_string())
         })?;

@@ -40,7 +40,7 @@ def test_exact_members_are_inputs_and_outputs(fmu, root):
         assert len({member.get("memberName") for member in members}) == len(members) > 0
 
 
-def test_exact_a_shaft_is_a_terminal(fmu, root):
+def test_exact_a_drive_is_a_terminal(fmu, root):
     named = {terminal.get("name"): terminal for terminal in root.findall("Terminals/Terminal")}
     ports = [name for name in named if re.fullmatch(r"port\[\d\]", name)]
     assert set(ports) == {name.partition(".")[0] for name in fmu.variables if name.startswith("port[")}

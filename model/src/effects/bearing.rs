@@ -159,7 +159,8 @@ fn check_damping([cyy, cyz, czy, czz]: [f64; 4], at: &str) -> Result<(), Invalid
         "such that (cyz + czy)/2 is at most sqrt(cyy czz) = {most:?} in size{at}, or the bearing would drive what it damps"
     );
     let (name, value) = if cyz == 0.0 { ("czy", czy) } else { ("cyz", cyz) };
-    Err(Invalid::new(name, value, bound))
+    let with_table = if at.is_empty() { "" } else { " with its table" };
+    Err(Invalid::new(format!("{name}{with_table}"), value, bound))
 }
 
 /// (axial x, A q).

@@ -24,7 +24,7 @@ fn shown(spin: f64, settings: &[(&str, f64)]) -> Vec<[f64; 6]> {
 const BETWEEN: f64 = 100.0;
 
 #[test]
-fn a_first_step_over_many_nods_shows_no_nonsense() {
+fn a_first_step_over_many_nutations_shows_no_nonsense() {
     for spin in [3e3, 1e4, 1e5] {
         let exact = shown(spin, &[("solver.method", 4.0), ("solver.order", 8.0), ("solver.step_size", 0.5 / spin)]);
         for method in [2.0, 3.0] {

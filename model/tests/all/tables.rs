@@ -266,6 +266,10 @@ fn tables_that_are_not_right_are_refused() {
         ),
         (
             "speed = [0.0, 100.0]\ncyy = [4.0, 0.0]\nczz = [4.0, 0.0]\ncyz = [0.0, 1.0]\n",
+            "line 11: bearing[1].cyz with its table = 0.",
+        ),
+        (
+            "speed = [0.0, 100.0]\ncyy = [4.0, 0.0]\nczz = [4.0, 0.0]\ncyz = [0.0, 1.0]\n",
             "in size at 81.81818181818183 rad/s, or the bearing would drive what it damps",
         ),
     ] {

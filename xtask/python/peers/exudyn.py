@@ -17,7 +17,7 @@ READ = ("Position", "Velocity", "AngularVelocity", "RotationMatrix")
 
 
 def support(rotor):
-    """The wrench of support and shaft at the end a of the rotor, in O, with the sign of Exudyn's springs."""
+    """The wrench of support and drive at the end a of the rotor, in O, with the sign of Exudyn's springs."""
     c1, c2, d1, d2, tau = (getattr(rotor, name) for name in ("c1", "c2", "d1", "d2", "tau"))
 
     def wrench(_mbs, _t, _item, displacement, rotation, velocity, omega, *_parameters):
@@ -32,14 +32,14 @@ def support(rotor):
         sine = math.hypot(t_y, t_z)
         f = c2 * (math.atan2(sine, t_x) / sine if sine else 1.0)
         # eq. 14: F = −c1 r_a − d1 v_a, M = −c2 γ − d2 t×(dt/dt); eq. 32: M = τ n
-        along, shaft = d2 * (w_x * t_x + w_y * t_y + w_z * t_z), tau / (1.0 + t_x)
+        along, drive = d2 * (w_x * t_x + w_y * t_y + w_z * t_z), tau / (1.0 + t_x)
         return [
             c1 * x + d1 * v_x,
             c1 * y + d1 * v_y,
             c1 * z + d1 * v_z,
             d2 * w_x - along * t_x - tau,
-            d2 * w_y - along * t_y - f * t_z - shaft * t_y,
-            d2 * w_z - along * t_z + f * t_y - shaft * t_z,
+            d2 * w_y - along * t_y - f * t_z - drive * t_y,
+            d2 * w_z - along * t_z + f * t_y - drive * t_z,
         ]
 
     return wrench

@@ -21,7 +21,7 @@ MODEL = """
 
 
 def support(rotor):
-    """The callback that adds the wrench of support and shaft: the force in O, the moment in the body's frame."""
+    """The callback that adds the wrench of support and drive: the force in O, the moment in the body's frame."""
     l, c1, c2, d1, d2, tau = (getattr(rotor, name) for name in ("l", "c1", "c2", "d1", "d2", "tau"))
 
     def passive(_model, data):
@@ -40,10 +40,10 @@ def support(rotor):
         F_z = -c1 * (z - l * t_z) - d1 * (v_z - l * dt_z)
         sine = math.hypot(t_y, t_z)
         f = c2 * (math.atan2(sine, t_x) / sine if sine else 1.0)
-        shaft = tau / (1.0 + t_x)
+        drive = tau / (1.0 + t_x)
         M_x = l * (F_y * t_z - F_z * t_y) + tau
-        M_y = l * (F_z * t_x - F_x * t_z) + f * t_z + shaft * t_y
-        M_z = l * (F_x * t_y - F_y * t_x) - f * t_y + shaft * t_z
+        M_y = l * (F_z * t_x - F_x * t_z) + f * t_z + drive * t_y
+        M_z = l * (F_x * t_y - F_y * t_x) - f * t_y + drive * t_z
         data.qfrc_passive[:] = (
             F_x,
             F_y,
