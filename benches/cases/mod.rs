@@ -114,7 +114,7 @@ pub struct Copied;
 
 impl<const N: usize> System<N> for Copied {
     #[inline(always)]
-    fn rates<const ALL: bool>(&self, _t: f64, y: &[f64; N]) -> [f64; N] {
+    fn rates<const ALL: bool, const USUAL: bool>(&self, _t: f64, y: &[f64; N]) -> [f64; N] {
         *y
     }
 

@@ -42,13 +42,24 @@ pub trait System<const N: usize> {
         self.depended_on()
     }
 
-    /// f(t, y); where not `ALL` is solved, of the first [`System::ALWAYS`] components, and zeros of the others.
-    fn rates<const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N];
+    /// Whether the system is as it is nearly always: those rates are written into every stage of a step, all others are called.
+    fn is_usual(&self) -> bool {
+        true
+    }
+
+    /// f(t, y); where not `ALL` is solved, of the first [`System::ALWAYS`] components, and zeros of the others. `USUAL`: the caller
+    /// knows that the system [is](System::is_usual).
+    fn rates<const ALL: bool, const USUAL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N];
 
     /// f(t, y) of what is solved.
     #[inline]
     fn rates_of_all(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        if self.solves_all() { self.rates::<true>(t, y) } else { self.rates::<false>(t, y) }
+        match (self.solves_all(), self.is_usual()) {
+            (true, true) => self.rates::<true, true>(t, y),
+            (true, false) => self.rates::<true, false>(t, y),
+            (false, true) => self.rates::<false, true>(t, y),
+            (false, false) => self.rates::<false, false>(t, y),
+        }
     }
 
     /// Whether a step may end at y; the reason where it may not.

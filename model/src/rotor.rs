@@ -236,23 +236,21 @@ impl<'e, E: Effects> Rotor<'e, E> {
         all_rates::<S, E, N, ALL>(self.effects, &motion, &y[..own(N)])
     }
 
-    /// The same in the rarer chart, called: beside it in every stage, the common one would wait for registers.
+    /// The same in any form, called: beside it in every stage, the usual one would wait for registers.
     #[inline(never)]
-    fn rates_from_minus_e<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        self.rates_in::<f64, N, ALL>(Chart::FromMinusE, t, y)
+    fn rates_called<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        // Once for each chart, so that neither asks again which one it is.
+        match self.frame.chart {
+            Chart::FromE => self.rates_in::<f64, N, ALL>(Chart::FromE, t, y),
+            Chart::FromMinusE => self.rates_in::<f64, N, ALL>(Chart::FromMinusE, t, y),
+        }
     }
 
-    /// The same where effects have switches, called: it is too long to stand in every stage of a method. `PLAIN`: the body is symmetric,
-    /// and no speed is imposed.
+    /// The usual rates where effects have switches, called: they are too long to stand in every stage of a method.
     #[inline(never)]
-    fn rates_of_switched<const N: usize, const ALL: bool, const PLAIN: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = if PLAIN {
-            let body = self.frame.body.symmetric();
-            Kinematics::new(body, self.frame.chart, Coordinates::from_slice(rigid(y))).when(t, self.frame.turns)
-        } else {
-            self.motion(t, y)
-        };
-        all_rates::<f64, E, N, ALL>(self.effects, &motion, &y[..own(N)])
+    fn rates_of_switched<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        let motion = Kinematics::new(self.frame.body.symmetric(), Chart::FromE, Coordinates::from_slice(rigid(y)));
+        all_rates::<f64, E, N, ALL>(self.effects, &motion.when(t, self.frame.turns), &y[..own(N)])
     }
 
     /// Whether a state may have this γ \[rad] in the chart, whose own reach is told, under these effects.
@@ -287,27 +285,22 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     /// Where its state has room for the work.
     #[inline(always)]
     fn solves_all(&self) -> bool {
-        N >= WITH_WORK && self.frame.works
+        N >= WITH_WORK && E::FACTS.could_work && self.frame.works
+    }
+
+    /// In the chart from e; where effects have switches, of a symmetric body on which none imposes a speed.
+    #[inline(always)]
+    fn is_usual(&self) -> bool {
+        let plain = || self.frame.body.asymmetric.is_none() && self.effects.imposed(0.0).is_none();
+        self.frame.chart == Chart::FromE && (!E::FACTS.switched || plain())
     }
 
     #[inline(always)]
-    fn rates<const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        if E::FACTS.switched {
-            let plain = self.frame.body.asymmetric.is_none() && self.effects.imposed(t).is_none();
-            return if plain {
-                self.rates_of_switched::<N, ALL, true>(t, y)
-            } else {
-                self.rates_of_switched::<N, ALL, false>(t, y)
-            };
-        }
-        // Once for each chart, so that neither asks again which one it is.
-        match self.frame.chart {
-            Chart::FromE => self.rates_in::<f64, N, ALL>(Chart::FromE, t, y),
-            Chart::FromMinusE => {
-                let rates = self.rates_from_minus_e::<N, ALL>(t, y);
-                // One by one, or the compiler would hand over those of the other chart in memory, too.
-                std::array::from_fn(|n| rates[n])
-            }
+    fn rates<const ALL: bool, const USUAL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+        match (USUAL, E::FACTS.switched) {
+            (true, false) => self.rates_in::<f64, N, ALL>(Chart::FromE, t, y),
+            (true, true) => self.rates_of_switched::<N, ALL>(t, y),
+            (false, _) => self.rates_called::<N, ALL>(t, y),
         }
     }
 
@@ -334,14 +327,24 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
 impl<E: Effects, const N: usize> Differentiable<N> for Rotor<'_, E> {
     fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
         // Nothing depends on the quadratures.
-        let size = System::<N>::depended_on(self);
-        let moving = |n: usize| if n < size { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
-        let state: [Dual<N>; N] = std::array::from_fn(moving);
+        match System::<N>::depended_on(self) {
+            ..=PHI => self.jacobian_along::<PHI, N>(t, y),
+            ..=COORDINATES => self.jacobian_along::<COORDINATES, N>(t, y),
+            _ => self.jacobian_along::<N, N>(t, y),
+        }
+    }
+}
+
+impl<E: Effects> Rotor<'_, E> {
+    /// The derivatives along the first D numbers of the state: nothing depends on the others.
+    fn jacobian_along<const D: usize, const N: usize>(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
+        let moving = |n: usize| if n < D { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
+        let state: [Dual<D>; N] = std::array::from_fn(moving);
         let rates = if System::<N>::solves_all(self) {
             self.rates_in::<_, N, true>(self.frame.chart, t, &state)
         } else {
             self.rates_in::<_, N, false>(self.frame.chart, t, &state)
         };
-        rates.map(|rate| rate.eps)
+        rates.map(|rate| std::array::from_fn(|n| if n < D { rate.eps[n] } else { 0.0 }))
     }
 }

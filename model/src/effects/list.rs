@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Effect, InputSet, MOST_OWN, Motion, SWITCH};
+use super::{Act, Effect, InputSet, MOST_OWN, Motion, SWITCH, Wrench};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
@@ -55,8 +55,11 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// What is known of them while they are compiled.
     const FACTS: Facts;
 
-    /// What they do together. `own` are their states, in their order.
+    /// What they do together, but for the energy that they store. `own` are their states, in their order.
     fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S>;
+
+    /// Their potential energy \[J].
+    fn stored<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> S;
 
     /// The rates of their own states.
     fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]);
@@ -314,7 +317,12 @@ impl Effects for () {
 
     #[inline(always)]
     fn act<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S]) -> Act<S> {
-        Act { stored: S::zero(), supply: S::zero(), loss: S::zero(), ..Act::none() }
+        Act { supply: S::zero(), loss: S::zero(), ..Act::none() }
+    }
+
+    #[inline(always)]
+    fn stored<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S]) -> S {
+        S::zero()
     }
 
     #[inline(always)]
@@ -346,10 +354,11 @@ impl Effects for () {
     }
 }
 
-/// What an effect does that has these states, called: over a scalar with derivatives its law is too long to stand in every sum.
+/// What rates need of what an effect does, called: over a scalar with derivatives its law is too long to stand in every sum.
 #[inline(never)]
-fn called<E: Effect, S: Scalar>(effect: &E, motion: &Motion<S>) -> Act<S> {
-    effect.act(motion)
+fn called<E: Effect, S: Scalar>(effect: &E, motion: &Motion<S>) -> (Wrench<S>, Wrench<S>, S, S) {
+    let Act { load, damping, supply, loss, .. } = effect.act(motion);
+    (load, damping, supply, loss)
 }
 
 /// An effect and the rest of the list.
@@ -377,10 +386,20 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         let rest = self.1.act(motion, others);
         let seen = Motion::new(motion, mine);
         match self.0.active() {
-            Some(effect) if S::LONG => called(effect, &seen) + rest,
+            Some(effect) if S::LONG => {
+                let (load, damping, supply, loss) = called(effect, &seen);
+                Act { load, damping, supply, loss, ..Act::none() } + rest
+            }
             Some(effect) => effect.act(&seen) + rest,
             None => rest,
         }
+    }
+
+    #[inline(always)]
+    fn stored<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> S {
+        let (mine, others) = own.split_at(H::Effect::OWN);
+        let rest = self.1.stored(motion, others);
+        self.0.active().map_or(rest, |effect| effect.act(&Motion::new(motion, mine)).stored + rest)
     }
 
     #[inline(always)]

@@ -57,7 +57,7 @@ fn mount() -> Mount {
 /// Total energy [J] of a body of this shape in a chart.
 fn total(shape: f64, chart: Chart, at: Coordinates<f64>) -> f64 {
     let motion = Kinematics::new(Body { m: 5.0, Ja: shape * 0.078125, Jt: 0.078125, l: 0.75 }.into(), chart, at);
-    energy::kinetic(&motion) + mount().act(&motion, &[]).stored
+    energy::kinetic(&motion) + mount().stored(&motion, &[])
 }
 
 /// eq. 26: γ′ = −(π − θ) γ/θ

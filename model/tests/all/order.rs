@@ -131,7 +131,7 @@ fn literature_every_order_condition_of_the_dense_output_holds() {
 struct Power(i32);
 
 impl System<1> for Power {
-    fn rates<const ALL: bool>(&self, t: f64, _y: &[f64; 1]) -> [f64; 1] {
+    fn rates<const ALL: bool, const USUAL: bool>(&self, t: f64, _y: &[f64; 1]) -> [f64; 1] {
         [(0..self.0).map(|_| t).product()]
     }
 

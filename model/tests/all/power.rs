@@ -102,7 +102,7 @@ fn exact_power_of_each_effect() {
             let mut rates = [0.0; All::FACTS.own];
             effects.own_rates(&motion, &own, &mut rates);
             let moving_own: [Tangent; All::FACTS.own] = std::array::from_fn(|n| Tangent::along(own[n], rates[n]));
-            let [of_potential] = effects.act(&moving(&motion), &moving_own).stored.eps;
+            let [of_potential] = effects.stored(&moving(&motion), &moving_own).eps;
             let powers = [load.force.dot(&motion.v_c()), load.moment.dot(&motion.omega), of_potential, loss, -supply];
             let size = largest(powers.map(f64::abs)).max(1.0);
             worst = largest([worst, powers.iter().sum::<f64>().abs() / size]);

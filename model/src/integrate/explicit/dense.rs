@@ -81,7 +81,7 @@ impl<const N: usize> Explicit<N> {
         macro_rules! stages {
             ($($i:literal)*) => {$(
                 if P::TABLEAU.last < $i && $i < const { P::TABLEAU.count() } {
-                    newest = self.stage::<_, ALL>(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
+                    newest = self.stage::<_, ALL, false>(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
                     self.k[$i] = newest;
                 }
             )*};

@@ -9,23 +9,34 @@ use crate::integrate::tableau::{Combination, Dop853, Dopri5, ErrorRule, Pair, St
 impl<const N: usize> Explicit<N> {
     /// All stages of a step of size h from (t, y), and the error where it is asked for.
     pub(super) fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> Attempt<N> {
+        if system.is_usual() {
+            self.attempt_in::<_, ERROR, true>(system)
+        } else {
+            self.attempt_in::<_, ERROR, false>(system)
+        }
+    }
+
+    fn attempt_in<F: System<N>, const ERROR: bool, const USUAL: bool>(&mut self, system: &F) -> Attempt<N> {
         match (self.tableau == Dop853::TABLEAU, system.solves_all()) {
-            (true, true) => self.attempt_with::<Dop853, _, ERROR, true>(system),
-            (true, false) => self.attempt_with::<Dop853, _, ERROR, false>(system),
-            (false, true) => self.attempt_with::<Dopri5, _, ERROR, true>(system),
-            (false, false) => self.attempt_with::<Dopri5, _, ERROR, false>(system),
+            (true, true) => self.attempt_with::<Dop853, _, ERROR, true, USUAL>(system),
+            (true, false) => self.attempt_with::<Dop853, _, ERROR, false, USUAL>(system),
+            (false, true) => self.attempt_with::<Dopri5, _, ERROR, true, USUAL>(system),
+            (false, false) => self.attempt_with::<Dopri5, _, ERROR, false, USUAL>(system),
         }
     }
 
     /// [`Explicit::attempt`] with the coefficients as constants: every sum is written out by the compiler.
     #[inline(never)]
-    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool, const ALL: bool>(&mut self, system: &F) -> Attempt<N> {
+    fn attempt_with<P: Pair, F: System<N>, const ERROR: bool, const ALL: bool, const USUAL: bool>(
+        &mut self,
+        system: &F,
+    ) -> Attempt<N> {
         let (t, h, start) = (self.t, self.h, self.y);
         let mut newest = self.k[0];
         macro_rules! stages {
             ($($i:literal)*) => {$(
                 if $i < P::TABLEAU.last {
-                    newest = self.stage::<_, ALL>(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
+                    newest = self.stage::<_, ALL, USUAL>(system, (t, h, &start), const { P::TABLEAU.stage($i) }, &newest);
                     self.k[$i] = newest;
                 }
             )*};
@@ -41,7 +52,7 @@ impl<const N: usize> Explicit<N> {
         if early {
             attempt.error = self.error_norm::<P, F, ALL>(system, &attempt.seen);
         }
-        self.k[P::TABLEAU.last] = self.known(system.rates::<ALL>(t + h, &y));
+        self.k[P::TABLEAU.last] = self.known(system.rates::<ALL, USUAL>(t + h, &y));
         if late {
             attempt.error = self.error_norm::<P, F, ALL>(system, &attempt.seen);
         }
@@ -50,7 +61,7 @@ impl<const N: usize> Explicit<N> {
 
     /// A stage of a step of size h from (t, y), of those before it; `newest` is the last of them.
     #[inline(always)]
-    pub(super) fn stage<F: System<N>, const ALL: bool>(
+    pub(super) fn stage<F: System<N>, const ALL: bool, const USUAL: bool>(
         &mut self,
         system: &F,
         (t, h, y): (f64, f64, &[f64; N]),
@@ -59,7 +70,7 @@ impl<const N: usize> Explicit<N> {
     ) -> [f64; N] {
         let there = self.advanced::<F>(y, h, stage.a, newest);
         // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
-        self.known(system.rates::<ALL>(t + stage.c * h, &there))
+        self.known(system.rates::<ALL, USUAL>(t + stage.c * h, &there))
     }
 
     /// A rate that was evaluated.
