@@ -46,6 +46,9 @@ pub struct Bearing<const NODES: usize = 0> {
     memory: [f64; 2],
 }
 
+/// The columns of the table after that of the speeds.
+const COLUMNS: [&str; 8] = ["kyy", "kyz", "kzy", "kzz", "cyy", "cyz", "czy", "czz"];
+
 /// A symmetric damping that is within this of its bound \[1] is rounded.
 const ROUNDING: f64 = 1e-12;
 
@@ -151,8 +154,9 @@ impl<const NODES: usize> Bearing<NODES> {
 
 /// A bearing with this damping drives nothing; `at` tells where it has it.
 fn check_damping([cyy, cyz, czy, czz]: [f64; 4], at: &str) -> Result<(), Invalid> {
-    let most = (cyy * czz).sqrt();
-    if (0.5 * (cyz + czy)).abs() <= most * (1.0 + ROUNDING) {
+    // Halves and roots do not overflow.
+    let most = cyy.sqrt() * czz.sqrt();
+    if (0.5 * cyz + 0.5 * czy).abs() <= most * (1.0 + ROUNDING) {
         return Ok(());
     }
     let bound = format!(
@@ -161,6 +165,14 @@ fn check_damping([cyy, cyz, czy, czz]: [f64; 4], at: &str) -> Result<(), Invalid
     let (name, value) = if cyz == 0.0 { ("czy", czy) } else { ("cyz", cyz) };
     let with_table = if at.is_empty() { "" } else { " with its table" };
     Err(Invalid::new(format!("{name}{with_table}"), value, bound))
+}
+
+/// What damps and what a table adds to it do not overflow together.
+fn check_sums(sums: [f64; 4], at: &str) -> Result<(), Invalid> {
+    match (0..4).find(|n| !sums[*n].is_finite()) {
+        None => Ok(()),
+        Some(n) => Err(Invalid::new(format!("{} with its table", COLUMNS[4 + n]), sums[n], format!("finite{at}"))),
+    }
 }
 
 /// (axial x, A q).
@@ -316,10 +328,12 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
         if !self.table.is_given() {
             return check_damping(self.damping(), "");
         }
-        self.table.check()?;
+        self.table.check(&COLUMNS)?;
         let damping = self.damping();
         self.table.samples(CHECKED_BETWEEN).try_for_each(|(speed, table)| {
-            check_damping(std::array::from_fn(|n| damping[n] + table[4 + n]), &format!(" at {speed:?} rad/s"))
+            let (sums, at) = (std::array::from_fn(|n| damping[n] + table[4 + n]), format!(" at {speed:?} rad/s"));
+            check_sums(sums, &at)?;
+            check_damping(sums, &at)
         })
     }
 

@@ -31,10 +31,10 @@ struct Stretch<const COLUMNS: usize> {
 const EDGE: f64 = 1e-9;
 
 impl<const COLUMNS: usize, const NODES: usize> Default for Table<COLUMNS, NODES> {
-    /// Nodes at speeds that nothing reaches: what is held up to them is held for ever.
+    /// Nodes at speeds that nothing reaches, and sums of which do not overflow: what is held up to them is held for ever.
     fn default() -> Self {
         Self {
-            speed: std::array::from_fn(|n| f64::MAX * ((n + 1) as f64 / (2 * MOST_NODES) as f64)),
+            speed: std::array::from_fn(|n| f64::MAX * ((n + 1) as f64 / (8 * MOST_NODES) as f64)),
             values: [[0.0; COLUMNS]; NODES],
             stretch: None,
         }
@@ -70,15 +70,60 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
         number.into_iter().for_each(|number| *number = value);
     }
 
-    /// Speeds ascend.
-    pub fn check(&self) -> Result<(), Invalid> {
-        match (1..NODES).find(|n| self.speed[*n] <= self.speed[n - 1]) {
-            None => Ok(()),
-            Some(n) => {
-                let bound = format!("more than that of the node before, {:?} rad/s", self.speed[n - 1]);
-                Err(Invalid::new(format!("speed[{}]", n + 1), self.speed[n], bound))
-            }
+    /// Speeds ascend, and between them every curve is finite; the columns after that of the speeds have these names.
+    pub fn check(&self, names: &[&str; COLUMNS]) -> Result<(), Invalid> {
+        if let Some(n) = (1..NODES).find(|n| self.speed[*n] <= self.speed[n - 1]) {
+            return Err(self.falling(n));
         }
+        let mut all = (1..NODES).flat_map(|nodes| (0..COLUMNS).map(move |column| (nodes, column)));
+        match all.find(|(nodes, column)| !self.is_finite(*nodes, *column)) {
+            None => Ok(()),
+            Some((nodes, column)) => Err(self.blamed(nodes, column, names)),
+        }
+    }
+
+    /// The speed at the node of this number, from 0, is not above that before.
+    #[cold]
+    fn falling(&self, n: usize) -> Invalid {
+        let [before, here] = [self.speed[n - 1], self.speed[n]];
+        // A node that nobody gave stands where no speed is.
+        if here == Self::default().speed[n] {
+            return Invalid::new(format!("speed[{n}]"), before, format!("less than {here:?} rad/s"));
+        }
+        Invalid::new(format!("speed[{}]", n + 1), here, format!("more than that of the node before, {before:?} rad/s"))
+    }
+
+    /// Whether the curve of a column is finite above so many nodes, up to the next one.
+    fn is_finite(&self, nodes: usize, column: usize) -> bool {
+        let stretch = self.stretch(nodes);
+        let powers = stretch.cubics.iter().all(|of_power| of_power[column].is_finite());
+        powers && stretch.at(stretch.high)[column].is_finite()
+    }
+
+    /// What makes the curve of a column overflow above so many nodes: of the speeds and rises that its slopes are made of, the shortest or
+    /// the steepest, or a speed that is near the largest number that there is.
+    #[cold]
+    fn blamed(&self, nodes: usize, column: usize, names: &[&str; COLUMNS]) -> Invalid {
+        // Three times two neighbours are added up (eq. 100).
+        const LONGEST: f64 = f64::MAX / 6.0;
+        let speed = |n: usize| ("speed", n, [self.speed[n - 1], self.speed[n]]);
+        let value = |n: usize| (names[column], n, [n - 1, n].map(|n| self.values[n][column]));
+        let extremity = |[from, to]: [f64; 2], is_speed: bool| match to - from {
+            rise if !is_speed => rise.abs(),
+            span if span > LONGEST => f64::INFINITY,
+            span => span.recip(),
+        };
+        let near = (nodes.max(2) - 1..=(nodes + 1).min(NODES - 1)).flat_map(|n| [(speed(n), true), (value(n), false)]);
+        // Of two alike, the first.
+        let furthest = near.rev().max_by(|((.., one), of_one), ((.., other), of_other)| {
+            extremity(*one, *of_one).total_cmp(&extremity(*other, *of_other))
+        });
+        let ((name, n, [from, to]), _) = furthest.expect("a stretch ends at two nodes");
+        let bound = format!(
+            "nearer to or further from that of the node before, {from:?}: the curve of {} between them overflows",
+            names[column]
+        );
+        Invalid::new(format!("{name}[{}]", n + 1), to, bound)
     }
 
     /// The coefficients that a motion with a speed ≥ 0 [rad/s] meets; None where none is given.

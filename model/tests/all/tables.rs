@@ -272,10 +272,24 @@ fn tables_that_are_not_right_are_refused() {
             "speed = [0.0, 100.0]\ncyy = [4.0, 0.0]\nczz = [4.0, 0.0]\ncyz = [0.0, 1.0]\n",
             "in size at 81.81818181818183 rad/s, or the bearing would drive what it damps",
         ),
+        (
+            "speed = [0.0, 1e-300]\nkyy = [1.0, 2e9]\n",
+            "line 8: bearing[1].speed[2] = 1e-300 is not possible: it must be nearer to or further from that of the node before, \
+             0.0: the curve of kyy between them overflows",
+        ),
+        ("speed = [0.0, 1e-160, 1.0]\nczz = [1.0, 2.0, 3.0]\n", "bearing[1].speed[2] = 1e-160 is not possible"),
+        ("speed = [0.0, 1.0, 1e308]\nkyy = [1.0, 2.0, 3.0]\n", "bearing[1].speed[3] = 1e308 is not possible"),
+        ("speed = [0.0, 1.0, 2.0]\nkzz = [1.0, 1e308, -1e308]\n", "bearing[1].kzz[3] = -1e308 is not possible"),
+        ("speed = [0.0, 1e-9]\nkyz = [0.0, 1e300]\n", "bearing[1].kyz[2] = 1e300 is not possible"),
     ] {
         let found = refused(table);
         println!("{found}");
         assert!(found.contains(message), "{found}\n{message}");
+    }
+    // Nodes that nobody gave are no harm, however many they are.
+    for nodes in 1..=16 {
+        let (speeds, falling): (Vec<_>, Vec<_>) = (0..nodes).map(|n| (f64::from(n), 1e9 - f64::from(n))).unzip();
+        Named::started(&format!("{ROTOR}[[effects.bearing]]\nposition = 0.0\nspeed = {speeds:?}\nkyy = {falling:?}\n"));
     }
     let many: Vec<f64> = (0..17).map(f64::from).collect();
     assert!(refused(&format!("speed = {many:?}\n")).contains("must have from 1 to 16 numbers, not 17"));
