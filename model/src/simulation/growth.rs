@@ -1,9 +1,10 @@
 //! Whether the linear motion about where a rotor is grows: what an unstable machine does is right, but its user should know.
 
+use crate::body::Inertia;
 use crate::effects::Effects;
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
-use crate::state::{Coordinates, PHI, own, rigid};
+use crate::state::{Coordinates, GAMMA, PHI, own, rigid};
 use crate::stored::stored;
 use nalgebra::linalg::Schur;
 use nalgebra::{Complex, Normed, SMatrix, SVector};
@@ -22,6 +23,12 @@ stored!(Watch { known, found });
 /// The equations without φ, the work and the own states, which hold on their own: a motor does not make a whirl grow at a
 /// steady speed.
 const LINEAR: usize = PHI;
+
+type Linear = SMatrix<f64, LINEAR, LINEAR>;
+
+/// Where the velocities begin, and the angular momentum.
+const VELOCITY: usize = 3;
+const MOMENTUM: usize = 6;
 
 /// |K| has changed much by this part of itself, and of what nutates as fast as the fastest motion \[1].
 const MUCH: f64 = 0.1;
@@ -56,6 +63,28 @@ impl Watch {
         self.found = growth.map(|rate| (rate, t));
     }
 
+    /// The linear equations with velocities that count as much as places do: lengths in radii of gyration, and both beside the largest
+    /// rate of what acts. In units of m and s rounding would count beside these, and what hardly moves would seem to grow. None where
+    /// nothing acts: rates that are constant grow by no power of e.
+    fn scaled(matrix: &Linear, body: &Inertia) -> Option<Linear> {
+        let is_rate = |n: usize| (VELOCITY..GAMMA.start).contains(&n);
+        let radius = (body.per_m / body.per_jt).sqrt();
+        let unit = |n: usize| match n {
+            0..MOMENTUM => radius,
+            n if is_rate(n) => 1.0 / body.per_jt,
+            _ => 1.0,
+        };
+        let plain = Linear::from_fn(|i, j| matrix[(i, j)] * (unit(j) / unit(i)));
+        let largest = |of: fn(bool, bool) -> bool| {
+            let entry = |i, j| if of(is_rate(i), is_rate(j)) { plain[(i, j)].abs() } else { 0.0 };
+            Linear::from_fn(entry).max()
+        };
+        // Springs tell the square of a rate, dampers and what turns the rate itself.
+        let rate = largest(|of, by| of && !by).sqrt().max(largest(|of, by| of == by));
+        let part = |n: usize| if is_rate(n) { rate } else { 1.0 };
+        (rate > 0.0).then(|| Linear::from_fn(|i, j| plain[(i, j)] * (part(j) / part(i))))
+    }
+
     /// The fastest rate of the linear equations [rad/s], and how fast a motion grows [1/s], if one does.
     fn growth<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> (f64, Option<f64>) {
         const ITERATIONS: usize = 1000;
@@ -66,7 +95,10 @@ impl Watch {
         let jacobian = balanced.jacobian(t, y);
         let tilting = balanced.motion(t, y).gamma_rate().norm();
         let first = own(N);
-        let matrix = SMatrix::<f64, LINEAR, LINEAR>::from_fn(|i, j| jacobian[first + i][first + j]);
+        let Some(matrix) = Self::scaled(&Linear::from_fn(|i, j| jacobian[first + i][first + j]), &balanced.frame.body)
+        else {
+            return (0.0, None);
+        };
         let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS);
         let rates: SVector<Complex<f64>, LINEAR> = match schur {
             Some(schur) if excess <= ASYMMETRIC * rotor.frame.body.per_jt => schur.complex_eigenvalues(),
