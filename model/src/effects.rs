@@ -235,6 +235,10 @@ pub struct Info {
     pub indicators: usize,
     /// How many with one.
     pub indicators_with_table: usize,
+    /// Whether its law is analytic without a table.
+    pub analytic: bool,
+    /// Whether it is with one.
+    pub analytic_with_table: bool,
     /// The effects after it that cannot act beside it.
     pub excludes: &'static [&'static str],
 }
@@ -318,6 +322,8 @@ macro_rules! catalogue {
             imposes: <$module::$type as Effect>::IMPOSES,
             indicators: <$module::$type as Effect>::INDICATORS,
             indicators_with_table: <catalogue!(@largest $module $type $($nodes)?)>::INDICATORS,
+            analytic: <$module::$type as Effect>::ANALYTIC,
+            analytic_with_table: <catalogue!(@largest $module $type $($nodes)?)>::ANALYTIC,
             excludes: <$module::$type as Effect>::EXCLUDES,
         }),*];
 
