@@ -259,7 +259,7 @@ pub enum Role {
 pub enum Bound {
     /// Any finite number.
     Finite,
-    /// > 0
+    /// > 0, and so large that its reciprocal is finite: what is positive is divided by.
     Positive,
     /// ≥ 0
     NotNegative,
@@ -277,7 +277,7 @@ impl Bound {
         value.is_finite()
             && match self {
                 Bound::Finite => true,
-                Bound::Positive => value > 0.0,
+                Bound::Positive => value > 0.0 && value.recip().is_finite(),
                 Bound::NotNegative => value >= 0.0,
                 Bound::ZeroOrWithin(low, high) => value == 0.0 || (low..=high).contains(&value),
                 Bound::Within(low, high) => (low..=high).contains(&value),
@@ -296,6 +296,11 @@ impl Bound {
             Bound::Within(low, high) => format!("a number from {} to {}", number(low), number(high)),
             Bound::OneOf(these) => these.iter().map(f64::to_string).collect::<Vec<_>>().join(" or "),
         }
+    }
+
+    /// What [`Bound::words`] leave out, for whom a positive number was refused.
+    fn besides(self) -> &'static str {
+        if self == Bound::Positive { " with a finite reciprocal" } else { "" }
     }
 
     /// The least and greatest value that the XML can state: ends that are themselves possible.
@@ -360,8 +365,8 @@ impl Meta {
                 Err(Invalid::out_of_bound(full_name(), &written(value, true), of.words()))
             }
             Kind::Real | Kind::Integer | Kind::Boolean if !bound.holds(value) => {
-                let value = written(value, self.kind != Kind::Real);
-                Err(Invalid::out_of_bound(full_name(), &value, bound.words(self.kind)))
+                let words = bound.words(self.kind) + if value > 0.0 { bound.besides() } else { "" };
+                Err(Invalid::out_of_bound(full_name(), &written(value, self.kind != Kind::Real), words))
             }
             _ => Ok(()),
         }

@@ -75,6 +75,11 @@ impl Shape {
         };
         let (least, most) = ((Ja - Jt).abs(), Ja + Jt);
         let slack = ROUNDING * most;
+        // The principal moments are rounded beside the largest.
+        if Jt2 <= f64::EPSILON * most {
+            let bound = format!("more than what is lost in the rounding of rotor.Ja + rotor.Jt = {most:?}");
+            return Err(Invalid::new("asymmetry.Jt2", Jt2, bound));
+        }
         if (least - slack..=most + slack).contains(&Jt2) {
             return Ok(());
         }

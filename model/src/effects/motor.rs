@@ -1,6 +1,7 @@
 //! `motor`: a torque that falls with the speed, so that its power is limited (Sommerfeld 1902).
 
 use super::{Act, Effect, MOST_OWN, Motion, Row, Wrench};
+use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{NEWTON_METRE, NEWTON_METRE_PER_SECOND, ONE, RADIAN_PER_SECOND, SECOND};
@@ -93,6 +94,13 @@ impl Effect for Motor {
         Act { load: Wrench::couple(motion.joint_axis() * tau), supply: tau * motion.omega_phi(), own, ..Act::none() }
     }
 
+    fn check(&self) -> Result<(), Invalid> {
+        if self.own_decay().is_finite() {
+            return Ok(());
+        }
+        Err(Invalid::new("time_constant", self.time_constant, "0, or a number with a finite reciprocal"))
+    }
+
     fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN] {
         let mut own = [0.0; MOST_OWN];
         own[0] = self.steady(start);
@@ -104,7 +112,9 @@ impl Effect for Motor {
     }
 
     fn own_nominal(&self) -> [f64; MOST_OWN] {
-        [if self.stall_torque > 0.0 { self.stall_torque } else { 1.0 }; MOST_OWN]
+        // Errors are told in squares of it.
+        let torque = self.stall_torque;
+        [if (torque * torque).is_normal() { torque } else { 1.0 }; MOST_OWN]
     }
 
     fn no_limit(&self) -> Option<&'static str> {

@@ -1,6 +1,7 @@
 //! `rub`: contact of a station with a ring around it, with Coulomb friction.
 
 use super::{Act, Effect, Motion, Row, Wrench};
+use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE};
 use crate::variable::{Bound, output, parameter};
@@ -48,13 +49,19 @@ impl Rub {
         Self { position, gap, stiffness, v0: 1.0, ..Self::default() }
     }
 
+    /// Below this square of its distance from the stator line, the shaft has no direction \[m²].
+    #[inline(always)]
+    fn least_square(&self) -> f64 {
+        0.25 * self.gap * self.gap
+    }
+
     /// Away from the stator line, depth and its rate.
     #[inline(always)]
     fn approach<S: Scalar>(&self, motion: &Motion<S>) -> (Vector3<S>, S, S) {
         let (r, v) = (motion.station(self.position), motion.station_velocity(self.position));
         let (q, rate) = (Vector3::new(S::zero(), r.y, r.z), Vector3::new(S::zero(), v.y, v.z));
         // Near the line nothing touches, and a direction is not needed.
-        let least = S::constant(0.25 * self.gap * self.gap);
+        let least = S::constant(self.least_square());
         let distance = q.dot(&q).max(least).sqrt();
         let outward = q * (S::one() / distance);
         // eq. 97: δ = |q| − g, dδ/dt = r̂·dq/dt
@@ -148,6 +155,14 @@ impl Effect for Rub {
 
     fn switch(&mut self, positive: &[bool], _motion: &Motion<f64>) {
         self.pressed = f64::from(positive.iter().all(|positive| *positive));
+    }
+
+    fn check(&self) -> Result<(), Invalid> {
+        // A square that underflows would divide zero by zero where the shaft is on the line.
+        if self.least_square().is_normal() {
+            return Ok(());
+        }
+        Err(Invalid::new("gap", self.gap, "neither so small nor so large that its square is lost"))
     }
 
     fn begin(&mut self, _start: &Motion<f64>) {

@@ -1,11 +1,14 @@
 //! Starts and steps at the edge of what can be done: a rotor at rest, a start at the singular point, absurd forces. Late times and tiny
 //! communication steps: the gallery (`xtask/src/hard_cases/times.rs`); impossible parameters: tests/arguments.rs.
 
-use crate::harness::named::Named;
+use crate::harness::named::{Named, ascending};
 use crate::harness::{Method, Scene, Supported, at, within};
 use nalgebra::{Vector2, Vector3};
+use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::integrate::{Fault, Refusal};
-use split_rotor_model::variables::Reading;
+use split_rotor_model::simulation::Integrator;
+use split_rotor_model::variable::{Bound, Kind, Role};
+use split_rotor_model::variables::{Reading, Variable};
 
 /// Every number that an instant shows is finite.
 fn assert_finite(reading: &Reading) {
@@ -83,4 +86,85 @@ fn a_law_without_a_limit_is_named() {
             within(&format!("{effect} {method}"), (t - 0.62).abs(), if method == "symplectic" { 1e-6 } else { 1e-14 });
         }
     }
+}
+
+// ------------------------------------------------------------------------------------------------- tiny parameters
+
+/// With these at 1e-160, the rotor is not refused at the start, and does not get far: their reciprocals are finite, and the squares of
+/// these, in which errors are counted, are not; and of a needle so thin the energy is lost in rounding.
+const KNOWN: [&str; 3] = ["motor.synchronous_speed", "motor.time_constant", "rotor.Ja"];
+
+/// The general rotor with this effect alone, all that it has being of size 1.
+fn alone(effect: &str) -> Named {
+    let mut named = Named::new("rotor", Integrator::Method);
+    for name in ["gravity", "support"] {
+        named.set(&format!("effects.{name}"), 0.0);
+    }
+    for name in ["rotor.Ja", "rotor.Jt"] {
+        named.set(name, 1.0);
+    }
+    named.set("solver.max_evaluations", 1e4);
+    named.set("solver.method_number", 1.0);
+    if !effect.is_empty() {
+        named.set(&format!("effects.{effect}"), 1.0);
+    }
+    for Variable { name, meta, .. } in reals(&named, effect) {
+        // What damps across is bounded by what damps along.
+        let is_across = ["cyz", "czy"].iter().any(|column| name.contains(column));
+        named.set(&name, if is_across { 0.0 } else { 1.0 + ascending(&meta) });
+    }
+    named
+}
+
+/// The Real parameters of an effect; without one, those that are always there.
+fn reals(named: &Named, effect: &str) -> Vec<Variable> {
+    let is_of = |name: &str| match name.split_once('.') {
+        Some((block, _)) if effect.is_empty() => ["rotor", "start", "solver"].contains(&block),
+        of => of.is_some_and(|(block, _)| block == effect),
+    };
+    let is_real = |variable: &&Variable| {
+        let bound_by_size = matches!(
+            variable.meta.role,
+            Role::Parameter { bound: Bound::Finite | Bound::NotNegative | Bound::Positive, .. }
+        );
+        variable.meta.kind == Kind::Real && bound_by_size && is_of(&variable.name)
+    };
+    named.scene.variables.iter().filter(is_real).cloned().collect()
+}
+
+/// What is said of a rotor with such a value of a parameter where it does not move for a while, unless that names the parameter.
+fn unnamed(named: &Named, start: [f64; 2], (name, value): (&str, f64)) -> Option<String> {
+    let mut simulation = named.simulation.clone();
+    let [place, speed] = start;
+    for (start, value) in [("r_c.x", 0.0), ("r_c.y", place), ("v_c.z", speed), ("omega.x", speed), ("gamma.z", place)] {
+        simulation.set_parameter(named.place(&format!("start.{start}")), value);
+    }
+    simulation.set_parameter(named.place(name), value);
+    let said = match simulation.start(0.0, None) {
+        Err(invalid) => invalid.to_string(),
+        Ok(()) => match simulation.advance(1e-3) {
+            Ok(()) | Err(Fault::Spent { .. }) => return None,
+            Err(fault) => fault.to_string(),
+        },
+    };
+    (!said.contains(name)).then(|| format!("{name} = {value:e}: {said}"))
+}
+
+#[test]
+fn regress_a_tiny_parameter_does_no_harm_or_is_named() {
+    let effects = CATALOGUE.iter().map(|info| info.block_name(1)).chain([String::new()]);
+    let mut said = Vec::new();
+    for effect in effects {
+        let named = alone(&effect);
+        for variable in reals(&named, &effect) {
+            let is_known = KNOWN.contains(&variable.name.as_str());
+            let values = [f64::from_bits(1), 1e-310, 1e-300, 1e-160];
+            for value in values.into_iter().take(if is_known { 2 } else { 4 }) {
+                for start in [[0.0, 0.0], [2.5, 0.3]] {
+                    said.extend(unnamed(&named, start, (&variable.name, value)));
+                }
+            }
+        }
+    }
+    assert!(said.is_empty(), "{}", said.join("\n"));
 }
