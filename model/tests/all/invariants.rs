@@ -3,22 +3,17 @@
 //! is not to be seen.
 
 use crate::harness::asymmetric::{Case, at};
-use crate::harness::{largest, momentum_about_e, properties, times, within};
+use crate::harness::{largest, momentum_about_e, properties, times, vector, within};
 use nalgebra::{Rotation2, Vector2, Vector3};
 use oracles::rigid_body::RigidBody;
 use oracles::rotation;
 use proptest::prelude::*;
-use split_rotor_model::body::{Inertia, Shape};
 use split_rotor_model::energy;
 use split_rotor_model::rotation::chart::crossed_exactly;
 use split_rotor_model::rotation::{Angle, Chart};
 use split_rotor_model::state::{Coordinates, Kinematics};
 use split_rotor_model::variables::Reading;
 use std::f64::consts::TAU;
-
-fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
-    [-size..size, -size..size, -size..size].prop_map(Vector3::from)
-}
 
 /// A case and its solver.
 #[derive(Clone, Debug)]
@@ -199,14 +194,6 @@ proptest! {
 /// r_c, v_c, ω and the kinetic energy before and after a switch, relative to their sizes [1]: measured 3.5e-15, of ω.
 const SWITCH: f64 = 1e-14;
 
-fn inertia(body: &RigidBody) -> Inertia {
-    let [ja, jt, jt2] = body.moments.into();
-    let mut shape = Shape::of(split_rotor_model::body::Body { m: body.m, Ja: ja, Jt: jt, l: body.l });
-    shape.Jt2 = Some(jt2);
-    body.masses.iter().for_each(|(mass, place)| shape.add(*mass, place));
-    shape.inertia()
-}
-
 proptest! {
     #![proptest_config(properties(2000))]
 
@@ -216,7 +203,7 @@ proptest! {
         (theta, psi, phi) in (2.0..2.8_f64, 0.0..TAU, 0.0..TAU),
         (v, k) in (vector(10.0), vector(1.0)),
     ) {
-        let inertia = inertia(&case.body);
+        let inertia = case.shape().inertia();
         let gamma = Vector2::new(libm::cos(psi), libm::sin(psi)) * theta;
         let at = Coordinates { r: case.r, v, k, gamma, phi };
         let crossed = crossed_exactly(gamma);

@@ -1,11 +1,9 @@
 //! Scenes with several effects of a kind: their names, their values, and what is said of those that cannot be.
 
-use crate::harness::named::Named;
+use crate::harness::named::{Named, ROTOR};
 use crate::harness::within;
 use split_rotor_model::scene::Scene;
 use std::path::Path;
-
-const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n";
 
 /// What is said of a scene that has this below the rotor.
 fn error(rest: &str) -> String {

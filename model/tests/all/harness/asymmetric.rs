@@ -4,6 +4,7 @@ use super::named::{Named, toml};
 use nalgebra::{Vector2, Vector3};
 use oracles::machine::{Machine, Start, Support, Unbalance};
 use oracles::rigid_body::{Moving, RigidBody};
+use split_rotor_model::body::{Body, Shape};
 use split_rotor_model::variables::Reading;
 
 /// A rotor, how it starts, and the same as a scene.
@@ -50,6 +51,21 @@ impl Case {
         let mut case = Self::held();
         (case.body.g, case.body.c, case.body.d) = (Vector3::zeros(), [0.0; 2], [0.0; 2]);
         Self { gamma: Vector2::new(1.2, 0.3), omega: Vector3::new(4.0, 9.0, -3.0), ..case }
+    }
+
+    /// A free body of these moments of inertia.
+    pub fn free(moments: [f64; 3], gamma: Vector2<f64>, omega: Vector3<f64>) -> Self {
+        let body = RigidBody::free(5.0, moments, 0.75);
+        Self { body, r: Vector3::zeros(), v: Vector3::zeros(), phi: 0.4, gamma, omega }
+    }
+
+    /// Its body, as the model has it.
+    pub fn shape(&self) -> Shape {
+        let [axial, transverse, other] = self.body.moments.into();
+        let mut shape = Shape::of(Body { m: self.body.m, Ja: axial, Jt: transverse, l: self.body.l });
+        shape.Jt2 = Some(other);
+        self.body.masses.iter().for_each(|(mass, place)| shape.add(*mass, place));
+        shape
     }
 
     /// As a scene's TOML.

@@ -8,6 +8,7 @@ pub use oracles::bounds::{largest, within};
 use oracles::machine::{self, Machine, Start};
 
 use nalgebra::{Vector2, Vector3};
+use proptest::strategy::Strategy;
 use proptest::test_runner::{Config as ProptestConfig, RngSeed};
 use split_rotor_model::body::Body;
 use split_rotor_model::effects::drive::Drive;
@@ -249,6 +250,11 @@ pub fn properties(cases: u32) -> ProptestConfig {
         failure_persistence: None,
         ..asked
     }
+}
+
+/// A vector whose components are no larger than this.
+pub fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
+    [-size..size, -size..size, -size..size].prop_map(Vector3::from)
 }
 
 /// Numbers that look random, the same in every run (Knuth's multiplier).

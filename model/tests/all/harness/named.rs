@@ -17,6 +17,9 @@ pub struct Named {
     pub simulation: Any,
 }
 
+/// The paper's rotor, as the first lines of a scene.
+pub const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n";
+
 /// The names of all scenes.
 pub fn names() -> Vec<String> {
     Scene::names(&folder())
