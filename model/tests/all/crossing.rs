@@ -1,6 +1,8 @@
-//! A switch of chart changes the description, not the motion: axis, attitude, energy and K stay to the last bits.
+//! A switch of chart changes the description, not the motion: axis, energy and K stay to the last bits. The attitude in both charts:
+//! `asymmetric.rs`.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use crate::harness::vector;
+use nalgebra::Vector2;
 use oracles::fixed::Fixed;
 use proptest::prelude::*;
 use split_rotor_model::body::Body;
@@ -9,7 +11,6 @@ use split_rotor_model::effects::{Called, Effects};
 use split_rotor_model::energy;
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::rotation::chart::crossed_exactly;
-use split_rotor_model::rotation::euler_vector::rotation;
 use split_rotor_model::scalar::ulp;
 use split_rotor_model::state::{Coordinates, Kinematics};
 use split_rotor_model::variable::Place;
@@ -18,19 +19,10 @@ use std::f64::consts::TAU;
 /// From the thin disk to a needle: Ja/Jt [1].
 const SHAPES: [f64; 4] = [2.0, 0.5, 0.1, 0.01];
 
-fn about_e(angle: f64) -> Matrix3<f64> {
-    let (sin, cos) = libm::sincos(angle);
-    Matrix3::new(1.0, 0.0, 0.0, 0.0, cos, -sin, 0.0, sin, cos)
-}
-
 /// Where charts are switched: |γ| [rad] from 2.0, where a chart is left, to 2.8, where a step may end.
 fn tilt() -> impl Strategy<Value = Vector2<f64>> {
     (2.0..2.8_f64, 0.0..TAU)
         .prop_map(|(theta, azimuth)| Vector2::new(theta * libm::cos(azimuth), theta * libm::sin(azimuth)))
-}
-
-fn vector(size: f64) -> impl Strategy<Value = Vector3<f64>> {
-    (-size..size, -size..size, -size..size).prop_map(|(x, y, z)| Vector3::new(x, y, z))
 }
 
 /// Components of γ′ against eq. 26 with 90 digits [ulp of the component]: the nearest doubles, but for ties.
@@ -84,19 +76,5 @@ proptest! {
         prop_assert!((one - other).abs() <= ENERGY_AS_SHOWN * slender * ulp(one), "{} ulp", (one - other) / ulp(one));
         let back = crossed_exactly(after.gamma);
         prop_assert!((back - gamma).norm() <= ROUND_TRIP * gamma.norm(), "{:e}", (back - gamma).norm() / gamma.norm());
-    }
-
-    #[test]
-    fn exact_attitude_across_a_switch(gamma in tilt(), phi in 0.0..TAU) {
-        // L(γ)·L(φe) = L(γ′)·Q·L(φ′e), Q = diag(−1, 1, −1)
-        let other = crossed_exactly(gamma);
-        let angle = split_rotor_model::rotation::Angle { turns: 0.0, remainder: phi };
-        let own = Chart::FromMinusE.own_angle(angle, other);
-        let q = Matrix3::from_diagonal(&Vector3::new(-1.0, 1.0, -1.0));
-        let from_e = rotation(&Vector3::new(0.0, gamma.x, gamma.y)) * about_e(phi);
-        let from_minus_e = rotation(&Vector3::new(0.0, other.x, other.y)) * q * about_e(own.remainder);
-        prop_assert!((from_e - from_minus_e).norm() <= 4e-15, "{:e}", (from_e - from_minus_e).norm());
-        let back = Chart::FromMinusE.axial_angle(own.turns, own.remainder, other);
-        prop_assert!((back.radians() - phi).abs() <= 4e-15);
     }
 }
