@@ -1,17 +1,19 @@
 //! Extrapolated inputs: a polynomial of their degree is followed exactly, late or not; what a master says wins; and what is
 //! remembered goes with the state.
 
-use crate::harness::named::Named;
+use crate::harness::named::{Named, ROTOR};
 use crate::harness::within;
+use split_rotor_model::stored::{from_bytes, to_bytes};
+use std::ops::Range;
 
-/// An upright rotor with a shaft, whose speed is the integral of the torque over Ja.
+/// An upright rotor with a shaft, whose speed is the integral of the torque over Ja, and these effects.
+fn driven(effects: &str) -> Named {
+    Named::started(&format!("{ROTOR}[effects.drive]\n{effects}"))
+}
+
 fn rotor(order: u32, lag: f64) -> Named {
-    let mut named = Named::written(&format!(
-        "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.drive]\n\
-         [effects.extrapolation]\norder = {order}\nlag = {lag:?}\n[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n"
-    ));
-    named.start();
-    named
+    let solver = "[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n";
+    driven(&format!("[effects.extrapolation]\norder = {order}\nlag = {lag:?}\n{solver}"))
 }
 
 /// τ(t) [N·m] and its integral, of a degree.
@@ -77,15 +79,22 @@ fn exact_late_values_belong_to_the_points_that_they_are_of() {
     within("alternating", worst, ALTERNATING);
 }
 
+/// Sets the torque at each of these points and goes on to the next; the bits of the speed there.
+fn told(named: &mut Named, points: Range<usize>, torque: impl Fn(f64) -> f64) -> Vec<u64> {
+    let tau = named.place("drive.tau");
+    let one = |k: usize| {
+        named.simulation.set_input(tau, torque(POINTS[k]));
+        named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
+        named.get("omega_phi").to_bits()
+    };
+    points.map(one).collect()
+}
+
 #[test]
 fn derivatives_that_are_sent_win() {
     let mut named = rotor(2, 0.0);
-    let tau = named.place("drive.tau");
-    for k in 0..5 {
-        named.simulation.set_input(tau, torque(2, POINTS[k])[0]);
-        named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
-    }
-    let before = named.get("omega_phi");
+    told(&mut named, 0..5, |t| torque(2, t)[0]);
+    let (before, tau) = (named.get("omega_phi"), named.place("drive.tau"));
     named.simulation.set_input(tau, 4.0);
     named.simulation.set_input_derivative(tau, 1, 0.0);
     named.simulation.advance(POINTS[6]).expect("a possible motion");
@@ -95,28 +104,15 @@ fn derivatives_that_are_sent_win() {
 
 #[test]
 fn what_is_remembered_goes_with_the_state() {
-    let steps = |named: &mut Named, from: usize| -> Vec<u64> {
-        let tau = named.place("drive.tau");
-        let one = |k: usize| {
-            named.simulation.set_input(tau, torque(2, POINTS[k])[0] + libm::sin(9.0 * POINTS[k]));
-            named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
-            named.get("omega_phi").to_bits()
-        };
-        (from..POINTS.len() - 1).map(one).collect()
-    };
-    let mut one = rotor(2, 1.0);
-    let all = steps(&mut one, 0);
-    let mut other = rotor(2, 1.0);
-    let tau = other.place("drive.tau");
-    for k in 0..4 {
-        other.simulation.set_input(tau, torque(2, POINTS[k])[0] + libm::sin(9.0 * POINTS[k]));
-        other.simulation.advance(POINTS[k + 1]).expect("a possible motion");
-    }
-    let bytes = split_rotor_model::stored::to_bytes(&mut other.simulation);
-    steps(&mut other, 4);
+    let wavy = |t: f64| torque(2, t)[0] + libm::sin(9.0 * t);
+    let [mut one, mut other] = [(); 2].map(|()| rotor(2, 1.0));
+    let all = told(&mut one, 0..8, wavy);
+    told(&mut other, 0..4, wavy);
+    let bytes = to_bytes(&mut other.simulation);
+    told(&mut other, 4..8, wavy);
     let mut restored = rotor(0, 0.0);
-    split_rotor_model::stored::from_bytes(&mut restored.simulation, &bytes).expect("whole");
-    assert_eq!(steps(&mut restored, 4), all[4..]);
+    from_bytes(&mut restored.simulation, &bytes).expect("whole");
+    assert_eq!(told(&mut restored, 4..8, wavy), all[4..]);
     // A step that is done again is the same.
     let saved = one.simulation.clone();
     one.simulation.advance(1.3).expect("a possible motion");
@@ -128,16 +124,6 @@ fn what_is_remembered_goes_with_the_state() {
 
 #[test]
 fn order_zero_is_to_hold() {
-    let run = |text: &str| {
-        let mut named = Named::started(&format!(
-            "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[effects.drive]\n{text}"
-        ));
-        let tau = named.place("drive.tau");
-        for k in 0..POINTS.len() - 1 {
-            named.simulation.set_input(tau, torque(2, POINTS[k])[0]);
-            named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
-        }
-        named.get("omega_phi").to_bits()
-    };
+    let run = |effects: &str| told(&mut driven(effects), 0..8, |t| torque(2, t)[0]);
     assert_eq!(run(""), run("[effects.extrapolation]\n"));
 }
