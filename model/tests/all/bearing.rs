@@ -1,12 +1,10 @@
-//! Bearings, rotating damping and drag: beside the support, whose law they can say too, and in closed form.
+//! Bearings, rotating damping and drag: beside the support, whose law they can say too, and in closed form. Whirl that rotating
+//! damping or cross coupling drives: the gallery (`xtask/src/hard_cases/whirling.rs`).
 
-use crate::harness::named::Named;
+use crate::harness::named::{Named, ROTOR};
 use crate::harness::{largest, within};
-use nalgebra::{Complex, Normed, Vector3};
-use oracles::forward_whirl::ForwardWhirl;
-use oracles::numerics::exp;
+use nalgebra::Vector3;
 
-const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n";
 const SOLVER: &str = "[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n";
 
 // ------------------------------------------------------------------------------------------------ beside the support
@@ -39,95 +37,6 @@ fn bearings_say_what_a_support_says() {
     }
     let force = held.get("bearing[1].F.y") + held.get("bearing[2].F.y");
     within("force", (force - supported.get("support.F.y")).abs(), FORCE);
-}
-
-// ------------------------------------------------------------------------------------------------- whirl that grows
-
-/// A rotor that spins upright and whirls with its centre at `z` [m], which moves at λz; y + iz after `t` [s].
-fn whirl(spin: f64, effects: &str, z: Complex<f64>, rate: Complex<f64>, t: f64) -> (Complex<f64>, f64) {
-    let v = z * rate;
-    let start = format!(
-        "[start]\nr_c = {{ y = {:?}, z = {:?} }}\nv_c = {{ y = {:?}, z = {:?} }}\nomega = {{ x = {spin:?} }}\n",
-        z.re, z.im, v.re, v.im
-    );
-    let solver = format!("{SOLVER}absolute_tolerance = 1e-18\n");
-    let mut named = Named::started(&[ROTOR, &start, effects, &solver].concat());
-    named.simulation.advance(t).expect("a possible motion");
-    (Complex::new(named.get("r_c.y"), named.get("r_c.z")), named.get("energy.residual"))
-}
-
-/// So small that what the whirl takes from the spin does not count [m].
-const SMALL: f64 = 1e-6;
-/// The place after 1 s, relative to its size [1]: measured 2.1e-11; residual [J], of 200 J: measured 1.0e-12, 5e-15 of it.
-const WHIRL: [f64; 2] = [8e-11, 3e-12];
-/// Growth rate against the eigenvalue's, and the threshold [1]: measured 5.8e-11 and 7.5e-12.
-const GROWTH: f64 = 2e-10;
-const THRESHOLD: f64 = 3e-11;
-
-/// Follows the whirl of each eigenvalue, and finds the threshold where the measured growth is none.
-fn follow(
-    what: &str,
-    threshold: f64,
-    rates: impl Fn(f64) -> [Complex<f64>; 2],
-    run: impl Fn(f64, Complex<f64>, Complex<f64>) -> (Complex<f64>, f64),
-) {
-    for part in [0.5, 0.9, 1.0, 1.1, 1.5] {
-        for rate in rates(part * threshold) {
-            let start = Complex::new(SMALL, 0.0);
-            let (found, residual) = run(part * threshold, start, rate);
-            let expected = exp(rate) * SMALL;
-            within(&format!("{what}: place at {part}"), (found - expected).norm() / expected.norm(), WHIRL[0]);
-            within(&format!("{what}: ledger at {part}"), residual.abs(), WHIRL[1]);
-        }
-    }
-    // |z| grows by exp(Re λ) in a second.
-    let growth = |at: f64| {
-        let [rate, _] = rates(at);
-        libm::log(run(at, Complex::new(SMALL, 0.0), rate).0.norm() / SMALL)
-    };
-    let above = 1.2 * threshold;
-    within(&format!("{what}: growth"), (growth(above) / rates(above)[0].re - 1.0).abs(), GROWTH);
-    let found = secant(growth, 0.9 * threshold, 1.1 * threshold);
-    within(&format!("{what}: threshold"), (found / threshold - 1.0).abs(), THRESHOLD);
-}
-
-/// Where f is zero, by a few secants.
-fn secant(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
-    for _ in 0..4 {
-        let (fa, fb) = (f(a), f(b));
-        (a, b) = (b, b - fb * (b - a) / (fb - fa));
-    }
-    b
-}
-
-#[test]
-fn literature_rotating_damping_drives_forward_whirl() {
-    let rotor = ForwardWhirl { m: 5.0, k: 2000.0, c: 6.0, d: 4.0, s: 0.0 };
-    let effects = "[[effects.bearing]]\nposition = 0.0\nkyy = 2000.0\nkzz = 2000.0\ncyy = 6.0\nczz = 6.0\n\
-                   [effects.rotating_damping]\nd = 4.0\n";
-    follow(
-        "rotating damping",
-        rotor.threshold() / rotor.d,
-        |spin| rotor.rates(spin),
-        |spin, z, rate| whirl(spin, effects, z, rate, 1.0),
-    );
-}
-
-#[test]
-fn literature_cross_coupling_drives_forward_whirl() {
-    let rotor = |s: f64| ForwardWhirl { m: 5.0, k: 2000.0, c: 6.0, d: 0.0, s };
-    let effects = |s: f64| {
-        let minus = -s;
-        format!(
-            "[[effects.bearing]]\nposition = 0.0\nkyy = 2000.0\nkzz = 2000.0\nkyz = {s:?}\nkzy = {minus:?}\ncyy = 6.0\nczz = 6.0\n"
-        )
-    };
-    follow(
-        "cross coupling",
-        rotor(0.0).threshold(),
-        |s| rotor(s).rates(0.0),
-        |s, z, rate| whirl(0.0, &effects(s), z, rate, 1.0),
-    );
 }
 
 // ---------------------------------------------------------------------------------------------------------- drag
