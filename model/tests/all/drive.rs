@@ -1,105 +1,23 @@
-//! The drive: its moment and power, an upright rotor in closed form, a tilted one beside an independent rigid body, the
-//! ledger, and where its law ends.
+//! The drive: a tilted rotor beside an independent rigid body, and where its law ends. Its power: `power.rs`; its input, and an
+//! upright rotor in closed form: `tests/inputs.rs`; its ledger: `ledger.rs`.
 
-use crate::harness::{Driven, DrivenFree, Method, Scene, TORQUE, at, largest, properties, times, within};
+use crate::harness::{Driven, DrivenFree, Method, Scene, TORQUE, at, largest, times, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::derivative;
-use oracles::rigid_body::{RigidBody, joint};
-use oracles::rotation;
-use proptest::prelude::*;
+use oracles::rigid_body::RigidBody;
 use split_rotor_model::body::Body;
-use split_rotor_model::effects::Motion;
-use split_rotor_model::effects::drive::Drive;
-use split_rotor_model::effects::{Effect, Effects};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::rotation::Chart;
-use split_rotor_model::signal::Signal;
 use split_rotor_model::simulation::Simulation;
-use split_rotor_model::state::{Coordinates, Kinematics};
+use split_rotor_model::state::Kinematics;
 use split_rotor_model::variable::Place;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 const PHI: Place = Place { row: 1, ..TORQUE };
-const SPEED: Place = Place { row: 2, ..TORQUE };
 const ACCELERATION: Place = Place { row: 3, ..TORQUE };
 
 fn read(simulation: &mut Simulation<Driven>, place: Place) -> f64 {
     simulation.get(place).expect("possible parameters").expect("an output")
-}
-
-// ------------------------------------------------------------------------------------------------ moment and power
-
-/// M against τ(e + t)/(1 + e·t), relative to |M|; M·ω and the supplied power against τ ω_φ, relative to |M||ω| [1]:
-/// measured 9.5e-16 and 3.7e-16 on 20 000 states.
-const MOMENT: f64 = 3e-15;
-const POWER: f64 = 1e-15;
-
-proptest! {
-    #![proptest_config(properties(2000))]
-
-    #[test]
-    fn exact_moment_and_power_in_both_charts(
-        (theta, psi, chart) in (0.0..2.2_f64, 0.0..TAU, any::<bool>()),
-        k in [-9.0..9.0_f64, -9.0..9.0_f64, -9.0..9.0_f64],
-        tau in -20.0..20.0_f64,
-    ) {
-        // From −e, the law grows as 1/|γ′|; 1 + e·t of the oracle loses its digits with it.
-        let (chart, theta) = if chart { (Chart::FromE, theta) } else { (Chart::FromMinusE, 0.5 + 0.8 * theta) };
-        let gamma = Vector2::new(libm::cos(psi), libm::sin(psi)) * theta;
-        let at = Coordinates { r: Vector3::zeros(), v: Vector3::zeros(), k: k.into(), gamma, phi: 0.3 };
-        let motion = Kinematics::new(Scene::paper().body.into(), chart, at);
-        let drive = Drive { tau: Signal::held(tau) };
-        let act = drive.act(&Motion::new(&motion, &[]));
-        let load = act.load;
-        let expected = joint(&(rotation::axis(&gamma) * chart.sign())) * tau;
-        within("moment", (load.moment - expected).norm() / expected.norm(), MOMENT);
-        prop_assert_eq!(load.force, Vector3::zeros());
-        let (power, size) = (tau * motion.axial_rate(), expected.norm() * motion.omega.norm());
-        within("moment on the rotor", (load.moment.dot(&motion.omega) - power).abs() / size, POWER);
-        within("supply", (act.supply - power).abs() / size, POWER);
-    }
-}
-
-// ---------------------------------------------------------------------------------------------- an upright rotor
-
-/// ω_φ of an upright rotor under τ₀ + τ₁t + ½τ₂t², relative to its largest [1]: measured 1.0e-14.
-const SPEED_ERROR: f64 = 3e-14;
-/// φ and its acceleration, relative to their largest [1]: measured 4.1e-13 and 3.0e-12, from the dense output of steps
-/// of up to 16 turns, whose rounding grows with their length.
-const UPRIGHT: [f64; 2] = [1.2e-12, 9e-12];
-/// The work, a polynomial of degree 6, of which the dense output of dopri5 is of order 4, in steps of up to 16 turns:
-/// measured 2.9e-8.
-const WORK: f64 = 9e-8;
-
-#[test]
-fn exact_upright_rotor_under_a_polynomial_torque() {
-    // A disk on a rod, off the origin and drifting: none of it matters to what turns about e.
-    let scene =
-        Scene { phi: 2.0, r_c: Vector3::new(0.1, 0.2, 0.3), v_c: Vector3::new(-1.0, 0.5, 2.0), ..Scene::free() };
-    let (ja, spin) = (scene.body.Ja, 50.0);
-    for method in Method::PAIRS {
-        for tau in [[3.0, 0.0, 0.0], [3.0, -5.0, 0.0], [-2.0, 4.0, 6.0], [0.0, 0.0, 7.0]] {
-            let scene = Scene { method, ..scene.clone() };
-            let mut simulation = scene.started::<Driven>();
-            simulation.set_input(TORQUE, tau[0]);
-            simulation.set_input_derivative(TORQUE, 1, tau[1]);
-            simulation.set_input_derivative(TORQUE, 2, tau[2]);
-            let speed = |t: f64| spin + t * (tau[0] + t * (tau[1] / 2.0 + t * (tau[2] / 6.0))) / ja;
-            let angle = |t: f64| 2.0 + t * (spin + t * (tau[0] / 2.0 + t * (tau[1] / 6.0 + t * (tau[2] / 24.0))) / ja);
-            let torque = |t: f64| tau[0] + t * (tau[1] + t * (tau[2] / 2.0));
-            for t in times(3.0, 12) {
-                let reading = at(&mut simulation, t);
-                let work = 0.5 * ja * (speed(t) * speed(t) - spin * spin);
-                let off = |shown: f64, exact: f64, size: f64| (shown - exact).abs() / size;
-                within("w", off(read(&mut simulation, SPEED), speed(t), spin), SPEED_ERROR);
-                within("phi", off(read(&mut simulation, PHI), angle(t), 150.0), UPRIGHT[0]);
-                within("a", off(read(&mut simulation, ACCELERATION), torque(t) / ja, 100.0), UPRIGHT[1]);
-                within("work", off(reading.ledger.supplied, work, 0.5 * ja * spin * spin), WORK);
-                assert_eq!(*reading.motion.axis(), Vector3::x());
-                assert_eq!(reading.ledger.dissipated, 0.0);
-            }
-        }
-    }
 }
 
 /// With an input to come, the solver does not run ahead: other steps at 1e-10, the same motion. r_c [m] and axis [1] after
@@ -145,11 +63,8 @@ fn tumbling() -> Scene {
     }
 }
 
+/// The torque [N·m] and its derivatives at the start.
 const TORQUES: [f64; 3] = [1.5, -2.0, 3.0];
-
-fn torque(t: f64) -> f64 {
-    TORQUES[0] + t * (TORQUES[1] + t * (0.5 * TORQUES[2]))
-}
 
 fn body_of(scene: &Scene) -> RigidBody {
     let Body { m, Ja, Jt, l } = scene.body;
@@ -162,7 +77,7 @@ fn body_of(scene: &Scene) -> RigidBody {
     }
 }
 
-/// Starts the scene with [`torque`].
+/// Starts the scene with [`TORQUES`].
 fn under_torque(scene: &Scene) -> Simulation<Driven> {
     let mut simulation = scene.started::<Driven>();
     simulation.set_input(TORQUE, TORQUES[0]);
@@ -208,36 +123,6 @@ fn exact_tilted_rotor_beside_a_rigid_body() {
             within(name, worst, allowed);
         }
         assert_eq!(charts, [true, scene.c2 == 0.0], "the charts that the motion is meant to pass");
-    }
-}
-
-// --------------------------------------------------------------------------------------------------------- ledger
-
-/// Largest residual over max kinetic energy + ∫(|τ ω_φ| + loss)dt [1] in 2 s, at tolerances of 1e-6, 1e-8, 1e-10 and 1e-12,
-/// with dopri5 and dop853: measured a third of it. Without damping, where the nutation of some 200 rad/s goes on, dopri5
-/// uses up the 1e-8 that is asked of a run at 1e-10 in these 2 s.
-const DAMPED: [[f64; 4]; 2] = [[2e-6, 1.2e-8, 8e-11, 6e-13], [3e-7, 3.4e-9, 9e-11, 4.5e-13]];
-const UNDAMPED: [[f64; 4]; 2] = [[3e-4, 3e-6, 3e-8, 3e-10], [2.6e-5, 1.4e-7, 1e-9, 7e-12]];
-
-#[test]
-fn exact_ledger_closes() {
-    let undamped = Scene { d1: 0.0, d2: 0.0, ..driven() };
-    for (scene, allowed) in [(driven(), DAMPED), (tumbling(), DAMPED), (undamped, UNDAMPED)] {
-        for (method, allowed) in Method::PAIRS.into_iter().zip(allowed) {
-            for (tolerance, allowed) in [1e-6, 1e-8, 1e-10, 1e-12].into_iter().zip(allowed) {
-                let mut simulation = under_torque(&Scene { method, tolerance, ..scene.clone() });
-                let (mut kinetic, mut turnover, mut residual) = (0.0, 0.0, 0.0);
-                for t in times(2.0, 100) {
-                    let reading = at(&mut simulation, t);
-                    let loss = simulation.parameters().effects.act(&reading.motion, &[]).loss;
-                    turnover += ((torque(t) * reading.motion.axial_rate()).abs() + loss) * 0.02;
-                    kinetic = largest([kinetic, reading.ledger.kinetic]);
-                    residual = largest([residual, reading.ledger.residual().abs()]);
-                }
-                assert!(turnover > 10.0, "something is done: {turnover} J");
-                within(&format!("{method:?} at {tolerance:e}"), residual / (kinetic + turnover), allowed);
-            }
-        }
     }
 }
 
