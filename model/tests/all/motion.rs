@@ -1,16 +1,14 @@
-//! Whole runs against motions in closed form (`oracles/src/motion.rs`); the gallery (`cargo xtask hard-cases`) has more of them, steady whirl
-//! at any tilt among them.
+//! Small whirl and the swept solid angle; the gallery (`cargo xtask hard-cases`) has whole runs against motions in closed form, steady
+//! whirl at any tilt among them, and `stiff.rs` a damped decay.
 
 use crate::harness::{Scene, Supported, largest, times, within};
 use nalgebra::{SMatrix, Vector2, Vector3};
-use oracles::motion::{Oscillator, Whirl, small_whirl};
+use oracles::motion::{Whirl, small_whirl};
 use oracles::numerics::root;
 use oracles::rotation;
-use split_rotor_model::body::Body;
 use split_rotor_model::dual::Dual;
 use split_rotor_model::state::COORDINATES;
 use split_rotor_model::variables::Reading;
-use std::f64::consts::TAU;
 
 // ------------------------------------------------------------------------------------------------- small whirl
 
@@ -72,79 +70,6 @@ fn literature_modes_about_the_sag() {
 
 /// Rates of the sagged rotor [SI units], of forces of 50 N: measured 4.4e-14.
 const AT_REST: f64 = 1.4e-13;
-
-// ------------------------------------------------------------------------------------------------ damped decay
-
-/// Damping [N·s/m]; error of position [m] and velocity [m/s] of a damped oscillation of 0.1 m, over 2 s at a tolerance
-/// of 1e-12. Overdamped, the step is held by stability, and the dense output is far worse than the ends of the steps.
-/// Measured 1.5e-13 and 3.1e-12, 2.0e-14 and 5.2e-13, 1.1e-11 and 1.0e-9.
-const DECAY: [(f64, f64, f64); 3] = [(8.0, 5e-13, 1e-11), (200.0, 6e-14, 2e-12), (500.0, 4e-11, 1.1e-8)];
-/// Error of the energies [J], of 200 J: measured 6.0e-11.
-const DECAY_ENERGY: f64 = 2e-10;
-
-#[test]
-fn exact_damped_decay_of_the_displacement() {
-    // l = 0: the support acts at the mass centre. Under-, critically and overdamped (2√(c m) = 200).
-    for (d1, position, velocity) in DECAY {
-        let start = Vector3::new(0.1, -0.05, 0.08);
-        let rate = Vector3::new(-1.0, 2.0, 0.5);
-        let scene = Scene {
-            body: Body { l: 0.0, ..Scene::paper().body },
-            r_c: start,
-            v_c: rate,
-            g: Vector3::zeros(),
-            d1,
-            tolerance: 1e-12,
-            ..Scene::paper()
-        };
-        let axes: [Oscillator; 3] =
-            std::array::from_fn(|n| Oscillator { m: scene.body.m, d: d1, c: scene.c1, x: start[n], v: rate[n] });
-        let spin_energy = 0.5 * scene.body.Ja * 2500.0;
-        for (t, reading) in times(2.0, 40).zip(scene.run::<Supported>(times(2.0, 40))) {
-            let ledger = &reading.ledger;
-            let left: f64 = axes.iter().map(|axis| axis.energy(t)).sum();
-            let lost = axes.iter().map(|axis| axis.energy(0.0)).sum::<f64>() - left;
-            let error = |of: usize, value: &Vector3<f64>| {
-                largest((0..3).map(|n| (value[n] - <[f64; 2]>::from(axes[n].at(t))[of]).abs()))
-            };
-            within(&format!("r_c, d1 = {d1}"), error(0, &reading.motion.at.r), position);
-            within(&format!("v_c, d1 = {d1}"), error(1, &reading.motion.at.v), velocity);
-            within("total", (ledger.total() - left - spin_energy).abs(), DECAY_ENERGY);
-            within("dissipated", (ledger.dissipated - lost).abs(), DECAY_ENERGY);
-        }
-    }
-}
-
-/// Error of the tilt [rad] of a damped swing from 2.5 rad, over 2 s at a tolerance of 1e-12: measured 2.4e-12.
-const SWING: f64 = 8e-12;
-
-/// Error of the energy lost in it [J], of 16 J: measured 3.5e-12.
-const SWING_ENERGY: f64 = 1e-11;
-
-#[test]
-fn exact_damped_decay_of_a_large_tilt() {
-    // Without spin and with l = 0 the tilt swings in a plane: Jt θ̈ + d2 θ̇ + c2 θ = 0 at any θ.
-    let (theta, azimuth) = (2.5, 0.7);
-    let direction = Vector2::new(libm::cos(azimuth), libm::sin(azimuth));
-    let scene = Scene {
-        body: Body { l: 0.0, ..Scene::paper().body },
-        r_c: Vector3::zeros(),
-        gamma: direction * theta,
-        omega: Vector3::zeros(),
-        g: Vector3::zeros(),
-        c2: 5.0,
-        d2: 0.06,
-        tolerance: 1e-12,
-        ..Scene::paper()
-    };
-    let exact = Oscillator { m: scene.body.Jt, d: scene.d2, c: scene.c2, x: theta, v: 0.0 };
-    for (t, reading) in times(2.0, 80).zip(scene.run::<Supported>(times(2.0, 80))) {
-        within("tilt", (reading.motion.tilt.gamma() - direction * exact.at(t).0).norm(), SWING);
-        within("phi", libm::remainder(reading.motion.phi(), TAU).abs(), SWING);
-        let lost = exact.energy(0.0) - exact.energy(t);
-        within("dissipated", (reading.ledger.dissipated - lost).abs(), SWING_ENERGY);
-    }
-}
 
 // ------------------------------------------------------------------------------------------------- swept solid angle
 
