@@ -3,12 +3,8 @@
 #![allow(unsafe_code, reason = "FMU states are raw pointers")]
 
 mod harness;
-mod journey;
 
-use harness::{Instance, Life, Saved, inputs, only, reals, scene, tumbling};
-use journey::{Journey, journey};
-use proptest::strategy::{Strategy, ValueTree};
-use proptest::test_runner::{Config, RngSeed, TestRunner};
+use harness::{Instance, Life, Saved, Traveller, inputs, only, reals, scene, tumbling};
 use split_rotor::abi::{CO_SIMULATION, MODEL_EXCHANGE, Real, Status};
 use split_rotor::scene::GUID;
 use std::path::{Path, PathBuf};
@@ -41,24 +37,13 @@ fn fmi_a_warning_comes_once_and_after_a_rollback_as_often_as_it_is_due() {
 /// What tells this test program that it runs as another process: a folder that holds the bytes.
 const CHILD: &str = "SPLIT_ROTOR_TEST_CHILD";
 
-/// The same journeys in every process.
-fn journeys() -> Vec<Journey> {
-    let seed = RngSeed::Fixed(7);
-    let mut runner = TestRunner::new(Config { rng_seed: seed, ..Config::default() });
-    (0..64).map(|_| journey().new_tree(&mut runner).expect("nothing is filtered").current()).collect()
-}
-
 fn bytes_of(folder: &Path, n: usize) -> PathBuf {
     folder.join(format!("{n}.state"))
 }
 
-fn way_of(folder: &Path, n: usize) -> PathBuf {
-    folder.join(format!("{n}.way"))
-}
-
 /// Text that tells every bit of a way.
-fn told(way: &[journey::Shown]) -> String {
-    way.iter().map(|step| format!("{step:x?}\n")).collect()
+fn told(mut traveller: Traveller) -> String {
+    traveller.way_on().iter().map(|step| format!("{step:x?}\n")).collect()
 }
 
 #[test]
@@ -69,31 +54,28 @@ fn exact_what_follows_in_another_process_has_the_same_bits() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("states-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("target can be written");
     let mut expected = Vec::new();
-    for (n, journey) in journeys().iter().enumerate() {
-        let (mut instance, now) = journey.traveller();
-        std::fs::write(bytes_of(&folder, n), [&now.to_le_bytes()[..], &instance.serialized()].concat())
-            .expect("target can be written");
-        expected.push(told(&journey.way_on(&mut instance, now)));
+    for (n, traveller) in Traveller::all().enumerate() {
+        std::fs::write(bytes_of(&folder, n), traveller.instance.serialized()).expect("target can be written");
+        expected.push(told(traveller));
     }
     let own = std::env::current_exe().expect("it has a path");
     let name = "exact_what_follows_in_another_process_has_the_same_bits";
     let status = Command::new(own).args(["--exact", name]).env(CHILD, &folder).status().expect("it can be run");
     assert!(status.success(), "{status}");
     for (n, expected) in expected.iter().enumerate() {
-        let found = std::fs::read_to_string(way_of(&folder, n)).expect("the child wrote it");
-        assert!(found == *expected, "journey {n} goes another way in another process");
+        let found = std::fs::read_to_string(bytes_of(&folder, n)).expect("the child wrote it");
+        assert!(found == *expected, "traveller {n} goes another way in another process");
     }
     std::fs::remove_dir_all(folder).expect("target can be written");
 }
 
+/// Writes the ways on in the place of the states.
 fn go_on_as_a_child(folder: &Path) {
-    for (n, journey) in journeys().iter().enumerate() {
+    for (n, mut traveller) in Traveller::all().enumerate() {
+        traveller.instance = Instance::of(traveller.kind);
         let bytes = std::fs::read(bytes_of(folder, n)).expect("the parent wrote it");
-        let (now, bytes) = bytes.split_first_chunk().expect("a time stands before the state");
-        let mut instance = journey.stranger();
-        Saved::unpack(&instance, bytes);
-        let way = journey.way_on(&mut instance, f64::from_le_bytes(*now));
-        std::fs::write(way_of(folder, n), told(&way)).expect("target can be written");
+        Saved::unpack(&traveller.instance, &bytes);
+        std::fs::write(bytes_of(folder, n), told(traveller)).expect("target can be written");
     }
 }
 

@@ -3,56 +3,38 @@
 #![allow(unsafe_code, reason = "FMU states are raw pointers")]
 
 mod harness;
-mod journey;
 
-use harness::{Instance, Life, Saved, reference, refused, scene, tumbling};
-use journey::journey;
-use proptest::prelude::*;
+use harness::{Instance, Life, Saved, Traveller, reference, refused, scene, tumbling};
 use split_rotor::abi::{MODEL_EXCHANGE, Status};
 use split_rotor::exports::{fmi2FreeFMUstate, fmi2SetFMUstate};
 use std::ptr::null_mut;
 
-proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(96) })]
-
-    #[test]
-    fn exact_what_follows_a_rollback_has_the_same_bits(journey in journey()) {
-        let (mut instance, now) = journey.traveller();
-        let here = instance.snapshot();
-        let mut saved = Saved::of(&instance);
-        let bytes = saved.bytes(&instance);
-        let expected = journey.way_on(&mut instance, now);
-        saved.restore(&instance);
-        prop_assert_eq!(instance.serialized(), bytes.clone());
-        prop_assert_eq!(instance.snapshot(), here);
-        // Another way, and back; saved once more into the same object.
-        journey.detour(&mut instance, now);
-        saved.restore(&instance);
+#[test]
+fn exact_what_follows_a_rollback_has_the_same_bits() {
+    for mut traveller in Traveller::all() {
+        let (mut saved, here) = (Saved::of(&traveller.instance), traveller.instance.snapshot());
+        let bytes = saved.bytes(&traveller.instance);
+        let expected = traveller.way_on();
+        saved.restore(&traveller.instance);
+        assert_eq!((traveller.instance.serialized(), traveller.instance.snapshot()), (bytes.clone(), here));
+        // Saved once more into the same object; after the end, and after a reset.
         let object = saved.pointer();
-        prop_assert_eq!(saved.again(&instance), Status::Ok);
-        prop_assert_eq!(saved.pointer(), object);
-        prop_assert_eq!(saved.bytes(&instance), bytes.clone());
-        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
-        // After the end, and after a reset.
-        assert_eq!(instance.terminate(), Status::Ok);
-        saved.restore(&instance);
-        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
-        assert_eq!(instance.reset(), Status::Ok);
-        saved.restore(&instance);
-        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
-        // From bytes.
-        Saved::unpack(&instance, &bytes);
-        prop_assert_eq!(instance.serialized(), bytes.clone());
-        prop_assert_eq!(journey.way_on(&mut instance, now), expected.clone());
+        assert_eq!((saved.again(&traveller.instance), saved.pointer()), (Status::Ok, object));
+        assert_eq!(saved.bytes(&traveller.instance), bytes);
+        assert_eq!(traveller.way_on(), expected);
+        for leave in [Instance::terminate, Instance::reset] {
+            assert_eq!(leave(&mut traveller.instance), Status::Ok);
+            saved.restore(&traveller.instance);
+            assert_eq!(traveller.way_on(), expected);
+        }
         // In another instance, after the first is gone.
-        let (mut other, mut third) = (journey.stranger(), journey.stranger());
-        drop(instance);
-        saved.restore(&other);
-        prop_assert_eq!(journey.way_on(&mut other, now), expected.clone());
-        saved.free(&other);
-        Saved::unpack(&third, &bytes);
-        prop_assert_eq!(third.serialized(), bytes);
-        prop_assert_eq!(journey.way_on(&mut third, now), expected);
+        let other = Instance::of(traveller.kind);
+        traveller.instance = other;
+        saved.restore(&traveller.instance);
+        assert_eq!(traveller.way_on(), expected);
+        saved.free(&traveller.instance);
+        Saved::unpack(&traveller.instance, &bytes);
+        assert_eq!(traveller.way_on(), expected);
     }
 }
 

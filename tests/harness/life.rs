@@ -1,7 +1,7 @@
 //! The life of an instance, written down from the standard (FMI 2.0.4, sections 3.2.3 and 4.2.4), apart from what the FMU
 //! has in `src/fmi2/calls.rs`.
 
-use super::Instance;
+use super::{Instance, inputs, there};
 use split_rotor::abi::{CO_SIMULATION, Choice, MODEL_EXCHANGE, Real, Status};
 
 /// Where an instance can be in its life.
@@ -138,6 +138,53 @@ impl Life {
             bits.extend(instance.integrate(from, 0.001, 20));
         }
         bits
+    }
+}
+
+/// An instance of either kind on its way, by any method, with an input where the scene has one.
+pub struct Traveller {
+    pub kind: Choice,
+    pub instance: Instance,
+}
+
+impl Traveller {
+    /// The scene's own start; a damped one; one that tumbles from chart to chart.
+    const STARTS: [&[(&'static str, Real)]; 3] = [
+        &[],
+        &[("support.d1", 30.0), ("support.d2", 0.5)],
+        &[("support.c2", 0.0), ("start.gamma.y", 1.9), ("start.omega.x", 1.0), ("start.omega.y", 20.0)],
+    ];
+
+    /// After five steps, each kind with each method from each start.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let kinds = [CO_SIMULATION, MODEL_EXCHANGE].into_iter();
+        let ways =
+            kinds.flat_map(|kind| (1..=5).flat_map(move |method| Self::STARTS.map(|start| (kind, method, start))));
+        ways.map(|(kind, method, start)| {
+            let mut instance = Instance::of(kind);
+            instance.set_method(method);
+            let mut traveller = Self { kind, instance: instance.started(&there(start)) };
+            if kind == MODEL_EXCHANGE {
+                traveller.instance.settled();
+            }
+            for input in inputs() {
+                assert_eq!(traveller.instance.write(&[input], &[1.5]), Status::Ok);
+                let sent = kind == MODEL_EXCHANGE || traveller.instance.send(input, 1, -30.0) == Status::Ok;
+                assert!(sent, "a derivative is taken");
+            }
+            traveller.step(0.0, 5);
+            traveller
+        })
+    }
+
+    fn step(&mut self, from: Real, count: u32) -> Vec<Vec<u64>> {
+        let go = if self.kind == MODEL_EXCHANGE { Instance::integrate } else { Instance::run };
+        go(&mut self.instance, from, 2e-3, count)
+    }
+
+    /// Ten steps more, in bits.
+    pub fn way_on(&mut self) -> Vec<Vec<u64>> {
+        self.step(0.01, 10)
     }
 }
 

@@ -8,7 +8,7 @@ mod exchange;
 mod life;
 mod saved;
 
-pub use life::{FAST, Life, RULES, Rule, Stage};
+pub use life::{FAST, Life, RULES, Rule, Stage, Traveller};
 pub use saved::Saved;
 
 use split_rotor::abi::*;
