@@ -286,31 +286,6 @@ fn fmi_wrong_unknowns_knowns_and_seeds_are_refused() {
     }
 }
 
-#[test]
-fn fmi_no_values_from_null_arrays_is_fine() {
-    for kind in KINDS {
-        let instance = Life::new(kind, Stage::Initialization).instance();
-        let c = instance.component();
-        // SAFETY: a live instance; no element is read or written.
-        let statuses = unsafe {
-            [
-                exports::fmi2GetReal(c, null(), 0, null_mut()),
-                exports::fmi2GetInteger(c, null(), 0, null_mut()),
-                exports::fmi2GetBoolean(c, null(), 0, null_mut()),
-                exports::fmi2GetString(c, null(), 0, null_mut()),
-                exports::fmi2SetReal(c, null(), 0, null()),
-                exports::fmi2SetInteger(c, null(), 0, null()),
-                exports::fmi2SetBoolean(c, null(), 0, null()),
-                exports::fmi2SetString(c, null(), 0, null()),
-                exports::fmi2SetDebugLogging(c, FALSE, 0, null()),
-                exports::fmi2GetDirectionalDerivative(c, null(), 0, null(), 0, null(), null_mut()),
-            ]
-        };
-        assert_eq!(statuses, [Status::Ok; 10]);
-        assert_eq!(instance.journal.take(), []);
-    }
-}
-
 /// The status of a call that writes one value, which it leaves as it was where it is refused.
 fn asked<T: Copy + PartialEq + Debug>(untouched: T, call: impl FnOnce(*mut T) -> Status) -> Status {
     let mut value = untouched;
@@ -412,21 +387,6 @@ fn fmi_values_come_in_the_order_asked_for_and_may_repeat() {
     assert_eq!(values, [own_l, own_m, own_m, own_l]);
     assert_eq!(instance.write(&[m, l, m], &[1.0, 2.0, 3.0]), Status::Ok);
     assert_eq!(instance.get_all(["rotor.m", "rotor.l"]), [3.0, 2.0], "the last one counts");
-}
-
-#[test]
-fn fmi_start_values_are_those_of_the_scene() {
-    let mut instance = Instance::quiet();
-    for (reference, start) in &scene().starts {
-        let variable = scene().variables.iter().find(|variable| variable.place.value_reference() == *reference);
-        if variable.expect("each start belongs to a variable").meta.kind == Kind::Real {
-            let mut value = [Real::NAN];
-            assert_eq!(instance.read(&[*reference], &mut value), Status::Ok);
-            assert_eq!(value[0].to_bits(), start.to_bits());
-        } else {
-            assert_eq!(instance.get_integer(*reference).map(f64::from), Ok(*start));
-        }
-    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 mod harness;
 
 use harness::{Instance, inputs, reference, scene};
-use split_rotor::abi::{CO_SIMULATION, Integer, MODEL_EXCHANGE, Real, Status, ValueReference};
+use split_rotor::abi::{Integer, MODEL_EXCHANGE, Real, Status, ValueReference};
 use split_rotor::exports::{fmi2GetDirectionalDerivative, fmi2GetRealOutputDerivatives};
 use split_rotor::scene::Simulation;
 use split_rotor_model::variable::{Kind, Role};
@@ -97,16 +97,6 @@ fn exact_directional_derivatives_in_both_charts() {
             assert!((together - sum).abs() <= 1e-12 * size, "{}: {together:?}, not {sum:?}", variables[i].name);
         }
         assert_eq!(directional(&instance, &[reference("turns")], &known, &seeds), [0.0], "whole turns jump");
-    }
-}
-
-#[test]
-fn fmi_directional_derivatives_are_there_from_initialization_mode_on() {
-    for kind in [CO_SIMULATION, MODEL_EXCHANGE] {
-        let mut instance = Instance::of(kind);
-        assert_eq!(instance.enter_initialization(), Status::Ok);
-        let (rate, speed) = (reference("der(state.r.y)"), reference("state.v.y"));
-        assert_eq!(directional(&instance, &[rate], &[speed], &[3.0]), [3.0]);
     }
 }
 

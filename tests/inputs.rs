@@ -225,16 +225,6 @@ fn fmi_values_that_are_no_numbers_are_refused_and_the_old_ones_kept() {
 
 #[test]
 #[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
-fn fmi_a_reset_forgets_what_was_sent() {
-    let mut instance = free(&[(0, 2.0), (1, -3.0), (2, 5.0)]);
-    follows(&mut instance, 0.0, [2.0, -3.0, 5.0]);
-    assert_eq!(instance.reset(), Status::Ok);
-    assert_eq!(instance.serialized(), Instance::quiet().serialized());
-    follows(&mut instance.started(&FREE), 0.0, [scene().starts[&tau()], 0.0, 0.0]);
-}
-
-#[test]
-#[cfg_attr(not(scene_is_driven), ignore = "needs a scene with drive, support and gravity")]
 fn exact_in_model_exchange_an_input_acts_at_once() {
     let mut instance = Instance::of(MODEL_EXCHANGE).started(&FREE);
     instance.settled();

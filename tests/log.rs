@@ -166,15 +166,6 @@ fn fmi_an_unknown_category_is_an_error_and_changes_nothing() {
 }
 
 #[test]
-#[cfg_attr(not(scene_has_support), ignore = "needs a scene with support")]
-fn fmi_logging_choices_survive_a_reset() {
-    let mut instance = Instance::quiet();
-    assert_eq!(instance.debug_logging(false, &[]), Status::Ok);
-    assert_eq!(instance.reset(), Status::Ok);
-    assert_eq!(heard(&mut instance), [""; 0]);
-}
-
-#[test]
 fn fmi_the_categories_are_those_of_the_model_description() {
     let xml = split_rotor_model::xml::model_description(scene());
     let mut instance = Instance::quiet();
