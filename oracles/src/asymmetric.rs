@@ -29,8 +29,6 @@ pub struct Asymmetric {
     m1: f64,
     /// |K| [kg·m²/s].
     momentum: f64,
-    /// φ at the start \[rad].
-    phi: f64,
 }
 
 impl Asymmetric {
@@ -59,7 +57,7 @@ impl Asymmetric {
         let amplitudes = [size(swing, a, c), middle, top];
         let p = ((j[c] - j[b]) * -spin / (j[a] * j[b] * j[c])).sqrt();
         let u = inverse(w[b] / amplitudes[1], w[a] / amplitudes[0], m1);
-        Self { j, start, names, amplitudes, p, u, m1, momentum: j.component_mul(&w).norm(), phi }
+        Self { j, start, names, amplitudes, p, u, m1, momentum: j.component_mul(&w).norm() }
     }
 
     /// ω at time `t` \[s] in the axes of the body [rad/s].
@@ -82,21 +80,6 @@ impl Asymmetric {
     pub fn attitude(&self, t: f64) -> Matrix3<f64> {
         let turned = rotation::rodrigues(&(Vector3::z() * self.azimuth(t)));
         self.start * self.seen_from_momentum(0.0).transpose() * turned * self.seen_from_momentum(t)
-    }
-
-    /// The axis t at time `t` \[s].
-    pub fn axis(&self, t: f64) -> Vector3<f64> {
-        self.attitude(t).column(0).into_owned()
-    }
-
-    /// φ at time `t` \[s], whole turns included \[rad], by quadrature of ω·(e + t)/(1 + e·t) in so many panels.
-    pub fn phi(&self, t: f64, panels: usize) -> f64 {
-        let rate = |time: f64| {
-            let attitude = self.attitude(time);
-            let axis = attitude.column(0).into_owned();
-            (attitude * self.body_rates(time)).dot(&(Vector3::x() + axis)) / (1.0 + axis.x)
-        };
-        self.phi + integral(rate, 0.0, t, panels)
     }
 
     /// Where the axes of the body stand seen from K: rows x′ towards a, y′, z′ along K.

@@ -7,7 +7,7 @@
 use num_bigint::BigInt;
 use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 /// Binary places.
 pub const PLACES: u32 = 320;
@@ -78,12 +78,6 @@ impl Fixed {
     /// √self, cut at the last place.
     pub fn sqrt(&self) -> Self {
         Self((&self.0 << PLACES).sqrt())
-    }
-
-    /// The greatest whole number not above it.
-    pub fn floor(&self) -> i64 {
-        // A shift to the right rounds down, for negative numbers too.
-        (&self.0 >> PLACES).to_i64().expect("in range")
     }
 
     /// Σ coefficient(k)·(−x)^k/(2k + n)!, summed until nothing is left.
@@ -164,12 +158,5 @@ impl Div for &Fixed {
     type Output = Fixed;
     fn div(self, b: Self) -> Fixed {
         Fixed((&self.0 << PLACES) / &b.0)
-    }
-}
-
-impl Neg for &Fixed {
-    type Output = Fixed;
-    fn neg(self) -> Fixed {
-        Fixed(-&self.0)
     }
 }

@@ -202,10 +202,4 @@ impl Oscillator {
         let u_rate = -square * self.x * odd + slope * even;
         (fall * u, fall * (u_rate - decay * u))
     }
-
-    /// ½ m v² + ½ c x² at time `t` \[s], in J.
-    pub fn energy(&self, t: f64) -> f64 {
-        let (x, v) = self.at(t);
-        0.5 * self.m * v * v + 0.5 * self.c * x * x
-    }
 }

@@ -5,7 +5,7 @@ use oracles::bounds::{largest, within};
 use oracles::forward_whirl::ForwardWhirl;
 use oracles::jeffcott::Jeffcott;
 use oracles::motion::{FreeRotor, Oscillator, Whirl, small_whirl};
-use oracles::numerics::{derivative, integral, root};
+use oracles::numerics::{derivative, root};
 use oracles::rotation;
 
 fn free_rotor() -> FreeRotor {
@@ -113,9 +113,6 @@ fn exact_oscillator_obeys_newton() {
         within("dx/dt", (rate[0] - v).abs(), OSCILLATOR);
         within("dv/dt", (rate[1] + d * v + 4.0 * x).abs(), OSCILLATOR);
         assert_eq!(oscillator.at(0.0), (0.3, -1.1));
-        // The loss d v² is what the energy falls by.
-        let lost = integral(|t| d * oscillator.at(t).1 * oscillator.at(t).1, 0.0, 2.0, 50);
-        within("energy", (oscillator.energy(0.0) - oscillator.energy(2.0) - lost).abs(), OSCILLATOR);
     }
 }
 
