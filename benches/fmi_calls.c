@@ -99,51 +99,31 @@ static void back_and_read(void)
     MUST(GetReal, rotor, read_references, READ, ten);
 }
 
-enum needs { ALWAYS, STATES, BYTES, EXCHANGE, DIRECTIONAL };
-
 static const struct measurement {
     const char *key, *what;
     double target;
     void (*before)(void);
     void (*body)(int);
-    enum needs needs;
     const char *functions;
 } MEASUREMENTS[] = {
-    {"get_real", "fmi2GetReal, 10 variables at hand", 20.0, back_and_read, get_real, STATES, "fmi2GetReal"},
-    {"get_state", "fmi2GetFMUstate, into a state used again", 150.0, back_and_read, get_state, STATES,
-     "fmi2GetFMUstate"},
-    {"set_state", "fmi2SetFMUstate", 150.0, back_and_read, set_state, STATES, "fmi2SetFMUstate"},
-    {"make_and_free", "fmi2Instantiate and fmi2FreeInstance", 20000.0, nothing, make_and_free, ALWAYS,
+    {"get_real", "fmi2GetReal, 10 variables at hand", 20.0, back_and_read, get_real, "fmi2GetReal"},
+    {"get_state", "fmi2GetFMUstate, into a state used again", 150.0, back_and_read, get_state, "fmi2GetFMUstate"},
+    {"set_state", "fmi2SetFMUstate", 150.0, back_and_read, set_state, "fmi2SetFMUstate"},
+    {"make_and_free", "fmi2Instantiate and fmi2FreeInstance", 20000.0, nothing, make_and_free,
      "fmi2Instantiate fmi2FreeInstance"},
-    {"step_unread", "fmi2DoStep, unread, within the solver's step", 20.0, back, step_unread, STATES, "fmi2DoStep"},
+    {"step_unread", "fmi2DoStep, unread, within the solver's step", 20.0, back, step_unread, "fmi2DoStep"},
     {"step_and_read", "fmi2DoStep and fmi2GetReal, 10 variables, within the solver's step", 0.0, back, step_and_read,
-     STATES, "fmi2DoStep fmi2GetReal"},
+     "fmi2DoStep fmi2GetReal"},
     {"step_of_experiment", "fmi2DoStep and fmi2GetReal, 10 variables, the default experiment's step", 0.0, back,
-     step_of_experiment, STATES, "fmi2DoStep fmi2GetReal"},
-    {"serialize", "fmi2SerializeFMUstate", 0.0, back, serialize, BYTES, "fmi2SerializeFMUstate"},
-    {"deserialize", "fmi2DeSerializeFMUstate and fmi2FreeFMUstate", 0.0, back, deserialize, BYTES,
+     step_of_experiment, "fmi2DoStep fmi2GetReal"},
+    {"serialize", "fmi2SerializeFMUstate", 0.0, back, serialize, "fmi2SerializeFMUstate"},
+    {"deserialize", "fmi2DeSerializeFMUstate and fmi2FreeFMUstate", 0.0, back, deserialize,
      "fmi2DeSerializeFMUstate fmi2FreeFMUstate"},
-    {"derivatives", "fmi2SetContinuousStates and fmi2GetDerivatives", 0.0, nothing, derivatives, EXCHANGE,
+    {"derivatives", "fmi2SetContinuousStates and fmi2GetDerivatives", 0.0, nothing, derivatives,
      "fmi2SetContinuousStates fmi2GetDerivatives"},
     {"directional", "fmi2SetContinuousStates and fmi2GetDirectionalDerivative, one seed", 0.0, nothing,
-     directional_derivative, DIRECTIONAL, "fmi2SetContinuousStates fmi2GetDirectionalDerivative"},
+     directional_derivative, "fmi2SetContinuousStates fmi2GetDirectionalDerivative"},
 };
-
-static bool can_be_measured(enum needs needs)
-{
-    switch (needs) {
-    case STATES:
-        return claims("CoSimulation.canGetAndSetFMUstate");
-    case BYTES:
-        return claims("CoSimulation.canSerializeFMUstate");
-    case EXCHANGE:
-        return attribute("ModelExchange.modelIdentifier") != NULL;
-    case DIRECTIONAL:
-        return claims("ModelExchange.providesDirectionalDerivative");
-    default:
-        return true;
-    }
-}
 
 static void prepare_co_simulation(void)
 {
@@ -167,15 +147,11 @@ static void prepare_co_simulation(void)
         start += own_step / 64.0;
         must(fmi.GetReal(rotor, &steps_reference, 1, &steps), "solver.steps");
     } while (steps == steps_before);
-    if (can_be_measured(STATES)) {
-        MUST(GetFMUstate, rotor, &at_start);
-        MUST(GetFMUstate, rotor, &scratch);
-    }
-    if (can_be_measured(BYTES)) {
-        MUST(SerializedFMUstateSize, rotor, at_start, &size);
-        bytes = malloc(size);
-        MUST(SerializeFMUstate, rotor, at_start, bytes, size);
-    }
+    MUST(GetFMUstate, rotor, &at_start);
+    MUST(GetFMUstate, rotor, &scratch);
+    MUST(SerializedFMUstateSize, rotor, at_start, &size);
+    bytes = malloc(size);
+    MUST(SerializeFMUstate, rotor, at_start, bytes, size);
 }
 
 static void prepare_model_exchange(void)
@@ -224,14 +200,9 @@ int main(int count, char **arguments)
     load_library(arguments[2]);
     experiment_step = number("DefaultExperiment.stepSize");
     prepare_co_simulation();
-    if (can_be_measured(EXCHANGE)) {
-        prepare_model_exchange();
-    }
+    prepare_model_exchange();
     for (size_t i = 0; i < sizeof MEASUREMENTS / sizeof *MEASUREMENTS; i++) {
         const struct measurement *it = &MEASUREMENTS[i];
-        if (!can_be_measured(it->needs)) {
-            continue;
-        }
         if (only == NULL) {
             measure(it);
         } else if (strcmp(only, it->key) == 0) {

@@ -61,11 +61,9 @@ void derivatives(void)
     }
     free_rotor(&rotor);
     free(inputs);
-    if (has_model_exchange()) {
-        rotor = new_rotor(fmi2ModelExchange);
-        initialize(&rotor);
-        enter_continuous_time(&rotor);
-        directional(&rotor, states.references, states.count);
-        free_rotor(&rotor);
-    }
+    rotor = new_rotor(fmi2ModelExchange);
+    initialize(&rotor);
+    enter_continuous_time(&rotor);
+    directional(&rotor, states.references, states.count);
+    free_rotor(&rotor);
 }

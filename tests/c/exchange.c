@@ -6,11 +6,6 @@
 /* An iteration of events that takes more is taken for one without an end. */
 enum { EVENT_ITERATIONS = 100 };
 
-bool has_model_exchange(void)
-{
-    return attribute("ModelExchange.modelIdentifier") != NULL;
-}
-
 void enter_continuous_time(struct rotor *rotor)
 {
     fmi2EventInfo info = {.newDiscreteStatesNeeded = fmi2True};

@@ -6,8 +6,6 @@
 
 #include <stdbool.h>
 
-bool has_model_exchange(void);
-
 /* From event mode, events iterated until no more are needed, to continuous-time mode. */
 void enter_continuous_time(struct rotor *rotor);
 

@@ -13,9 +13,6 @@ static const double SPAN = 0.5;
 
 void model_exchange(void)
 {
-    if (!has_model_exchange()) {
-        return;
-    }
     fmi2Real *nominals = allocated(states.count, sizeof *nominals), *values = new_trace(1);
     const struct variable *chart = variable("state.chart");
     fmi2Integer first = 0, last = 0;

@@ -100,12 +100,6 @@ const char *attribute(const char *name)
     return NULL;
 }
 
-bool claims(const char *name)
-{
-    const char *value = attribute(name);
-    return value != NULL && strcmp(value, "true") == 0;
-}
-
 double number(const char *name)
 {
     const char *value = attribute(name);

@@ -44,9 +44,6 @@ void read_sheet(const char *file);
 /* An attribute such as "CoSimulation.modelIdentifier"; NULL where it is not there. */
 const char *attribute(const char *name);
 
-/* Whether a capability such as "CoSimulation.canGetAndSetFMUstate" is claimed. */
-bool claims(const char *name);
-
 /* An attribute that is a number; 0 where it is not there. */
 double number(const char *name);
 
