@@ -93,7 +93,7 @@ fn gallery(whole: bool) -> Vec<Case> {
     families.into_iter().flatten().collect()
 }
 
-fn measure(stages: &Stages, cases: &[Case], mutants: bool) -> Result<Vec<Row>> {
+fn measure<'c>(stages: &Stages, cases: &'c [Case], mutants: bool) -> Result<Vec<Row<'c>>> {
     let progress = accuracy::bar(cases.len());
     let mut rows = Vec::new();
     for case in cases {
@@ -106,7 +106,7 @@ fn measure(stages: &Stages, cases: &[Case], mutants: bool) -> Result<Vec<Row>> {
             let wrong = Bench::new(stage, method, Some(&case.mutant));
             let mutated = mutants.then(|| self::outcome(case, &wrong));
             ensure!(!mutants || wrong.is_changed(), "{}: its mutant changes nothing", case.name);
-            rows.push(Row::new(case, method, *bound, outcome, mutated, bench.spent(), seconds));
+            rows.push(Row { case, method, bound: *bound, outcome, mutated, evaluations: bench.spent(), seconds });
         }
         progress.inc(1);
     }

@@ -28,9 +28,14 @@ fn with(bound: f64) -> Vec<(Method, f64)> {
     all().into_iter().map(|method| (method, bound)).collect()
 }
 
+/// A rotor at rest in this place \[m], tilted by θ \[rad], with ω [rad/s].
+fn placed(place: Vector3<f64>, theta: f64, omega: Vector3<f64>) -> Vec<Setting> {
+    start(&place, &Vector3::zeros(), 0.0, &Vector2::new(0.0, theta), &omega)
+}
+
 /// The paper's rotor tilted by 0.1 rad.
 fn tilted() -> Vec<Setting> {
-    start(&(Vector3::x() * 0.75), &Vector3::zeros(), 0.0, &Vector2::new(0.0, 0.1), &(Vector3::x() * 50.0))
+    placed(Vector3::x() * 0.75, 0.1, Vector3::x() * 50.0)
 }
 
 /// t + h = t.
@@ -60,9 +65,8 @@ fn no_advance() -> Case {
 
 /// Tumbling at 10 rad/s towards −e with a tilt spring, which ends at 3.1 rad: refused at 0.31 s.
 fn past_the_limit() -> Case {
-    let omega = Vector3::new(0.0, 0.0, 10.0);
     let mut settings = support(0.0, 1e-300, Vector3::zeros());
-    settings.extend(start(&Vector3::zeros(), &Vector3::zeros(), 0.0, &Vector2::zeros(), &omega));
+    settings.extend(placed(Vector3::zeros(), 0.0, Vector3::z() * 10.0));
     Case {
         name: "a tilt spring carried past 3.1 rad".into(),
         hard: "its direction has no limit at −e",
@@ -70,20 +74,14 @@ fn past_the_limit() -> Case {
         scene: "paper",
         methods: with(4e-14),
         mutant: ("support.c2", 0.0),
-        task: discarded(settings, 1.0, |t| (t - 0.31).abs(), "3.1 rad"),
+        task: discarded(settings, |t| (t - 0.31).abs(), "3.1 rad"),
     }
 }
 
 /// Springs whose force overflows.
 fn absurd_springs() -> Case {
     let mut settings = support(1e300, 500.0, Vector3::zeros());
-    settings.extend(start(
-        &Vector3::new(1.0, 0.5, 0.0),
-        &Vector3::zeros(),
-        0.0,
-        &Vector2::zeros(),
-        &(Vector3::x() * 50.0),
-    ));
+    settings.extend(placed(Vector3::new(1.0, 0.5, 0.0), 0.0, Vector3::x() * 50.0));
     Case {
         name: "a support of 10³⁰⁰ N/m, stretched".into(),
         hard: "no step is short enough",
@@ -91,14 +89,13 @@ fn absurd_springs() -> Case {
         scene: "paper",
         methods: with(1e-6),
         mutant: ("support.c1", 1e-297),
-        task: discarded(settings, 1.0, |t| t, "no step"),
+        task: discarded(settings, |t| t, "no step"),
     }
 }
 
 /// An energy beyond all doubles.
 fn absurd_start() -> Case {
-    let settings =
-        start(&(Vector3::x() * 0.75), &Vector3::zeros(), 0.0, &Vector2::zeros(), &Vector3::new(50.0, 1e200, 0.0));
+    let settings = placed(Vector3::x() * 0.75, 0.0, Vector3::new(50.0, 1e200, 0.0));
     Case {
         name: "a start of 10²⁰⁰ rad/s".into(),
         hard: "its energy overflows",
@@ -143,7 +140,7 @@ fn too_long_steps() -> Case {
         scene: "paper",
         methods: [2, 4, 6, 8].map(|order| (symplectic(order, 1e-3), 0.01)).into(),
         mutant: ("support.c1", 1e-6),
-        task: discarded(settings, 1.0, |t| t, "shorten solver.step_size"),
+        task: discarded(settings, |t| t, "shorten solver.step_size"),
     }
 }
 
@@ -156,22 +153,17 @@ fn too_short_steps() -> Case {
         scene: "paper",
         methods: vec![(Method { name: "symplectic", settings: vec![] }, 1e-6)],
         mutant: ("solver.step_size", 1e12),
-        task: discarded(
-            [tilted(), vec![("solver.step_size", 1e-15)]].concat(),
-            1.0,
-            |t| t,
-            "a longer solver.step_size",
-        ),
+        task: discarded([tilted(), vec![("solver.step_size", 1e-15)]].concat(), |t| t, "a longer solver.step_size"),
     }
 }
 
-/// Runs to `end` \[s], in steps of a hundredth, and must be discarded with this reason; the time reached decides.
-fn discarded(settings: Vec<Setting>, end: f64, off: impl Fn(f64) -> f64 + 'static, reason: &'static str) -> Task {
+/// Runs for a second, in steps of a hundredth, and must be discarded with this reason; the time reached decides.
+fn discarded(settings: Vec<Setting>, off: impl Fn(f64) -> f64 + 'static, reason: &'static str) -> Task {
     Box::new(move |bench| {
         let mut rotor = bench.rotor(&settings)?;
-        rotor.start(0.0, end)?;
+        rotor.start(0.0, 1.0)?;
         for n in 1..=100 {
-            let Err(error) = rotor.advance(end * f64::from(n) / 100.0) else { continue };
+            let Err(error) = rotor.advance(f64::from(n) / 100.0) else { continue };
             refused(Err(error), DISCARD, &[reason])?;
             // What it shows are numbers, or a refusal that says why not.
             if let Err(error) = rotor.shown() {

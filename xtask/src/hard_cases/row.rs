@@ -8,21 +8,15 @@ use serde_json::{Value, json};
 pub type Outcome = Result<Found, String>;
 
 /// A case with one method.
-pub struct Row {
-    /// What happens.
-    pub case: String,
-    /// What is hard about it.
-    pub hard: &'static str,
-    /// Who knows the answer.
-    pub oracle: &'static str,
-    /// The method as a table shows it.
-    pub method: String,
+pub struct Row<'c> {
+    /// What happens, what is hard about it, and who knows the answer.
+    pub case: &'c Case,
+    /// By which method.
+    pub method: &'c Method,
     /// The bound of its error.
     pub bound: f64,
     /// What came of it.
     pub outcome: Outcome,
-    /// The mutant in words.
-    pub mutant: String,
     /// What came of the mutant, where it ran.
     pub mutated: Option<Outcome>,
     /// Evaluations of the right-hand side.
@@ -31,32 +25,11 @@ pub struct Row {
     pub seconds: f64,
 }
 
-impl Row {
-    /// Of a case with one of its methods.
-    pub fn new(
-        case: &Case,
-        method: &Method,
-        bound: f64,
-        outcome: Outcome,
-        mutated: Option<Outcome>,
-        evaluations: f64,
-        seconds: f64,
-    ) -> Self {
-        let (name, factor) = case.mutant;
-        let mutant = format!("{name} × {}", shown(factor));
-        let (hard, oracle) = (case.hard, case.oracle);
-        Self {
-            case: case.name.clone(),
-            hard,
-            oracle,
-            method: method.label(),
-            bound,
-            outcome,
-            mutant,
-            mutated,
-            evaluations,
-            seconds,
-        }
+impl Row<'_> {
+    /// The mutant in words.
+    pub fn mutant(&self) -> String {
+        let (name, factor) = self.case.mutant;
+        format!("{name} × {}", shown(factor))
     }
 
     /// Whether a run is within the bound; what is not a number is not.
@@ -66,7 +39,7 @@ impl Row {
 
     /// What is wrong with it.
     pub fn complaint(&self) -> Option<String> {
-        let Self { case, method, bound, .. } = self;
+        let (case, method, bound) = (&self.case.name, self.method.label(), self.bound);
         if !self.keeps(&self.outcome) {
             return Some(match &self.outcome {
                 Ok(found) => format!("{case}, {method}: error {:.1e} of {}, bound {bound:.1e}", found.error, found.of),
@@ -74,7 +47,7 @@ impl Row {
             });
         }
         let survives = self.mutated.as_ref().is_some_and(|outcome| self.keeps(outcome));
-        survives.then(|| format!("{case}, {method}: the mutant {} is not seen", self.mutant))
+        survives.then(|| format!("{case}, {method}: the mutant {} is not seen", self.mutant()))
     }
 
     /// Each column's name with its unit, and the value, null where there is none.
@@ -85,17 +58,17 @@ impl Row {
             Err(why) => json!(why),
         });
         vec![
-            ("case", json!(self.case)),
-            ("hard", json!(self.hard)),
-            ("oracle", json!(self.oracle)),
-            ("method", json!(self.method)),
+            ("case", json!(self.case.name)),
+            ("hard", json!(self.case.hard)),
+            ("oracle", json!(self.case.oracle)),
+            ("method", json!(self.method.label())),
             ("error", json!(found.map(|found| found.error))),
             ("error_of", json!(found.map(|found| &found.of))),
             ("bound", json!(self.bound)),
             ("keeps_bound", json!(self.keeps(&self.outcome))),
             ("evaluations", json!(self.evaluations)),
             ("seconds", json!(self.seconds)),
-            ("mutant", json!(self.mutant)),
+            ("mutant", json!(self.mutant())),
             ("mutant_error", json!(mutated)),
             ("failure", json!(self.outcome.as_ref().err())),
         ]

@@ -11,23 +11,23 @@ pub fn markdown(rows: &[Row]) -> String {
             .to_owned();
     let mut last = "";
     for row in rows {
-        let first = row.case != last;
-        last = &row.case;
+        let first = row.case.name != last;
+        last = &row.case.name;
         let common = |text: &'static str| if first { text } else { "" };
         let (error, of) = match &row.outcome {
             Ok(found) => (short(found.error), found.of.clone()),
             Err(why) => ("failed".into(), why.clone()),
         };
         let cells = [
-            if first { row.case.clone() } else { String::new() },
-            common(row.hard).into(),
-            common(row.oracle).into(),
-            row.method.clone(),
+            if first { row.case.name.clone() } else { String::new() },
+            common(row.case.hard).into(),
+            common(row.case.oracle).into(),
+            row.method.label(),
             error,
             of,
             short(row.bound),
             format!("{:.0}", row.evaluations),
-            if first { row.mutant.clone() } else { String::new() },
+            if first { row.mutant() } else { String::new() },
             row.mutated.as_ref().map_or(String::new(), of_mutant),
         ];
         let cells = cells.map(|cell| cell.replace('|', "\\|").replace('\n', " "));
