@@ -4,11 +4,10 @@
 use crate::harness::asymmetric::{Case, at};
 use crate::harness::named::{Named, ROTOR};
 use crate::harness::within;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 use oracles::rigid_body::Moving;
 use split_rotor_model::simulation::{Any, Integrator};
 use split_rotor_model::stored::{from_bytes, to_bytes};
-use std::f64::consts::PI;
 
 const EXACTLY: &str = "method = \"dop853\"\nrelative_tolerance = 1e-12";
 
@@ -226,18 +225,6 @@ fn what_does_not_go_together_is_named() {
     assert!(symplectic.starts_with("test.toml, line ") && symplectic.ends_with(message), "{symplectic}");
 }
 
-/// A constraint that was imposed for long holds still [1].
-const HELD: f64 = 1e-13;
-
-#[test]
-fn exact_speed_is_kept_to_rounding() {
-    let case = Case { gamma: Vector2::new(0.4, -0.2), ..Case::held() };
-    let mut named = Named::started(&format!("{}[effects.imposed_speed]\nw = 50.0\n", case.text(EXACTLY)));
-    let reading = at(&mut named, 2.0 * PI);
-    within("speed", (reading.motion.axial_rate() / 50.0 - 1.0).abs(), HELD);
-    within("angle", (reading.motion.phi() - case.phi - 100.0 * PI).abs() / (100.0 * PI), HELD);
-}
-
 /// The ledger where a speed jumped at an event of a host, in units of the jump [1]: rounding.
 const BOOKED: f64 = 1e-13;
 
@@ -330,17 +317,6 @@ fn exact_a_sampled_speed_is_followed_point_by_point() {
     ramp(&[(Some(25.0), a, 26.0), (Some(25.0), a, 26.0), (Some(25.0), a, 27.0), (Some(20.0), a, 21.0)]);
     // Both at one point, in any order, and without a rate.
     ramp(&[(Some(21.0), None, 21.0), (Some(21.0), None, 21.0), (Some(21.0), None, 21.0), (None, Some(-10.0), 20.0)]);
-}
-
-#[test]
-fn exact_derivatives_of_the_speed_bend_it_from_where_it_is() {
-    let mut named = tilted(&format!("{IMPOSED}w = 20.0\na = 10.0\n"));
-    named.simulation.advance(0.1).expect("a possible motion");
-    let place = named.place("imposed_speed.w");
-    named.simulation.set_input_derivative(place, 1, -5.0);
-    within("at once", (named.get("omega_phi") / 21.0 - 1.0).abs(), TOLD);
-    named.simulation.advance(0.2).expect("a possible motion");
-    within("bent", (named.get("omega_phi") / 20.5 - 1.0).abs(), TOLD);
 }
 
 // ----------------------------------------------------------------------------------------- a partner that sends w alone

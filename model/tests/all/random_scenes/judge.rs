@@ -28,6 +28,8 @@ pub struct Verdict {
     pub worst: f64,
     /// Evaluations.
     pub evaluations: f64,
+    /// What the ledger of the energy leaves over at the end [1].
+    pub residual: f64,
     /// What it took [s].
     pub seconds: f64,
 }
@@ -41,12 +43,13 @@ impl Verdict {
     /// Of a method of ours at a relative and an absolute tolerance.
     pub fn within(trial: &Trial, truth: &Truth, method: Method, tolerances: [f64; 2]) -> Self {
         let began = std::time::Instant::now();
-        let (mut name, mut evaluations) = (method.name(), 0.0);
+        let (mut name, mut evaluations, mut residual) = (method.name(), 0.0, 0.0);
         let run = || {
             let mut ours = Ours::start(trial, method, tolerances)?;
             let shown = play(trial, &mut ours);
             name = ours.auto().unwrap_or(name.clone());
             evaluations = ours.evaluations();
+            residual = ours.residual();
             shown
         };
         let shown = catch_unwind(AssertUnwindSafe(run)).unwrap_or_else(|_| Err(PANICKED.into()));
@@ -56,7 +59,8 @@ impl Verdict {
         let allowed = ALLOWED * tolerance * truth.growth.max(1.0).max(nutations / NUTATIONS);
         let errors = shown.map(|shown| over(truth.differences(trial, &shown), truth.sizes));
         let worst = errors.as_ref().map_or(f64::INFINITY, |errors| largest(*errors) / allowed);
-        Self { tolerance, method: name, errors, worst, evaluations, seconds: began.elapsed().as_secs_f64() }
+        let seconds = began.elapsed().as_secs_f64();
+        Self { tolerance, method: name, errors, worst, evaluations, residual, seconds }
     }
 
     /// Whether it answers as near as is allowed.

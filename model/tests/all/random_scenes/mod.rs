@@ -147,6 +147,9 @@ const LEAST_ABSOLUTE: f64 = 1e-17;
 /// What place, axis and φ may err then over their sizes, and over A where that is more than 1 [1].
 const LAWS: f64 = 2e-9;
 
+/// What the ledger may leave over then [1]: measured 2.5e-12.
+const LEDGER: f64 = 1e-11;
+
 /// Scenes of a seed that hold every effect.
 const WITH_ALL: [std::ops::Range<u64>; 2] = [0..70, 200..240];
 
@@ -164,7 +167,8 @@ fn exact_every_law_is_that_of_the_reference() {
         let tolerances = [TIGHT, (TIGHT * smallest).max(LEAST_ABSOLUTE)];
         let verdict = Verdict::within(&trial, &truth, Method::Dop853, tolerances);
         let worst = truth::largest(verdict.errors.clone().unwrap_or([f64::NAN; 3])) / truth.growth.max(1.0);
-        if worst.is_nan() || worst > LAWS {
+        if !(worst <= LAWS && verdict.residual <= LEDGER) {
+            println!("{number}: {worst:e}, the ledger leaves over {:e}", verdict.residual);
             wrong.push(report::line(&Row { number, trial, truth, verdicts: Vec::new() }, &verdict));
         }
     }

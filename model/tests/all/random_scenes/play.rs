@@ -124,6 +124,13 @@ impl Ours {
         self.named.at(self.evaluations)
     }
 
+    /// What the ledger of the energy leaves over, over the kinetic energy, the work that went through and 1 J, with which work counts in
+    /// the tolerance [1].
+    pub fn residual(&mut self) -> f64 {
+        let mut energy = |of: &str| self.named.get(&format!("energy.{of}")).abs();
+        energy("residual") / (1.0 + energy("kinetic") + energy("supplied") + energy("dissipated"))
+    }
+
     /// What `auto` does by now.
     pub fn auto(&self) -> Option<String> {
         let said = self.named.simulation.auto()?;
