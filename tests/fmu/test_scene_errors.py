@@ -61,9 +61,6 @@ CASES = {
     "negative mass": (
         "m = 5.0", "m = -5.0", ", line 6: rotor.m = -5.0 is not possible: it must be a finite number > 0",
     ),
-    "infinite mass": (
-        "m = 5.0", "m = inf", ", line 6: rotor.m = inf is not possible: it must be a finite number > 0",
-    ),
     "not a number": ("l = 0.75", "l = nan", ", line 9: rotor.l = NaN is not possible: it must be a finite number"),
     "negative stiffness": (
         "c1 = 2000.0", "c1 = -1.0",
@@ -96,10 +93,6 @@ CASES = {
         ", line 28: experiment.step = 0.0 is not possible: it must be a number of seconds > 0, at most stop - start = 10.0 s",
     ),
     "broken TOML": ("m = 5.0", "m = = 5.0", ", line 6: is not TOML: extra `=`, expected nothing"),
-    "open string": (
-        'title = "Rotor in a block of springs (Sorokin and Zhang 2018)"', 'title = "Rotor',
-        ', line 3: is not TOML: invalid basic string, expected `"`',
-    ),
     "too many in a general scene": (
         "[rotor]", "general = true\n" + 5 * "[[effects.probe]]\n" + "[rotor]",
         ", line 6: [[effects.probe]] stands 5 times: there may be up to 4",
@@ -111,7 +104,6 @@ CASES = {
         "[effects.gravity]", "[[effects.port]]\nposition = 0.0\nf = { a = 1.0 }\n[effects.gravity]",
         ", line 17: unknown key `effects.port[1].f.a`: [effects.port.f] knows x, y, z",
     ),
-    "same key twice": ("m = 5.0", "m = 5.0\nm = 6.0", ", line 7: is not TOML: duplicate key `m`"),
 }
 
 
