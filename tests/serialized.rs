@@ -72,6 +72,7 @@ fn exact_what_follows_in_another_process_has_the_same_bits() {
 /// Writes the ways on in the place of the states.
 fn go_on_as_a_child(folder: &Path) {
     for (n, mut traveller) in Traveller::all().enumerate() {
+        // What this process has of its own is thrown away.
         traveller.instance = Instance::of(traveller.kind);
         let bytes = std::fs::read(bytes_of(folder, n)).expect("the parent wrote it");
         Saved::unpack(&traveller.instance, &bytes);

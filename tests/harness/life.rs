@@ -160,6 +160,7 @@ impl Traveller {
         let kinds = [CO_SIMULATION, MODEL_EXCHANGE].into_iter();
         let ways =
             kinds.flat_map(|kind| (1..=5).flat_map(move |method| Self::STARTS.map(|start| (kind, method, start))));
+        // A start is of the values that the scene has.
         ways.map(|(kind, method, start)| {
             let mut instance = Instance::of(kind);
             instance.set_method(method);
@@ -172,6 +173,7 @@ impl Traveller {
                 let sent = kind == MODEL_EXCHANGE || traveller.instance.send(input, 1, -30.0) == Status::Ok;
                 assert!(sent, "a derivative is taken");
             }
+            // The solver runs ahead of these steps, so what is saved holds more than they show.
             traveller.step(0.0, 5);
             traveller
         })

@@ -151,6 +151,7 @@ fn exact_attitude_is_that_of_quaternions() {
         let exact = oracles::rotation::attitude(phi, &gamma);
         let (chart, other) = (Chart::FromMinusE, crossed_exactly(gamma));
         let angle = Angle { turns: 0.0, remainder: phi }.wrapped();
+        // φ as the chart from −e has it, and back.
         let own = chart.own_angle(angle, other);
         let back = chart.axial_angle(own.turns, own.remainder, other);
         worst = largest([

@@ -36,11 +36,6 @@ fn calculated(named: &Named) -> Vec<Variable> {
     named.scene.variables.iter().filter(|variable| is_calculated(variable)).cloned().collect()
 }
 
-fn inputs(named: &Named) -> Vec<Variable> {
-    let is_input = |variable: &&Variable| matches!(variable.meta.role, Role::Input { .. });
-    named.scene.variables.iter().filter(is_input).cloned().collect()
-}
-
 /// A rotor with parameters and inputs that have no symmetry, in the chart 1 or 2.
 fn tilted(name: &str, chart: u32, random: &mut Random) -> Named {
     let mut named = somewhere(name, random);
@@ -140,7 +135,7 @@ fn exact_dependencies_later_are_those_of_dual_numbers() {
                 named.host().set_state(&state);
                 let is_state = |v: &&Variable| named.simulation.is_state(v.place);
                 let states: Vec<_> = named.scene.variables.iter().filter(is_state).collect();
-                let knowns: Vec<Variable> = states.into_iter().cloned().chain(inputs(&named)).collect();
+                let knowns: Vec<Variable> = states.into_iter().cloned().chain(named.inputs().cloned()).collect();
                 let variables = calculated(&named);
                 let column = |on: &Variable| {
                     let tangents = named.simulation.tangents([(on.place, 1.0)].into_iter()).expect("possible");

@@ -119,6 +119,7 @@ impl Judge {
         for (of, list) in
             variables.iter().enumerate().filter(|(_, of)| of.meta.kind == Kind::Real && !is_exempt(&of.name))
         {
+            // Of states and parameters what cancels is listed too.
             let is_input = |on: &&usize| matches!(variables[**on].meta.role, Role::Input { .. });
             for on in self.listed.at_start[of].iter().filter(is_input) {
                 assert!(self.at_start.contains(&(of, *on)), "{}: {} on {}", self.name, list.name, variables[*on].name);

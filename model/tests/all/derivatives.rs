@@ -17,6 +17,7 @@ fn rates(scene: &Scene, y: &[f64; COORDINATES]) -> [f64; COORDINATES] {
     if !rotor.effects.works() {
         return System::<COORDINATES>::rates_of_all(&rotor, 0.0, y);
     }
+    // What is lost is a quadrature besides, on which no coordinate depends.
     let mut whole = [0.0; WITH_WORK];
     whole[..COORDINATES].copy_from_slice(y);
     let rates = System::<WITH_WORK>::rates_of_all(&rotor, 0.0, &whole);

@@ -100,8 +100,13 @@ const HALF_A_DECADE: f64 = 0.5;
 /// What is less is rounding, not the tolerance's error [1].
 const ROUNDED: f64 = 1e-13;
 
+/// What the larger of both errors may be over the tolerance [1]: measured 2.3 to 28 in `paper`, 21 to 111 in `free_top`, which nutates
+/// 955 times; where damping forgets errors, it may be smaller.
+const HONEST: [f64; 2] = [1.0, 150.0];
+const FORGETFUL: &str = "driven";
+
 #[test]
-fn exact_error_over_tolerance_hardly_depends_on_the_tolerance() {
+fn exact_the_error_is_about_the_tolerance_and_hardly_depends_on_it() {
     for (what, ratios) in all() {
         for (n, name) in ["r_c", "axis"].into_iter().enumerate() {
             let told = ratios.iter().zip(tolerances()).filter(|(pair, tolerance)| pair[n] * tolerance > ROUNDED);
@@ -111,17 +116,6 @@ fn exact_error_over_tolerance_hardly_depends_on_the_tolerance() {
                 within(&format!("{what}, {name}: decades from the mean"), spread(&told), HALF_A_DECADE);
             }
         }
-    }
-}
-
-/// What the larger of both errors may be over the tolerance [1]: measured 2.3 to 28 in `paper`, 21 to 111 in `free_top`, which nutates
-/// 955 times; where damping forgets errors, it may be smaller.
-const HONEST: [f64; 2] = [1.0, 150.0];
-const FORGETFUL: &str = "driven";
-
-#[test]
-fn exact_the_error_is_about_the_tolerance() {
-    for (what, ratios) in all() {
         for [r_c, axis] in ratios {
             let worst = r_c.max(axis);
             within(&what, worst, HONEST[1]);

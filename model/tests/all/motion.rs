@@ -36,6 +36,7 @@ fn exact_small_whirl_frequencies() {
     for spin in [0.0, 50.0, 300.0] {
         let scene = Scene { omega: Vector3::x() * spin, g: Vector3::zeros(), ..Scene::paper() };
         let mut exact: Vec<_> = small_whirl(&Whirl::paper(0.0, 100.0), spin).into_iter().map(f64::abs).collect();
+        // Along e the rotor swings on its spring, and nothing tilts.
         exact.push((scene.c1 / scene.body.m).sqrt());
         exact.sort_by(f64::total_cmp);
         let computed = frequencies(&scene, &scene.state());

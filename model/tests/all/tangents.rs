@@ -47,8 +47,7 @@ fn somewhere(name: &str, chart: u8, random: &mut Random) -> (Named, Whole<f64>) 
 }
 
 fn inputs(named: &Named) -> Vec<Place> {
-    let is_input = |role| matches!(role, Role::Input { .. });
-    named.scene.variables.iter().filter(|v| is_input(v.meta.role)).map(|v| v.place).collect()
+    named.inputs().map(|input| input.place).collect()
 }
 
 fn move_to(named: &mut Named, state: &Whole<f64>) {

@@ -5,7 +5,7 @@ use oracles::machine::Machine;
 use split_rotor_model::effects::All;
 use split_rotor_model::scene::Scene;
 use split_rotor_model::simulation::{Any, Hosted, Integrator, Simulation};
-use split_rotor_model::variable::{Meta, Place};
+use split_rotor_model::variable::{Meta, Place, Role};
 use split_rotor_model::variables::Variable;
 use std::path::Path;
 
@@ -119,6 +119,11 @@ impl Named {
     /// The variable of this name.
     pub fn variable(&self, name: &str) -> &Variable {
         self.scene.variables.iter().find(|variable| variable.name == name).unwrap_or_else(|| panic!("no {name}"))
+    }
+
+    /// Its inputs.
+    pub fn inputs(&self) -> impl Iterator<Item = &Variable> {
+        self.scene.variables.iter().filter(|variable| matches!(variable.meta.role, Role::Input { .. }))
     }
 
     /// Where the variable of this name stands.

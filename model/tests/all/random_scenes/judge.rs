@@ -2,7 +2,8 @@
 
 use super::play::{Method, Ours, play};
 use super::trial::Trial;
-use super::truth::{Measures, Truth, largest, over};
+use super::truth::{Measures, Truth, over};
+use crate::harness::largest;
 use std::f64::consts::TAU;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -16,6 +16,7 @@ mod timing;
 mod trial;
 mod truth;
 
+use crate::harness::largest;
 use judge::{TOLERANCES, Verdict};
 use play::Method;
 use report::Row;
@@ -166,7 +167,7 @@ fn exact_every_law_is_that_of_the_reference() {
         let smallest = truth.sizes.iter().copied().filter(|size| *size > 0.0).fold(1.0, f64::min);
         let tolerances = [TIGHT, (TIGHT * smallest).max(LEAST_ABSOLUTE)];
         let verdict = Verdict::within(&trial, &truth, Method::Dop853, tolerances);
-        let worst = truth::largest(verdict.errors.clone().unwrap_or([f64::NAN; 3])) / truth.growth.max(1.0);
+        let worst = largest(verdict.errors.clone().unwrap_or([f64::NAN; 3])) / truth.growth.max(1.0);
         if !(worst <= LAWS && verdict.residual <= LEDGER) {
             println!("{number}: {worst:e}, the ledger leaves over {:e}", verdict.residual);
             wrong.push(report::line(&Row { number, trial, truth, verdicts: Vec::new() }, &verdict));

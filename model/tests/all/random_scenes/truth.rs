@@ -2,6 +2,7 @@
 
 use super::play::play;
 use super::trial::Trial;
+use crate::harness::largest;
 use nalgebra::Vector3;
 use oracles::machine::{Machine, Pace, Run, Shown};
 use oracles::rotation;
@@ -132,11 +133,6 @@ impl Trial {
     fn judged(&self) -> usize {
         1 + self.points.iter().position(|t| *t >= self.judged_from).expect("a point that is judged")
     }
-}
-
-/// The largest, or NaN where there is one.
-pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
-    values.into_iter().fold(0.0, |most, value| if value > most || value.is_nan() { value } else { most })
 }
 
 fn across(v: &Vector3<f64>) -> f64 {
