@@ -4,6 +4,8 @@
 use crate::harness::named::{Named, ROTOR};
 use crate::harness::{largest, within};
 use nalgebra::Vector3;
+use split_rotor_model::effects::Effect;
+use split_rotor_model::effects::bearing::Bearing;
 
 const SOLVER: &str = "[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n";
 
@@ -37,6 +39,20 @@ fn bearings_say_what_a_support_says() {
     }
     let force = held.get("bearing[1].F.y") + held.get("bearing[2].F.y");
     within("force", (force - supported.get("support.F.y")).abs(), FORCE);
+}
+
+// ---------------------------------------------------------------------------------------------------- what it says
+
+#[test]
+fn springs_alone_give_no_work() {
+    let mut bearing = Bearing::<0>::default();
+    (bearing.kyy, bearing.kzz, bearing.kxx, bearing.kt) = (1000.0, 2000.0, 500.0, 250.0);
+    assert!(!bearing.works() && !bearing.follows_speed());
+    // Springs that push round give work, whatever the speed.
+    bearing.kyz = 1.0;
+    assert!(bearing.works() && !bearing.follows_speed());
+    (bearing.kyz, bearing.cxx) = (0.0, 1.0);
+    assert!(bearing.works() && bearing.follows_speed());
 }
 
 // ---------------------------------------------------------------------------------------------------------- drag

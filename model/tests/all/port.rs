@@ -4,6 +4,7 @@ use crate::harness::named::Named;
 use crate::harness::within;
 use nalgebra::{Vector2, Vector3};
 use oracles::rigid_body::RigidBody;
+use split_rotor_model::effects::Wrench;
 
 const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n\
                      [start]\nr_c = { x = 0.75 }\nv_c = { y = 0.2 }\ngamma = { y = 0.3, z = -0.5 }\nomega = { x = 50.0, z = 4.0 }\n";
@@ -61,4 +62,14 @@ fn exact_a_port_and_a_probe_show_their_station() {
             within("its speed", (named.get(&format!("probe[{probe}].v.{axis}")) - at(p).1[n]).abs(), 1e-13);
         }
     }
+}
+
+#[test]
+fn no_load_leaves_the_sign_of_a_zero() {
+    // +0 + −0 = +0 would not.
+    let load = Wrench::couple(Vector3::new(1.0, 0.0, -0.0));
+    let sum = Wrench::zero() + load;
+    let signs = |v: Vector3<f64>| [v.x, v.y, v.z].map(f64::is_sign_negative);
+    assert_eq!(signs(sum.force), [true; 3]);
+    assert_eq!(signs(sum.moment), [false, false, true]);
 }
