@@ -206,3 +206,18 @@ fn zero(mut good: f64, mut bad: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
     }
     bad
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_the_lowest_place_is_found_on_either_side() {
+        for place in [0.1, 0.45, 0.9] {
+            // Below zero only nearby, and never.
+            let found = lowest(0.0, 1.0, &mut |t| (t - place).abs() - 1e-6).expect("it is below zero");
+            assert!((found - place).abs() < 1e-6, "{found} is not {place}");
+            assert_eq!(lowest(0.0, 1.0, &mut |t| (t - place).abs() + 1e-6), None);
+        }
+    }
+}
