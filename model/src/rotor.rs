@@ -249,7 +249,8 @@ impl<'e, E: Effects> Rotor<'e, E> {
     /// The usual rates where effects have switches, called: they are too long to stand in every stage of a method.
     #[inline(never)]
     fn rates_of_switched<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        let motion = Kinematics::new(self.frame.body.symmetric(), Chart::FromE, Coordinates::from_slice(rigid(y)));
+        let body = self.frame.body.symmetric();
+        let motion = Kinematics::new(body, self.frame.chart, Coordinates::from_slice(rigid(y)));
         all_rates::<f64, E, N, ALL>(self.effects, &motion.when(t, self.frame.turns), &y[..own(N)])
     }
 
@@ -288,11 +289,14 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
         N >= WITH_WORK && E::FACTS.could_work && self.frame.works
     }
 
-    /// In the chart from e; where effects have switches, of a symmetric body on which none imposes a speed.
+    /// In the chart from e; where effects have switches, of a symmetric body on which none imposes a speed, in any chart.
     #[inline(always)]
     fn is_usual(&self) -> bool {
-        let plain = || self.frame.body.asymmetric.is_none() && self.effects.imposed(0.0).is_none();
-        self.frame.chart == Chart::FromE && (!E::FACTS.switched || plain())
+        if E::FACTS.switched {
+            self.frame.body.asymmetric.is_none() && self.effects.imposed(0.0).is_none()
+        } else {
+            self.frame.chart == Chart::FromE
+        }
     }
 
     #[inline(always)]

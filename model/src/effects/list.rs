@@ -383,16 +383,19 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S> {
         let (mine, others) = own.split_at(H::Effect::OWN);
-        let rest = self.1.act(motion, others);
+        let mut all = self.1.act(motion, others);
+        let Some(effect) = self.0.active() else { return all };
         let seen = Motion::new(motion, mine);
-        match self.0.active() {
-            Some(effect) if S::LONG => {
-                let (load, damping, supply, loss) = called(effect, &seen);
-                Act { load, damping, supply, loss, ..Act::none() } + rest
-            }
-            Some(effect) => effect.act(&seen) + rest,
-            None => rest,
+        if S::LONG {
+            // One by one, or those of an effect that is off would be copied too.
+            let (load, damping, supply, loss) = called(effect, &seen);
+            all.load = load + all.load;
+            all.damping = damping + all.damping;
+            all.supply = supply + all.supply;
+            all.loss = loss + all.loss;
+            return all;
         }
+        effect.act(&seen) + all
     }
 
     #[inline(always)]
