@@ -331,10 +331,13 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
 impl<E: Effects, const N: usize> Differentiable<N> for Rotor<'_, E> {
     fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
         // Nothing depends on the quadratures.
-        match System::<N>::depended_on(self) {
-            ..=PHI => self.jacobian_along::<PHI, N>(t, y),
-            ..=COORDINATES => self.jacobian_along::<COORDINATES, N>(t, y),
-            _ => self.jacobian_along::<N, N>(t, y),
+        let size = System::<N>::depended_on(self);
+        if size <= PHI {
+            self.jacobian_along::<PHI, N>(t, y)
+        } else if size <= COORDINATES {
+            self.jacobian_along::<COORDINATES, N>(t, y)
+        } else {
+            self.jacobian_along::<N, N>(t, y)
         }
     }
 }
