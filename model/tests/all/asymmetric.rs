@@ -4,11 +4,15 @@
 use crate::harness::asymmetric::{Case, at};
 use crate::harness::named::Named;
 use crate::harness::swinging::within_order;
-use crate::harness::{Random, largest, within};
+use crate::harness::{Random, Scene, kept, largest, within};
 use nalgebra::{Matrix3, Vector2, Vector3};
 use oracles::rigid_body::Moving;
+use split_rotor_model::body::Shape;
+use split_rotor_model::integrate::System;
 use split_rotor_model::rotation::chart::crossed_exactly;
 use split_rotor_model::rotation::{Angle, Chart, Tilt};
+use split_rotor_model::rotor::Rotor;
+use split_rotor_model::state::{COORDINATES, Coordinates};
 use split_rotor_model::variables::Reading;
 use std::f64::consts::{PI, TAU};
 
@@ -209,4 +213,25 @@ fn bodies_that_cannot_be() {
     // What would be no body with Jt2 = Jt is one with a larger Jt2.
     assert_eq!(refusal(|case| case.body.moments = Vector3::new(0.15, 0.07, 0.1)), Ok(()));
     assert!(refusal(|case| case.body.moments.z = -0.1).is_err_and(|text| text.starts_with("asymmetry.Jt2 = -0.1")));
+}
+
+#[test]
+fn exact_a_mass_centre_that_goes_round_is_no_excursion_of_the_rotor() {
+    let mut shape = Shape::of(Scene::paper().body);
+    shape.add(0.5, &Vector3::new(0.1, 0.2, -0.1));
+    let (rotor, centre, spin) = (Rotor::new(shape.inertia(), kept(()), Chart::FromE, 0.0), shape.centre(), 50.0);
+    // c rests in the origin, and the body turns upright about its axis.
+    let [then, now] = [0.0, 1.0].map(|phi: f64| {
+        let (sin, cos) = (libm::sin(phi), libm::cos(phi));
+        let r = Vector3::new(centre.x, cos * centre.y - sin * centre.z, sin * centre.y + cos * centre.z);
+        let v = Vector3::x().cross(&r) * spin;
+        let mut y = [0.0; COORDINATES];
+        Coordinates { r, v, k: Vector3::x(), gamma: Vector2::zeros(), phi }.write(&mut y);
+        y
+    });
+    let mut rate = [0.0; COORDINATES];
+    rate[COORDINATES - 1] = spin;
+    let sizes = rotor.sizes(&now, &rate, &then);
+    // The place along e and across it, and the velocity.
+    within("the way of c", largest(sizes[..4].iter().map(|square| square.sqrt())), 1e-14);
 }
