@@ -293,6 +293,7 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     #[inline(always)]
     fn is_usual(&self) -> bool {
         if E::FACTS.switched {
+            // Whether one imposes a speed is the same at all times; what speed, is not asked.
             self.frame.body.asymmetric.is_none() && self.effects.imposed(0.0).is_none()
         } else {
             self.frame.chart == Chart::FromE

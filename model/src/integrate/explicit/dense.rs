@@ -86,6 +86,7 @@ impl<const N: usize> Explicit<N> {
                 }
             )*};
         }
+        // Called: they are few, and each step that is read takes them once.
         stages! { 13 14 15 }
         let (first, last) = (self.k[0], self.k[P::TABLEAU.last]);
         let difference = self.segment.r[0];
