@@ -4,7 +4,7 @@ pub mod groups;
 
 use crate::body::Inertia;
 use crate::dual::Dual;
-use crate::effects::{Act, Block, Effects, Wrench};
+use crate::effects::{Act, Effects, Wrench};
 use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
@@ -33,10 +33,10 @@ pub struct Frame {
     pub chart: Chart,
     /// Whole turns of φ, counted apart.
     pub turns: f64,
-    /// Whether one of its effects works, whether one has events, whether one follows φ, and how many own states those have that are
-    /// switched off: asked once, not in each evaluation.
+    /// Whether one of its effects works, which indicators are those of effects that have events (a bit each), whether one follows φ,
+    /// and how many own states those have that are switched off: asked once, not in each evaluation.
     works: bool,
-    events: bool,
+    events: u32,
     follows_phi: bool,
     idle: u32,
 }
@@ -45,7 +45,14 @@ impl Frame {
     /// Of a body under effects that stay switched as they are, φ beyond these `turns`.
     pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
         let active: usize = effects.active().map(|block| block.kind().own).sum();
-        let events = effects.active().any(Block::has_events);
+        let (mut events, mut first) = (0, 0);
+        for block in effects.blocks() {
+            let count = block.kind().indicators;
+            if block.is_active() && block.has_events() {
+                events |= ((1 << count) - 1) << first;
+            }
+            first += count;
+        }
         let (works, follows_phi) = (effects.works(), effects.follows_phi());
         Self { body, chart, turns, works, events, follows_phi, idle: (E::FACTS.own - active) as u32 }
     }
@@ -68,7 +75,12 @@ impl Frame {
 
     /// Whether one of its effects has events.
     pub fn has_events(&self) -> bool {
-        self.events
+        self.events != 0
+    }
+
+    /// Whether the indicator of this number is that of an effect that has events.
+    pub(crate) fn watches(&self, number: usize) -> bool {
+        self.events >> number & 1 == 1
     }
 
     /// Whether it can be that of a body under these effects: what was saved may have been altered.

@@ -64,6 +64,9 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// The rates of their own states.
     fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]);
 
+    /// Their indicators, in their order, which those that are switched off leave as they are.
+    fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]);
+
     /// The ω_φ that one of them imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²].
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
 
@@ -161,18 +164,6 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
             nominal[from..][..count].copy_from_slice(&block.own_nominal()[..count]);
             from += count;
         });
-    }
-
-    /// Their indicators, in their order; 1 of those that are switched off.
-    fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]) {
-        let (mut from, mut first) = (0, 0);
-        for block in self.blocks() {
-            let (kind, motion) = (block.kind(), Motion::new(motion, &own[from..][..block.kind().own]));
-            for n in 0..kind.indicators {
-                all[first + n] = if block.is_active() { block.indicator(n, &motion) } else { 1.0 };
-            }
-            (from, first) = (from + kind.own, first + kind.indicators);
-        }
     }
 
     /// Go on where their indicators have these signs.
@@ -329,6 +320,9 @@ impl Effects for () {
     fn own_rates<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S], _rates: &mut [S]) {}
 
     #[inline(always)]
+    fn indicators(&self, _motion: &Kinematics<f64>, _own: &[f64], _all: &mut [f64]) {}
+
+    #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
         None
     }
@@ -415,6 +409,19 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             to.copy_from_slice(&effect.act(&Motion::new(motion, mine)).own[..H::Effect::OWN]);
         }
         self.1.own_rates(motion, others, other_rates);
+    }
+
+    #[inline(always)]
+    fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]) {
+        let (mine, others) = own.split_at(H::Effect::OWN);
+        let (to, other_indicators) = all.split_at_mut(H::Effect::INDICATORS);
+        if H::Effect::INDICATORS > 0
+            && let Some(effect) = self.0.active()
+        {
+            let seen = Motion::new(motion, mine);
+            (0..).zip(to).for_each(|(n, to)| *to = effect.indicator(n, &seen));
+        }
+        self.1.indicators(motion, others, other_indicators);
     }
 
     #[inline(always)]

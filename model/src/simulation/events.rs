@@ -109,9 +109,11 @@ impl Events {
         }
     }
 
-    /// When \[s] the first indicator changes its sign between the times `from` and `to` \[s], and its number; `at` tells their values.
-    pub(super) fn first<E: Effects>(
+    /// When \[s] the first of these indicators changes its sign between the times `from` and `to` \[s], and its number; `at` tells the
+    /// values of all.
+    pub(super) fn first(
         &self,
+        watched: impl Iterator<Item = usize> + Clone,
         from: f64,
         to: f64,
         mut at: impl FnMut(f64) -> Indicators,
@@ -123,7 +125,7 @@ impl Events {
         for n in 1..=PLACES {
             let now = (place(n), at(place(n)));
             let mut found: Option<(f64, u32)> = None;
-            for number in 0..E::FACTS.indicators {
+            for number in watched.clone() {
                 let [first, middle, last] = [before[0], before[1], now].map(|(t, z)| (t, sided(z, number)));
                 let mut side = |t: f64| sided(at(t), number);
                 let crossed = if last.1 < 0.0 {
@@ -152,7 +154,7 @@ impl Events {
     }
 }
 
-/// The values of all indicators.
+/// The values of all indicators, 1 of those that are switched off.
 pub(super) fn indicators<E: Effects, const N: usize>(
     effects: &E,
     motion: &Kinematics<f64>,

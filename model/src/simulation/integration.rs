@@ -390,8 +390,9 @@ impl<const N: usize> Integration<N> {
         self.step(effects, most, until)?;
         let Some((method, last)) = before else { return Ok(()) };
         let (from, to, rotor) = (self.method.start_time(), self.method.time(), self.frame.under(effects));
-        let method_now = &mut self.method;
-        let found = self.events.first::<E>(from, to, |t| {
+        let (method_now, frame) = (&mut self.method, &self.frame);
+        let watched = (0..E::FACTS.indicators).filter(|number| frame.watches(*number));
+        let found = self.events.first(watched, from, to, |t| {
             let y = if t == to { *method_now.state() } else { method_now.dense(&rotor, t) };
             indicators(effects, &rotor.motion(t, &y), &y)
         });

@@ -73,8 +73,6 @@ pub trait Block {
     fn check(&self) -> Result<(), Invalid>;
     /// Whether it has events.
     fn has_events(&self) -> bool;
-    /// One of its indicators.
-    fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64;
     /// Goes on where its indicators have these signs.
     fn hear_signs(&mut self, positive: &[bool], motion: &Motion<f64>);
     /// Hears where the motion begins.

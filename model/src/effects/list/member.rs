@@ -216,10 +216,6 @@ impl<M: Member> Block for M {
         self.effect().has_events()
     }
 
-    fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64 {
-        self.effect().indicator(n, motion)
-    }
-
     fn hear_signs(&mut self, positive: &[bool], motion: &Motion<f64>) {
         self.effect_mut().switch(positive, motion);
     }
