@@ -21,6 +21,9 @@ pub trait System<const N: usize> {
     /// The rates depend on the first so many components only; the others are quadratures.
     const DEPENDED_ON: usize = N;
 
+    /// The same of a system that is as [usual](System::is_usual).
+    const USUALLY_DEPENDED_ON: usize = Self::DEPENDED_ON;
+
     /// The components after the first so many are solved only where somebody [wants](System::solves_all) them.
     const ALWAYS: usize = N;
 

@@ -283,6 +283,8 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     /// The work integrals are quadratures: no law depends on them. φ is one too where no effect follows it.
     const DEPENDED_ON: usize = own(N) + if E::FACTS.follows_phi { COORDINATES } else { PHI };
 
+    const USUALLY_DEPENDED_ON: usize = if E::FACTS.switched { own(N) + PHI } else { <Self as System<N>>::DEPENDED_ON };
+
     const ALWAYS: usize = own(N) + COORDINATES;
 
     const GROUPS: usize = own(N) + groups::RIGID;
@@ -301,12 +303,12 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
         N >= WITH_WORK && E::FACTS.could_work && self.frame.works
     }
 
-    /// In the chart from e; where effects have switches, of a symmetric body on which none imposes a speed, in any chart.
+    /// In the chart from e; where effects have switches, of a body that none shapes, or imposes a speed on, in any chart.
     #[inline(always)]
     fn is_usual(&self) -> bool {
         if E::FACTS.switched {
             // Whether one imposes a speed is the same at all times; what speed, is not asked.
-            self.frame.body.asymmetric.is_none() && self.effects.imposed(0.0).is_none()
+            !self.frame.follows_phi && self.effects.imposed(0.0).is_none()
         } else {
             self.frame.chart == Chart::FromE
         }

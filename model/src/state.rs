@@ -217,6 +217,7 @@ impl<S: Scalar> Kinematics<S> {
     }
 
     /// dn/dt [1/s].
+    #[inline(always)]
     fn joint_rate(&self) -> Vector3<S> {
         let (t, t_rate) = (self.axis(), self.axis_rate());
         let (sum, per_sum) = (Vector3::x() + t, S::one() / (S::one() + t.x));
@@ -224,7 +225,9 @@ impl<S: Scalar> Kinematics<S> {
         t_rate * per_sum - sum * (t_rate.x * per_sum * per_sum)
     }
 
-    /// The torque τ along n [N·m] that gives ω_φ this rate [rad/s²] beside this moment about G [N·m].
+    /// The torque τ along n [N·m] that gives ω_φ this rate [rad/s²] beside this moment about G [N·m]. Called, it would have all
+    /// of the motion stored for it.
+    #[inline(always)]
     pub fn torque(&self, acceleration: S, moment: &Vector3<S>) -> S {
         let n = self.tilt.joint_axis();
         let others = self.angular_velocity(&(moment - self.omega.cross(&self.momentum())));

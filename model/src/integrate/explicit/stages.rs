@@ -68,7 +68,7 @@ impl<const N: usize> Explicit<N> {
         stage: &Stage,
         newest: &[f64; N],
     ) -> [f64; N] {
-        let there = self.advanced::<F>(y, h, stage.a, newest);
+        let there = self.advanced::<F, USUAL>(y, h, stage.a, newest);
         // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
         self.known(system.rates::<ALL, USUAL>(t + stage.c * h, &there))
     }
@@ -99,10 +99,16 @@ impl<const N: usize> Explicit<N> {
     /// y + h Σ a_j k_j of what the rates depend on; the last stage of the sum, which is `newest`, comes last, for it is the
     /// one that is waited for.
     #[inline(always)]
-    fn advanced<F: System<N>>(&self, y: &[f64; N], h: f64, a: Combination, newest: &[f64; N]) -> [f64; N] {
+    fn advanced<F: System<N>, const USUAL: bool>(
+        &self,
+        y: &[f64; N],
+        h: f64,
+        a: Combination,
+        newest: &[f64; N],
+    ) -> [f64; N] {
         let (&(_, last), older) = a.split_last().expect("a stage depends on those before it");
         let mut there = *y;
-        for p in 0..pairs(F::DEPENDED_ON) {
+        for p in 0..pairs(if USUAL { F::USUALLY_DEPENDED_ON } else { F::DEPENDED_ON }) {
             let mut sum = nothing();
             for &(j, coefficient) in older {
                 sum += both(h * coefficient) * pair(&self.k[j], p);
