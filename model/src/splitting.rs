@@ -139,22 +139,28 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return;
         }
         // eq. 40: m dv/dt = ΣF, dK/dt = ΣM, place and time frozen
-        let Some(tableau) = self.inner else {
-            let motion = self.motion(t, self.at.v, self.at.k);
-            let load = effects.act(&motion, &self.y[..own(N)]).load;
-            let (v, k) = (load.force * (h * self.rotor.frame.body.per_m), load.about_centre(&motion) * h);
-            if self.works {
-                // No load follows the speeds, so power does so linearly, and the middle of the way tells the work.
-                let middle = self.motion(t, self.at.v + v * 0.5, self.at.k + k * 0.5);
-                let act = effects.act(&middle, &self.y[..own(N)]);
-                self.work = [self.work[0] + act.supply * h, self.work[1] + act.loss * h];
-                self.evaluations += 1.0;
-            }
-            self.at.v += v;
-            self.at.k += k;
+        if let Some(tableau) = self.inner {
+            return self.push_followed(tableau, t, h);
+        }
+        let motion = self.motion(t, self.at.v, self.at.k);
+        let load = effects.act(&motion, &self.y[..own(N)]).load;
+        let (v, k) = (load.force * (h * self.rotor.frame.body.per_m), load.about_centre(&motion) * h);
+        if self.works {
+            // No load follows the speeds, so power does so linearly, and the middle of the way tells the work.
+            let middle = self.motion(t, self.at.v + v * 0.5, self.at.k + k * 0.5);
+            let act = effects.act(&middle, &self.y[..own(N)]);
+            self.work = [self.work[0] + act.supply * h, self.work[1] + act.loss * h];
             self.evaluations += 1.0;
-            return;
-        };
+        }
+        self.at.v += v;
+        self.at.k += k;
+        self.evaluations += 1.0;
+    }
+
+    /// [`Flow::push`] where loads follow the speeds, called: beside it, the other would wait for registers.
+    #[inline(never)]
+    fn push_followed(&mut self, tableau: &Tableau, t: f64, h: f64) {
+        let effects = &self.rotor.effects;
         let mut speeds = self.y;
         Coordinates { v: self.at.v, k: self.at.k, ..self.at }.write(rigid_mut(&mut speeds));
         put_work(&mut speeds, self.work);
