@@ -69,9 +69,9 @@ const TRIAL: f64 = 6.0;
 #[cfg(feature = "scenes")]
 pub type Any = Simulation<crate::effects::All, { numbers_of_state::<crate::effects::All>() }>;
 
-/// How many numbers the state of a rotor under these effects has.
+/// How many numbers the state of a rotor under these effects has: [`COORDINATES`], where none of them could work or has own states.
 pub const fn numbers_of_state<E: Effects>() -> usize {
-    WITH_WORK + E::FACTS.own
+    if E::FACTS.could_work || E::FACTS.own > 0 { WITH_WORK + E::FACTS.own } else { COORDINATES }
 }
 
 impl<E: Effects, const N: usize> From<Parameters<E>> for Simulation<E, N> {
@@ -84,9 +84,12 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// How many continuous states a host integrates: the coordinates, the work integrals where an effect could work, and the own
     /// states of the effects.
     pub const STATES: usize = {
-        assert!(N == numbers_of_state::<E>(), "N is numbers_of_state::<E>()");
-        N - if E::FACTS.could_work { 0 } else { WITH_WORK - COORDINATES }
+        assert!(N == numbers_of_state::<E>() || N == WITH_WORK + E::FACTS.own, "N is numbers_of_state::<E>()");
+        E::FACTS.own + Self::RIGID
     };
+
+    /// How many of them are no own states.
+    const RIGID: usize = if E::FACTS.could_work { WITH_WORK } else { COORDINATES };
 
     /// How many indicators of events a host sees: [`ALWAYS_INDICATED`] and those of the effects.
     pub const INDICATORS: usize = ALWAYS_INDICATED + {
@@ -348,11 +351,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// Where the state of a host's number stands.
     fn number_of_host(n: usize) -> usize {
-        let rigid = COORDINATES + if E::FACTS.could_work { WITH_WORK - COORDINATES } else { 0 };
-        match n.checked_sub(rigid) {
+        match n.checked_sub(Self::RIGID) {
             None => own(N) + n,
             Some(n) if n < own(N) => n,
-            Some(n) => rigid + n,
+            Some(n) => Self::RIGID + n,
         }
     }
 
