@@ -300,7 +300,7 @@ impl Bound {
 
     /// What [`Bound::words`] leave out, for whom a positive number was refused.
     fn besides(self) -> &'static str {
-        if self == Bound::Positive { " with a finite reciprocal" } else { "" }
+        if self == Bound::Positive { ", large enough to divide by" } else { "" }
     }
 
     /// The least and greatest value that the XML can state: ends that are themselves possible.

@@ -98,7 +98,7 @@ impl Effect for Motor {
         if self.own_decay().is_finite() {
             return Ok(());
         }
-        Err(Invalid::new("time_constant", self.time_constant, "0, or a number with a finite reciprocal"))
+        Err(Invalid::new("time_constant", self.time_constant, "0, or a number large enough to divide by"))
     }
 
     fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN] {
