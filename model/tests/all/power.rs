@@ -103,13 +103,12 @@ fn exact_power_of_each_effect() {
             let [motion, faster] = [at, faster].map(|at| Kinematics::new(body, chart, at));
             let own: [f64; All::FACTS.own] = std::array::from_fn(|_| random.within(-2.0, 2.0));
             effects.begin(&motion, &mut own.clone(), &mut own.clone());
-            let mut sides = [0.0; MOST_INDICATORS];
+            let mut sides = [1.0; MOST_INDICATORS];
             effects.indicators(&motion, &own, &mut sides);
             effects.switch(&sides.map(|side| side > 0.0), &motion, &own);
-            let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own);
-            let (load_alone, load) = (load, load + damping);
             let mut rates = [0.0; All::FACTS.own];
-            effects.own_rates(&motion, &own, &mut rates);
+            let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own, &mut rates);
+            let (load_alone, load) = (load, load + damping);
             let moving_own: [Tangent; All::FACTS.own] = std::array::from_fn(|n| Tangent::along(own[n], rates[n]));
             let [of_potential] = effects.stored(&moving(&motion), &moving_own).eps;
             let powers = [load.force.dot(&motion.v_c()), load.moment.dot(&motion.omega), of_potential, loss, -supply];
@@ -118,7 +117,7 @@ fn exact_power_of_each_effect() {
             worked = largest([worked, size]);
             assert!(loss >= 0.0, "{} loses {loss:e} W", info.name);
             assert!(effects.works() || (loss == 0.0 && supply == 0.0), "{} works and denies it", info.name);
-            let there = effects.act(&faster, &own);
+            let there = effects.act(&faster, &own, &mut rates);
             let same = there.load == load_alone && there.damping == damping;
             assert!(effects.follows_speed() || same, "{} follows the speed and denies it", info.name);
             denied += u32::from(!effects.follows_speed());
@@ -150,7 +149,7 @@ fn rates_on_line(effects: &mut All, ends: &[Coordinates<f64>; 2], s: f64) -> [f6
     let y: [f64; Any::STATES] = std::array::from_fn(|n| 0.5 * ((1.0 - s) * y[0][n] + (1.0 + s) * y[1][n]));
     let own = &y[..All::FACTS.own];
     let motion = Rotor::new(shape.inertia(), effects, Chart::FromE, 0.0).motion(0.0, &y);
-    let mut sides = [0.0; MOST_INDICATORS];
+    let mut sides = [1.0; MOST_INDICATORS];
     effects.indicators(&motion, own, &mut sides);
     effects.switch(&sides.map(|side| side > 0.0), &motion, own);
     whole_rates(effects, &motion, &y)
