@@ -143,14 +143,14 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return self.push_followed(tableau, t, h);
         }
         // Own states count as speeds that are followed, so there are none whose rates matter.
-        let act = |motion: &_| effects.act(motion, &self.y[..own(N)], &mut [0.0; N][..own(N)]);
+        let (states, unused) = (&self.y[..own(N)], &mut [0.0; N][..own(N)]);
         let motion = self.motion(t, self.at.v, self.at.k);
-        let load = act(&motion).load;
+        let load = effects.act(&motion, states, unused).load;
         let (v, k) = (load.force * (h * self.rotor.frame.body.per_m), load.about_centre(&motion) * h);
         if self.works {
             // No load follows the speeds, so power does so linearly, and the middle of the way tells the work.
             let middle = self.motion(t, self.at.v + v * 0.5, self.at.k + k * 0.5);
-            let act = act(&middle);
+            let act = effects.act(&middle, states, unused);
             self.work = [self.work[0] + act.supply * h, self.work[1] + act.loss * h];
             self.evaluations += 1.0;
         }
