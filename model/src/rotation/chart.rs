@@ -53,14 +53,14 @@ impl Chart {
         }
     }
 
-    /// How far a motion at this γ \[rad] is from where it should go on in the other chart \[rad²].
+    /// How far a motion at this γ \[rad] is from where it should go on in the other chart \[rad²]; not positive there.
     pub fn before_border(self, gamma: Vector2<f64>) -> f64 {
         Self::SWITCH * Self::SWITCH - gamma.norm_squared()
     }
 
     /// Whether a motion at this γ \[rad] should go on in the other chart.
     pub fn is_left_at(self, gamma: Vector2<f64>) -> bool {
-        self.before_border(gamma) < 0.0
+        self.before_border(gamma) <= 0.0
     }
 
     /// Whether the axis at this γ \[rad] is tilted from e by more than π/2.
@@ -151,7 +151,8 @@ pub(super) fn azimuth<S: Scalar>(gamma: Vector2<S>) -> S {
     let (y, z) = (gamma.x.re(), gamma.y.re());
     // dβ = e·(γ×dγ)/|γ|²
     let turned = (gamma.y * S::constant(y) - gamma.x * S::constant(z)) / S::constant(y * y + z * z);
-    turned.with_value(libm::atan2(z, y))
+    // + 0 makes −0 a +0, and so −π a +π: who counts turns from one γ to an equal one must count none.
+    turned.with_value(libm::atan2(z + 0.0, y))
 }
 
 /// Δβ \[rad] from one γ to another, by the shorter way; +π where it is straight through the origin.

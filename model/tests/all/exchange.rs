@@ -5,6 +5,7 @@ use crate::harness::named::Named;
 use crate::harness::{Scene, Supported, largest, within};
 use oracles::extrapolation::step;
 use split_rotor_model::simulation::{Any, Integrator, Simulation};
+use split_rotor_model::state::GAMMA;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
 
@@ -134,4 +135,38 @@ fn laws_without_branches_ask_for_no_event() {
     assert!(!exchange.settle().any());
     exchange.set_time(1e-3);
     assert!(!exchange.complete_step());
+}
+
+#[test]
+fn regress_the_border_of_a_chart_is_beyond_it() {
+    // A host finds the place where an indicator is 0, often to the last bit.
+    for z in [2.0, -2.0] {
+        let mut named = begin("tumbling", &[], &[], Integrator::Host);
+        let mut state = named.simulation.state().expect("started");
+        (state[GAMMA.start], state[GAMMA.start + 1]) = (0.0, z);
+        named.go_to(0.1, &state);
+        assert_eq!(named.simulation.indicators().expect("possible")[0], 0.0);
+        assert!(named.host().complete_step(), "an event is asked for");
+        assert!(named.host().settle().chart);
+        assert!(named.simulation.indicators().expect("possible")[0] > 1.0);
+    }
+}
+
+#[test]
+fn regress_the_cut_of_the_azimuth_counts_no_turn() {
+    // In the chart from −e the first γ′ has the azimuth π, or −π: two turns of φ lay between them, and each look counted them.
+    for gamma in [[1.7, 0.0], [1.7, -0.0], [-1.7, 0.0], [-1.7, -0.0], [3.0, 0.0]] {
+        let starts = [("start.gamma.y", gamma[0]), ("start.gamma.z", gamma[1]), ("start.phi", 0.3)];
+        let mut named = begin("tumbling", &starts, &[], Integrator::Host);
+        let state = named.simulation.state().expect("started");
+        for t in [0.0, 0.0, 1e-9] {
+            // Whoever adds 0 to −0 writes +0.
+            named.go_to(t, &state.map(|x| x + 0.0));
+            within("phi", (named.get("phi") - 0.3).abs(), PHI);
+            named.host().complete_step();
+            named.host().settle();
+            named.go_to(t, &state);
+            within("phi", (named.get("phi") - 0.3).abs(), PHI);
+        }
+    }
 }
