@@ -192,7 +192,8 @@ fn all_rates<S: Scalar, E: Effects, const N: usize, const ALL: bool>(
     states: &[S],
 ) -> [S; N] {
     let mut all = [S::zero(); N];
-    let act = effects.act(motion, states, &mut all[..own(N)]);
+    let act = effects.act(motion, states);
+    effects.own_rates(motion, states, &mut all[..own(N)]);
     written::<S, E, N, ALL>(effects, motion, &act, all)
 }
 

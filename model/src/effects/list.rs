@@ -55,12 +55,14 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// What is known of them while they are compiled.
     const FACTS: Facts;
 
-    /// What they do together, but for the energy that they store. `own` are their states, in their order, whose rates are written to
-    /// `rates`; those of what is switched off stay.
-    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]) -> Act<S>;
+    /// What they do together, but for the energy that they store. `own` are their states, in their order.
+    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S>;
 
     /// Their potential energy \[J].
     fn stored<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> S;
+
+    /// The rates of their own states.
+    fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]);
 
     /// Their indicators, in their order, which those that are switched off leave as they are.
     fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]);
@@ -305,7 +307,7 @@ impl Effects for () {
     };
 
     #[inline(always)]
-    fn act<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S], _rates: &mut [S]) -> Act<S> {
+    fn act<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S]) -> Act<S> {
         Act { supply: S::zero(), loss: S::zero(), ..Act::none() }
     }
 
@@ -313,6 +315,9 @@ impl Effects for () {
     fn stored<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S]) -> S {
         S::zero()
     }
+
+    #[inline(always)]
+    fn own_rates<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S], _rates: &mut [S]) {}
 
     #[inline(always)]
     fn indicators(&self, _motion: &Kinematics<f64>, _own: &[f64], _all: &mut [f64]) {}
@@ -345,9 +350,8 @@ impl Effects for () {
 
 /// What rates need of what an effect does, called: over a scalar with derivatives its law is too long to stand in every sum.
 #[inline(never)]
-fn called<E: Effect, S: Scalar>(effect: &E, motion: &Motion<S>, rates: &mut [S]) -> (Wrench<S>, Wrench<S>, S, S) {
-    let Act { load, damping, supply, loss, own, .. } = effect.act(motion);
-    rates.copy_from_slice(&own[..E::OWN]);
+fn called<E: Effect, S: Scalar>(effect: &E, motion: &Motion<S>) -> (Wrench<S>, Wrench<S>, S, S) {
+    let Act { load, damping, supply, loss, .. } = effect.act(motion);
     (load, damping, supply, loss)
 }
 
@@ -371,24 +375,21 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     };
 
     #[inline(always)]
-    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]) -> Act<S> {
+    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S> {
         let (mine, others) = own.split_at(H::Effect::OWN);
-        let (my_rates, other_rates) = rates.split_at_mut(H::Effect::OWN);
-        let mut all = self.1.act(motion, others, other_rates);
+        let mut all = self.1.act(motion, others);
         let Some(effect) = self.0.active() else { return all };
         let seen = Motion::new(motion, mine);
         if S::LONG {
             // One by one, or those of an effect that is off would be copied too.
-            let (load, damping, supply, loss) = called(effect, &seen, my_rates);
+            let (load, damping, supply, loss) = called(effect, &seen);
             all.load = load + all.load;
             all.damping = damping + all.damping;
             all.supply = supply + all.supply;
             all.loss = loss + all.loss;
             return all;
         }
-        let act = effect.act(&seen);
-        my_rates.copy_from_slice(&act.own[..H::Effect::OWN]);
-        act + all
+        effect.act(&seen) + all
     }
 
     #[inline(always)]
@@ -396,6 +397,18 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         let (mine, others) = own.split_at(H::Effect::OWN);
         let rest = self.1.stored(motion, others);
         self.0.active().map_or(rest, |effect| effect.act(&Motion::new(motion, mine)).stored + rest)
+    }
+
+    #[inline(always)]
+    fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]) {
+        let (mine, others) = own.split_at(H::Effect::OWN);
+        let (to, other_rates) = rates.split_at_mut(H::Effect::OWN);
+        if H::Effect::OWN > 0
+            && let Some(effect) = self.0.active()
+        {
+            to.copy_from_slice(&effect.act(&Motion::new(motion, mine)).own[..H::Effect::OWN]);
+        }
+        self.1.own_rates(motion, others, other_rates);
     }
 
     #[inline(always)]

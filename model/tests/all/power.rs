@@ -106,9 +106,10 @@ fn exact_power_of_each_effect() {
             let mut sides = [1.0; MOST_INDICATORS];
             effects.indicators(&motion, &own, &mut sides);
             effects.switch(&sides.map(|side| side > 0.0), &motion, &own);
-            let mut rates = [0.0; All::FACTS.own];
-            let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own, &mut rates);
+            let Act { load, damping, supply, loss, .. } = effects.act(&motion, &own);
             let (load_alone, load) = (load, load + damping);
+            let mut rates = [0.0; All::FACTS.own];
+            effects.own_rates(&motion, &own, &mut rates);
             let moving_own: [Tangent; All::FACTS.own] = std::array::from_fn(|n| Tangent::along(own[n], rates[n]));
             let [of_potential] = effects.stored(&moving(&motion), &moving_own).eps;
             let powers = [load.force.dot(&motion.v_c()), load.moment.dot(&motion.omega), of_potential, loss, -supply];
@@ -117,7 +118,7 @@ fn exact_power_of_each_effect() {
             worked = largest([worked, size]);
             assert!(loss >= 0.0, "{} loses {loss:e} W", info.name);
             assert!(effects.works() || (loss == 0.0 && supply == 0.0), "{} works and denies it", info.name);
-            let there = effects.act(&faster, &own, &mut rates);
+            let there = effects.act(&faster, &own);
             let same = there.load == load_alone && there.damping == damping;
             assert!(effects.follows_speed() || same, "{} follows the speed and denies it", info.name);
             denied += u32::from(!effects.follows_speed());
