@@ -335,7 +335,7 @@ fn regress_a_step_that_loses_the_energy_is_taken_back_as_a_whole() {
 }
 
 /// Energy that begins, is supplied or ends at next to nothing is not taken for energy lost: a fall from rest, a torque on a rotor
-/// at rest, a drag that lasts a hundred time constants.
+/// at rest, a drag that lasts sixty time constants.
 #[test]
 fn regress_an_energy_near_zero_is_kept() {
     let at_rest = ["x", "y", "z"].map(|axis| (format!("start.omega.{axis}"), 0.0));
