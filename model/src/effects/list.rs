@@ -61,7 +61,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Their potential energy \[J].
     fn stored<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> S;
 
-    /// The rates of their own states.
+    /// The rates of their own states, which those that are switched off leave as they are.
     fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]);
 
     /// Their indicators, in their order, which those that are switched off leave as they are.

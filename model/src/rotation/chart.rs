@@ -157,6 +157,6 @@ pub(super) fn azimuth<S: Scalar>(gamma: Vector2<S>) -> S {
 
 /// Δβ \[rad] from one γ to another, by the shorter way; +π where it is straight through the origin.
 pub fn azimuth_change(from: Vector2<f64>, to: Vector2<f64>) -> f64 {
-    // eq. 28: Δβ = atan2(e·(γ₀×γ₁), γ₀·γ₁); + 0 makes −0 a +0, and so −π a +π
-    libm::atan2(from.perp(&to) + 0.0, from.dot(&to))
+    // eq. 28: Δβ = atan2(e·(γ₀×γ₁), γ₀·γ₁)
+    azimuth(Vector2::new(from.dot(&to), from.perp(&to)))
 }
