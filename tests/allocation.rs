@@ -100,7 +100,7 @@ fn the_counters_count() {
 
 #[test]
 fn a_step_and_a_reading_allocate_nothing() {
-    for method in [1, 2, 3, 4, 5] {
+    for method in [1, 2, 3, 4, 5, 6] {
         for damping in [0.0, 20.0] {
             let counts = counts_of_a_second(Instance::quiet(), method, damping);
             assert_eq!(counts, [0, 0], "logging off, method {method}, support.d1 = {damping}");

@@ -474,8 +474,8 @@ fn fmi_impossible_parameters_are_named_at_exit_of_initialization_and_can_be_mend
         assert_eq!(life.future(instance), life.future(life.instance()), "{name} = {value}");
     }
     const WHOLE: [(&str, &[Integer], &str); 3] = [
-        ("solver.method", &[0, 6, -1, Integer::MAX, Integer::MIN], "2 (dopri5) or 3 (dop853)"),
-        ("solver.method_number", &[-1, 6, Integer::MAX, Integer::MIN], "0 or 1 or 2 or 3 or 4 or 5"),
+        ("solver.method", &[0, 7, -1, Integer::MAX, Integer::MIN], "2 (dopri5) or 3 (dop853)"),
+        ("solver.method_number", &[-1, 7, Integer::MAX, Integer::MIN], "0 or 1 or 2 or 3 or 4 or 5 or 6"),
         ("solver.order", &[0, 1, 3, 5, 10, -2, Integer::MAX, Integer::MIN], "2 or 4 or 6 or 8"),
     ];
     for (name, number, words) in

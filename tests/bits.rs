@@ -18,7 +18,7 @@ const STEP: f64 = 1.0 / 64.0;
 const STEPS: u32 = 128;
 
 /// Number and name of the methods.
-const METHODS: [(i32, &str); 5] = [AUTO, (2, "dopri5"), (3, "dop853"), (4, "symplectic"), (5, "stiff")];
+const METHODS: [(i32, &str); 6] = [AUTO, (2, "dopri5"), (3, "dop853"), (4, "symplectic"), (5, "stiff"), (6, "taylor")];
 const AUTO: (i32, &str) = (1, "auto");
 
 /// The methods that a scene is run with: one that leaves the choice to `auto` is one where the others take too long.

@@ -215,9 +215,14 @@ fn goes_on_soundly(instance: &mut Instance, what: &str) {
 #[test]
 fn fmi_whichever_number_was_altered_no_call_is_fatal_and_each_ends() {
     let quick = [("solver.max_evaluations", 1e4), ("solver.relative_tolerance", 1e-4)];
-    for (kind, method) in
-        [(CO_SIMULATION, 1), (CO_SIMULATION, 2), (CO_SIMULATION, 4), (CO_SIMULATION, 5), (MODEL_EXCHANGE, 3)]
-    {
+    for (kind, method) in [
+        (CO_SIMULATION, 1),
+        (CO_SIMULATION, 2),
+        (CO_SIMULATION, 4),
+        (CO_SIMULATION, 5),
+        (CO_SIMULATION, 6),
+        (MODEL_EXCHANGE, 3),
+    ] {
         let mut instance = Instance::of(kind);
         instance.set_method(method);
         let mut instance = instance.started(&quick);

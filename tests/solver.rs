@@ -110,7 +110,7 @@ fn exact_the_method_is_chosen_by_its_number() {
 #[test]
 fn fmi_the_number_stands_for_the_method() {
     // A host that cannot set an Enumeration sets an Integer: the same bits come of it, whatever solver.method says.
-    for number in 1..=5 {
+    for number in 1..=6 {
         let [by_name, by_number] = [(number, 0), (number % 5 + 1, number)].map(|(method, method_number)| {
             let mut instance = Instance::quiet();
             instance.set_method(method);

@@ -7,6 +7,7 @@
 mod act;
 mod list;
 mod motion;
+pub mod series;
 pub mod table;
 mod terminal;
 mod wrench;
@@ -173,6 +174,11 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// can, the work integrals are not solved.
     fn works(&self) -> bool {
         Self::COULD_WORK
+    }
+
+    /// Whether it is [analytic](Effect::ANALYTIC) with its present parameters and in its present branch.
+    fn is_analytic(&self) -> bool {
+        Self::ANALYTIC
     }
 
     /// Whether, with its present parameters, what it applies to the rotor depends on how fast that moves.

@@ -1,6 +1,6 @@
 //! The energy ledger.
 
-use crate::effects::Effects;
+use crate::effects::{Effects, Motion};
 use crate::scalar::Scalar;
 use crate::state::Kinematics;
 
@@ -30,7 +30,13 @@ impl<S: Scalar> Ledger<S> {
     /// The ledger of an instant, the effects having these `own` states; work supplied and lost \[J] since the start, `total_at_start` \[J].
     pub fn new<E: Effects>(motion: &Kinematics<S>, own: &[S], effects: &E, work: [S; 2], total_at_start: f64) -> Self {
         let [supplied, dissipated] = work;
-        Self { kinetic: kinetic(motion), potential: effects.stored(motion, own), total_at_start, supplied, dissipated }
+        Self {
+            kinetic: kinetic(motion),
+            potential: effects.stored(&Motion::new(motion, own)),
+            total_at_start,
+            supplied,
+            dissipated,
+        }
     }
 
     /// Kinetic plus potential energy \[J].

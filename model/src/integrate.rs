@@ -5,11 +5,12 @@ pub mod composition;
 pub mod control;
 pub mod explicit;
 mod lanes;
-mod power;
+pub(crate) mod power;
 mod segment;
 pub mod sizes;
 pub mod stiff;
 pub mod tableau;
+pub mod taylor;
 
 use crate::stored::{Damaged, Stored, Walk, count};
 use sizes::Squares;

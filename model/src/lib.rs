@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 // Floor 0: mathematics and records that know no rotor.
+pub mod coefficient;
 pub mod dual;
 pub mod error;
 pub mod integrate;

@@ -1,10 +1,11 @@
 //! The equations of motion of a body under its effects.
 
+mod expansion;
 pub mod groups;
 
 use crate::body::Inertia;
 use crate::dual::Dual;
-use crate::effects::{Act, Effects, Wrench};
+use crate::effects::{Act, Effects, Motion, Wrench};
 use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
@@ -192,8 +193,9 @@ fn all_rates<S: Scalar, E: Effects, const N: usize, const ALL: bool>(
     states: &[S],
 ) -> [S; N] {
     let mut all = [S::zero(); N];
-    let act = effects.act(motion, states);
-    effects.own_rates(motion, states, &mut all[..own(N)]);
+    let seen = Motion::new(motion, states);
+    let act = effects.act(&seen);
+    effects.own_rates(&seen, &mut all[..own(N)]);
     written::<S, E, N, ALL>(effects, motion, &act, all)
 }
 
@@ -238,6 +240,11 @@ impl<'e, E: Effects> Rotor<'e, E> {
     #[inline(always)]
     pub fn inertia(&self) -> Inertia {
         if E::FACTS.shapes { self.frame.body } else { self.frame.body.symmetric() }
+    }
+
+    /// Whether its motion has a [series](crate::integrate::taylor): the body is symmetric, and all laws are analytic.
+    pub fn has_series(&self) -> bool {
+        self.inertia().asymmetric.is_none() && self.effects.imposed(0.0).is_none() && self.effects.are_analytic()
     }
 
     /// The rates of a state of N numbers in this chart.

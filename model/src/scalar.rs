@@ -27,6 +27,9 @@ pub trait Scalar:
     /// Whether it carries derivatives: arithmetic is then so long that laws over it are compiled once, and called.
     const LONG: bool = true;
 
+    /// Whether it is the coefficient of one power of time: laws then multiply what varies through their motion only.
+    const SERIES: bool = false;
+
     /// A constant: its derivatives are zero.
     fn constant(value: f64) -> Self;
 
@@ -124,6 +127,18 @@ pub trait Scalar:
 
     /// A value with this derivative in every direction.
     fn moving(value: f64, rate: f64) -> Self;
+
+    /// Of a [series](Scalar::SERIES): what varies, of which this is the coefficient.
+    #[inline(always)]
+    fn of_power(coefficient: f64) -> Self {
+        Self::constant(coefficient)
+    }
+
+    /// Of a [series](Scalar::SERIES): the coefficient of what varies; None of a constant.
+    #[inline(always)]
+    fn in_power(self) -> Option<f64> {
+        None
+    }
 
     /// Two polynomials Σ a_i x^i at once, the coefficients of both side by side.
     #[inline(always)]

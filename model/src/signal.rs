@@ -61,6 +61,16 @@ impl Signal {
         S::moving(self.value, self.seed) + s * (S::constant(self.slope) + s * S::constant(0.5 * self.curvature))
     }
 
+    /// Its coefficient of this power of the time from `t` \[s] on.
+    pub fn coefficient(&self, t: f64, power: usize) -> f64 {
+        match power {
+            0 => self.at(t),
+            1 => self.rate_at(t),
+            2 => 0.5 * self.curvature,
+            _ => 0.0,
+        }
+    }
+
     /// What it sums up to from time `from` to `t` [unit·s]: what is set now, it does not change.
     #[inline(always)]
     pub fn sum<S: Scalar>(&self, from: f64, t: S) -> S {

@@ -2,6 +2,7 @@
 //! what the communication point shows.
 
 mod auto;
+mod by_series;
 mod events;
 mod exchange;
 mod growth;
@@ -179,10 +180,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         Ok(())
     }
 
-    /// What `auto` does and why; None where the parameters name the method.
+    /// What `auto` or `taylor` does and why; None where the parameters name the one method.
     pub fn auto(&self) -> Option<String> {
-        let is_auto = self.parameters.setup.solver.method_in_force() == numbers::AUTO;
-        match self.run.as_ref().filter(|_| is_auto)? {
+        let chooses = matches!(self.parameters.setup.solver.method_in_force(), numbers::AUTO | numbers::TAYLOR);
+        match self.run.as_ref().filter(|_| chooses)? {
             Run::Method(integration) => Some(integration.auto()),
             Run::Exchange(_) => None,
         }

@@ -5,7 +5,7 @@ mod tumbling;
 
 pub use tumbling::{Beside, Tumbling};
 
-use crate::effects::Effects;
+use crate::effects::{Effects, Motion};
 use crate::integrate::composition::{Composition, Split, Splitting};
 use crate::integrate::sizes::Squares;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
@@ -143,12 +143,12 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return self.push_followed(tableau, t, h);
         }
         let motion = self.motion(t, self.at.v, self.at.k);
-        let load = effects.act(&motion, &self.y[..own(N)]).load;
+        let load = effects.act(&Motion::new(&motion, &self.y[..own(N)])).load;
         let (v, k) = (load.force * (h * self.rotor.frame.body.per_m), load.about_centre(&motion) * h);
         if self.works {
             // No load follows the speeds, so power does so linearly, and the middle of the way tells the work.
             let middle = self.motion(t, self.at.v + v * 0.5, self.at.k + k * 0.5);
-            let act = effects.act(&middle, &self.y[..own(N)]);
+            let act = effects.act(&Motion::new(&middle, &self.y[..own(N)]));
             self.work = [self.work[0] + act.supply * h, self.work[1] + act.loss * h];
             self.evaluations += 1.0;
         }
@@ -167,10 +167,10 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         let rates = |speeds: &[f64; N]| {
             let at = Coordinates::from_slice(rigid(speeds));
             let motion = self.motion(t, at.v, at.k);
-            let act = effects.act(&motion, &speeds[..own(N)]);
+            let act = effects.act(&Motion::new(&motion, &speeds[..own(N)]));
             let load = act.load + act.damping;
             let mut rates = [0.0; N];
-            effects.own_rates(&motion, &speeds[..own(N)], &mut rates[..own(N)]);
+            effects.own_rates(&Motion::new(&motion, &speeds[..own(N)]), &mut rates[..own(N)]);
             let still = Vector3::zeros();
             let (v, k) = (load.force * self.rotor.frame.body.per_m, load.about_centre(&motion));
             Coordinates { r: still, v, k, gamma: still.yz(), phi: 0.0 }.write(rigid_mut(&mut rates));

@@ -51,7 +51,7 @@ def test_exact_files_are_there_and_tell_the_same(measured, found):
 def test_exact_errors_fall_with_the_tolerance(found):
     adaptive = [row for row in found["rows"] if row["method"] != "symplectic"]
     methods = {row["method"] for row in adaptive}
-    assert methods == {"dopri5", "dop853", "stiff", "auto"}
+    assert methods == {"dopri5", "dop853", "stiff", "taylor", "auto"}
     for method in methods:
         rows = {row["value"]: row for row in adaptive if row["method"] == method}
         assert len(rows) == SWEPT
@@ -186,7 +186,7 @@ def test_regress_an_ordinary_rotor_is_drawn_and_advised_by_its_whirl(xtask, tmp_
     assert found["sizes"]["place_m"] == pytest.approx(WHIRL, rel=SEEN)
     assert found["reference"]["agreement"]["error"] < 1e-9
     drawn = (folder / "accuracy.svg").read_text(encoding="utf-8")
-    for method in ("dopri5", "dop853", "symplectic", "stiff", "auto"):
+    for method in ("dopri5", "dop853", "symplectic", "stiff", "taylor", "auto"):
         assert f"split-rotor {method}<" in drawn
     assert "no method errs" not in drawn
     rows = [row for row in found["rows"] if row["failure"] is None]

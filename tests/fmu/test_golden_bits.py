@@ -12,7 +12,7 @@ STEP = 1 / 64
 STEPS = 128
 
 # The number of each method in the enumeration SolverMethod.
-METHODS = {"auto": 1, "dopri5": 2, "dop853": 3, "symplectic": 4, "stiff": 5}
+METHODS = {"auto": 1, "dopri5": 2, "dop853": 3, "symplectic": 4, "stiff": 5, "taylor": 6}
 
 
 def golden():

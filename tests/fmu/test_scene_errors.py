@@ -75,10 +75,10 @@ CASES = {
         ", line 12: |start.gamma| = 5.0 is not possible: it must be at most pi = 3.141592653589793",
     ),
     "unknown method": (
-        '"dop853"', '"rk4"', ', line 23: solver.method = "rk4" is not possible: it must be one of "auto", "dopri5", "dop853", "symplectic", "stiff"',
+        '"dop853"', '"rk4"', ', line 23: solver.method = "rk4" is not possible: it must be one of "auto", "dopri5", "dop853", "symplectic", "stiff", "taylor"',
     ),
     "method by number": (
-        '"dop853"', "3", ', line 23: solver.method = 3 is not possible: it must be one of "auto", "dopri5", "dop853", "symplectic", "stiff"',
+        '"dop853"', "3", ', line 23: solver.method = 3 is not possible: it must be one of "auto", "dopri5", "dop853", "symplectic", "stiff", "taylor"',
     ),
     "impossible tolerance": (
         "1e-10", "1.0",

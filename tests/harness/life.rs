@@ -159,7 +159,7 @@ impl Traveller {
     pub fn all() -> impl Iterator<Item = Self> {
         let kinds = [CO_SIMULATION, MODEL_EXCHANGE].into_iter();
         let ways =
-            kinds.flat_map(|kind| (1..=5).flat_map(move |method| Self::STARTS.map(|start| (kind, method, start))));
+            kinds.flat_map(|kind| (1..=6).flat_map(move |method| Self::STARTS.map(|start| (kind, method, start))));
         // A start is of the values that the scene has.
         ways.map(|(kind, method, start)| {
             let mut instance = Instance::of(kind);

@@ -19,11 +19,11 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
 
-from report.figures import BLACK, BLUE, GREEN, PURPLE, STYLE, VERMILLION
+from report.figures import BLACK, BLUE, GREEN, ORANGE, PURPLE, STYLE, VERMILLION
 
 OURS = "split-rotor"
 AUTO = "auto"
-COLOURS = (VERMILLION, BLUE, GREEN, PURPLE)
+COLOURS = (VERMILLION, BLUE, GREEN, PURPLE, ORANGE)
 MUTED = ("#3d3d3d", "#b08d57", "#6f9a6a", "#a3839b", "#8c8c8c", "#4f9ea0", "#b5737d", "#8f8f4b", "#6d7f99")
 MARKERS = "sD^vPX<>p"
 SIZE = 8.3, 5.0  # [in]; 830 px wide where 100 px make an inch

@@ -281,20 +281,18 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let (r, v) = (self.displacement(motion), self.velocity(motion));
         let (lean, t_rate) = (motion.lean(), motion.axis_rate());
-        // eq. 61: M = −kt γ, M = −ct t×(dt/dt)
-        let against_lean = Vector3::new(S::zero(), lean.x, lean.y) * S::constant(-self.kt);
-        let against_rate = motion.axis().cross(&t_rate) * S::constant(-self.ct);
         let at_station = |force| Wrench::at_station(motion, self.position, force);
         let springs = r.dot(&self.springs(r));
         let linear = Act {
-            load: at_station(self.spring(motion)) + Wrench::couple(against_lean),
-            damping: at_station(self.damper(motion)) + Wrench::couple(against_rate),
+            // eq. 61: M = −kt γ, M = −ct t×(dt/dt)
+            load: at_station(self.spring(motion)) + Wrench::against_lean(motion, self.kt),
+            damping: at_station(self.damper(motion)) + Wrench::against_turn(motion, self.ct),
             // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
             stored: (springs + lean.dot(&lean) * S::constant(self.kt)) * S::constant(0.5),
             // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
-            supply: r.yz().perp(&v.yz()) * S::constant(self.circulation()),
+            supply: motion.power_along(self.circulation(), r.y, v.z) - motion.power_along(self.circulation(), r.z, v.y),
             // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
-            loss: v.dot(&self.dampers(v)) + t_rate.dot(&t_rate) * S::constant(self.ct),
+            loss: motion.power(1.0, &v, &self.dampers(v)) + motion.power(self.ct, &t_rate, &t_rate),
             ..Act::none()
         };
         let Some([pull, drag]) = self.tabled(motion) else { return linear };
@@ -317,6 +315,10 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
         let spring = (self.kt != 0.0).then_some(no_limit!("the spring kt of a bearing, which follows gamma,"));
         let table = self.table.is_given().then_some(no_limit!("omega_phi, which the table of a bearing follows,"));
         spring.or(table)
+    }
+
+    fn is_analytic(&self) -> bool {
+        !self.table.is_given()
     }
 
     fn works(&self) -> bool {

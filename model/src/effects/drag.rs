@@ -17,18 +17,12 @@ pub struct Drag {
 }
 
 impl Drag {
-    /// The torque over the spin [N·m·s/rad].
-    #[inline(always)]
-    fn per_speed<S: Scalar>(&self, speed: S) -> S {
-        S::constant(self.linear) + S::constant(self.quadratic) * speed.abs()
-    }
-
     /// ω_a, the spin about t [rad/s], and the torque on the rotor [N·m].
     #[inline(always)]
     fn torque<S: Scalar>(&self, motion: &Motion<S>) -> [S; 2] {
         let speed = motion.spin();
         // eq. 65: τ = −(linear + quadratic |ω_a|) ω_a, ω_a = ω·t
-        [speed, -(self.per_speed(speed) * speed)]
+        [speed, -motion.times(S::constant(self.linear) + S::constant(self.quadratic) * motion.size(speed), speed)]
     }
 }
 
@@ -58,7 +52,13 @@ impl Effect for Drag {
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let [speed, tau] = self.torque(motion);
         // eq. 65: M = τ t, P = −τ ω_a
-        Act { damping: Wrench::couple(motion.axis() * tau), loss: -(tau * speed), ..Act::none() }
+        let loss = motion.power_along(-1.0, tau, speed);
+        Act { damping: Wrench::along_axis(motion, tau), loss, ..Act::none() }
+    }
+
+    fn is_analytic(&self) -> bool {
+        // Beside that place, and a step in series does not pass it.
+        true
     }
 
     fn works(&self) -> bool {

@@ -31,9 +31,10 @@ impl Effect for Drive {
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
-        let tau = self.tau.at::<S>(motion.t());
+        let tau = motion.input(&self.tau);
         // eq. 32: M = τ n, P = τ ω_φ
-        Act { load: Wrench::couple(motion.joint_axis() * tau), supply: tau * motion.omega_phi(), ..Act::none() }
+        let supply = motion.power_along(1.0, tau, motion.omega_phi());
+        Act { load: Wrench::along_joint(motion, tau), supply, ..Act::none() }
     }
 
     fn follows_speed(&self) -> bool {

@@ -55,14 +55,14 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// What is known of them while they are compiled.
     const FACTS: Facts;
 
-    /// What they do together, but for the energy that they store. `own` are their states, in their order.
-    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S>;
+    /// What they do together, but for the energy that they store, in a motion with all of their states, in their order.
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S>;
 
     /// Their potential energy \[J].
-    fn stored<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> S;
+    fn stored<S: Scalar>(&self, motion: &Motion<S>) -> S;
 
     /// The rates of their own states, which those that are switched off leave as they are.
-    fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]);
+    fn own_rates<S: Scalar>(&self, motion: &Motion<S>, rates: &mut [S]);
 
     /// Their indicators, in their order, which those that are switched off leave as they are.
     fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]);
@@ -132,6 +132,11 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Whether what any of them applies depends on how fast the rotor moves, or on states of its own.
     fn follows_speed(&self) -> bool {
         self.active().any(|block| block.follows_speed() || block.kind().own > 0)
+    }
+
+    /// Whether the laws of all of them are analytic as they are now.
+    fn are_analytic(&self) -> bool {
+        self.active().all(Block::is_analytic)
     }
 
     /// Whether any of them extrapolates inputs.
@@ -307,17 +312,17 @@ impl Effects for () {
     };
 
     #[inline(always)]
-    fn act<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S]) -> Act<S> {
+    fn act<S: Scalar>(&self, _motion: &Motion<S>) -> Act<S> {
         Act { supply: S::zero(), loss: S::zero(), ..Act::none() }
     }
 
     #[inline(always)]
-    fn stored<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S]) -> S {
+    fn stored<S: Scalar>(&self, _motion: &Motion<S>) -> S {
         S::zero()
     }
 
     #[inline(always)]
-    fn own_rates<S: Scalar>(&self, _motion: &Kinematics<S>, _own: &[S], _rates: &mut [S]) {}
+    fn own_rates<S: Scalar>(&self, _motion: &Motion<S>, _rates: &mut [S]) {}
 
     #[inline(always)]
     fn indicators(&self, _motion: &Kinematics<f64>, _own: &[f64], _all: &mut [f64]) {}
@@ -375,11 +380,11 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     };
 
     #[inline(always)]
-    fn act<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> Act<S> {
-        let (mine, others) = own.split_at(H::Effect::OWN);
-        let mut all = self.1.act(motion, others);
+    fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
+        let (mine, others) = motion.all_own().split_at(H::Effect::OWN);
+        let mut all = self.1.act(&motion.seen_with(others));
         let Some(effect) = self.0.active() else { return all };
-        let seen = Motion::new(motion, mine);
+        let seen = motion.seen_with(mine);
         if S::LONG {
             // One by one, or those of an effect that is off would be copied too.
             let (load, damping, supply, loss) = called(effect, &seen);
@@ -393,22 +398,22 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     }
 
     #[inline(always)]
-    fn stored<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S]) -> S {
-        let (mine, others) = own.split_at(H::Effect::OWN);
-        let rest = self.1.stored(motion, others);
-        self.0.active().map_or(rest, |effect| effect.act(&Motion::new(motion, mine)).stored + rest)
+    fn stored<S: Scalar>(&self, motion: &Motion<S>) -> S {
+        let (mine, others) = motion.all_own().split_at(H::Effect::OWN);
+        let rest = self.1.stored(&motion.seen_with(others));
+        self.0.active().map_or(rest, |effect| effect.act(&motion.seen_with(mine)).stored + rest)
     }
 
     #[inline(always)]
-    fn own_rates<S: Scalar>(&self, motion: &Kinematics<S>, own: &[S], rates: &mut [S]) {
-        let (mine, others) = own.split_at(H::Effect::OWN);
+    fn own_rates<S: Scalar>(&self, motion: &Motion<S>, rates: &mut [S]) {
+        let (mine, others) = motion.all_own().split_at(H::Effect::OWN);
         let (to, other_rates) = rates.split_at_mut(H::Effect::OWN);
         if H::Effect::OWN > 0
             && let Some(effect) = self.0.active()
         {
-            to.copy_from_slice(&effect.act(&Motion::new(motion, mine)).own[..H::Effect::OWN]);
+            to.copy_from_slice(&effect.act(&motion.seen_with(mine)).own[..H::Effect::OWN]);
         }
-        self.1.own_rates(motion, others, other_rates);
+        self.1.own_rates(&motion.seen_with(others), other_rates);
     }
 
     #[inline(always)]

@@ -35,7 +35,7 @@ impl Motor {
     /// The torque on the characteristic [N·m].
     #[inline(always)]
     fn steady<S: Scalar>(&self, motion: &Motion<S>) -> S {
-        let part = self.command.at::<S>(motion.t()) - motion.omega_phi() * S::constant(1.0 / self.synchronous_speed);
+        let part = motion.input(&self.command) - motion.omega_phi() * S::constant(1.0 / self.synchronous_speed);
         // eq. 96: τ∞ = τ_s (u − ω_φ/Ω_s)
         part * S::constant(self.stall_torque)
     }
@@ -91,7 +91,8 @@ impl Effect for Motor {
         let mut own = [S::zero(); MOST_OWN];
         own[0] = self.rate(motion);
         // eq. 96: M = τ n, P = τ ω_φ
-        Act { load: Wrench::couple(motion.joint_axis() * tau), supply: tau * motion.omega_phi(), own, ..Act::none() }
+        let supply = motion.power_along(1.0, tau, motion.omega_phi());
+        Act { load: Wrench::along_joint(motion, tau), supply, own, ..Act::none() }
     }
 
     fn check(&self) -> Result<(), Invalid> {

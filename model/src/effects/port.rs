@@ -22,8 +22,7 @@ impl Port {
     /// Force \[N] and moment [N·m].
     #[inline(always)]
     fn given<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
-        let now = |signal: &Signal| signal.at::<S>(motion.t());
-        [self.f.map(|signal| now(&signal)), self.m.map(|signal| now(&signal))]
+        [self.f.map(|signal| motion.input(&signal)), self.m.map(|signal| motion.input(&signal))]
     }
 }
 
@@ -58,9 +57,10 @@ impl Effect for Port {
         let [force, moment] = self.given(motion);
         Act {
             // eq. 66: M_c = p t×F + M
-            load: Wrench::at_station(motion, self.position, force) + Wrench::couple(moment),
+            load: Wrench::at_station(motion, self.position, force) + Wrench::couple(motion, moment),
             // eq. 66: P = F·v_s + M·ω
-            supply: force.dot(&motion.station_velocity(self.position)) + moment.dot(motion.omega()),
+            supply: motion.power(1.0, &force, &motion.station_velocity(self.position))
+                + motion.power_of_moment(&moment),
             ..Act::none()
         }
     }

@@ -19,8 +19,9 @@ impl RotatingDamping {
     /// dq/dt − Ω e×q, Ω = e·ω, the velocity of the station in the turning axes [m/s].
     #[inline(always)]
     fn slip<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        let (q, v, speed) = (motion.station(self.position), motion.station_velocity(self.position), motion.omega().x);
-        Vector3::new(S::zero(), v.y + speed * q.z, v.z - speed * q.y)
+        let (q, v, speed) =
+            (motion.station(self.position), motion.station_velocity(self.position), motion.omega_along());
+        Vector3::new(S::zero(), v.y + motion.times(speed, q.z), v.z - motion.times(speed, q.y))
     }
 }
 
@@ -41,12 +42,12 @@ impl Effect for RotatingDamping {
         let (q, slip) = (motion.station(self.position), self.slip(motion));
         // eq. 64: F = −d (dq/dt − Ω e×q), and the couple −e·(q×F) along e
         let force = slip * S::constant(-self.d);
-        let couple = -q.yz().perp(&force.yz());
-        let couple = Wrench::couple(Vector3::new(couple, S::zero(), S::zero()));
+        let couple = -(motion.times(q.y, force.z) - motion.times(q.z, force.y));
+        let couple = Wrench::couple(motion, Vector3::new(couple, S::zero(), S::zero()));
         Act {
             damping: Wrench::at_station(motion, self.position, force) + couple,
             // eq. 64: P = d |dq/dt − Ω e×q|²
-            loss: slip.dot(&slip) * S::constant(self.d),
+            loss: motion.power(self.d, &slip, &slip),
             ..Act::none()
         }
     }

@@ -24,8 +24,8 @@ pub struct Rub {
     pub radius: f64,
     /// Speed of sliding at which friction has reached tanh 1 of its strength [m/s].
     pub v0: f64,
-    /// Whether the ring presses on the shaft, 1 or 0: the branch of the law.
-    pressed: f64,
+    /// Whether the ring presses on the shaft, and whether the shaft is within it, 1 or 0: the branch of the law.
+    branch: [f64; 2],
 }
 
 /// What a contact is made of.
@@ -80,7 +80,7 @@ impl Rub {
         let along = Vector3::new(S::zero(), -outward.z, outward.y);
         let v = motion.station_velocity(self.position);
         // eq. 97: N = k δ + c dδ/dt while the ring presses
-        let normal = S::zero().where_less(S::constant(self.pressed), self.pressure(depth, rate), S::zero());
+        let normal = S::zero().where_less(S::constant(self.branch[0]), self.pressure(depth, rate), S::zero());
         // eq. 98: v_t = t̂·dq/dt + R ω_φ
         let sliding = along.dot(&v) + motion.omega_phi() * S::constant(self.radius);
         let part = (sliding * S::constant(1.0 / self.v0)).tanh();
@@ -124,14 +124,18 @@ impl Effect for Rub {
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
+        if S::SERIES {
+            // Asked for only while the shaft is clear of the ring.
+            return Act::none();
+        }
         let contact = self.contact(motion);
         let Contact { depth, rate, normal, sliding, part, .. } = contact;
         let friction = normal * part * S::constant(self.friction);
         // eq. 98: M = −μ N R tanh(v_t/v₀) n
-        let couple = Wrench::couple(motion.joint_axis() * (friction * S::constant(-self.radius)));
+        let couple = Wrench::along_joint(motion, friction * S::constant(-self.radius));
         let stiffness = S::constant(self.stiffness);
         let within = depth.positive_part();
-        let pressed = S::zero().where_less(S::constant(self.pressed), depth, within);
+        let pressed = S::zero().where_less(S::constant(self.branch[0]), depth, within);
         Act {
             load: Wrench::at_station(motion, self.position, self.force(&contact)) + couple,
             // eq. 99: V = ½ k δ² where δ > 0
@@ -154,7 +158,7 @@ impl Effect for Rub {
     }
 
     fn switch(&mut self, positive: &[bool], _motion: &Motion<f64>) {
-        self.pressed = f64::from(positive.iter().all(|positive| *positive));
+        self.branch = [positive.iter().all(|positive| *positive), positive[0]].map(f64::from);
     }
 
     fn check(&self) -> Result<(), Invalid> {
@@ -166,20 +170,25 @@ impl Effect for Rub {
     }
 
     fn begin(&mut self, _start: &Motion<f64>) {
-        self.pressed = 0.0;
+        self.branch = [0.0; 2];
     }
 
     fn memory(&mut self) -> &mut [f64] {
-        std::slice::from_mut(&mut self.pressed)
+        &mut self.branch
     }
 
     fn restored(&mut self) -> bool {
-        self.pressed == 0.0 || self.pressed == 1.0
+        self.branch.iter().all(|part| *part == 0.0 || *part == 1.0)
     }
 
     fn no_limit(&self) -> Option<&'static str> {
-        (self.friction != 0.0 && self.radius != 0.0 && self.pressed != 0.0)
+        (self.friction != 0.0 && self.radius != 0.0 && self.branch[0] != 0.0)
             .then_some(no_limit!("the friction of rub, which a joint passes on,"))
+    }
+
+    fn is_analytic(&self) -> bool {
+        // A ring that has let go still gives way where the shaft is within it.
+        self.branch == [0.0; 2]
     }
 
     fn works(&self) -> bool {

@@ -7,7 +7,7 @@ use crate::variable::units::{
     NEWTON_SECOND_PER_METRE,
 };
 use crate::variable::{Bound, output, parameter};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 
 /// Springs and dampers between the support point a and the point O, the reference axis e.
 #[derive(Clone, Debug, Default)]
@@ -23,46 +23,30 @@ pub struct Support {
 }
 
 impl Support {
-    /// Force of the springs at a \[N], and their moment against tilt [N·m].
+    /// Force of the springs at a \[N].
     #[inline(always)]
-    fn springs<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
+    fn spring<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         let to_origin = motion.lever(motion.l()) - motion.r_c();
-        // eq. 14: F = −c1 r_a, M = −c2 γ
-        [to_origin * S::constant(self.c1), -across(motion.lean() * S::constant(self.c2))]
+        // eq. 14: F = −c1 r_a
+        to_origin * S::constant(self.c1)
     }
 
-    /// Force of the dampers at a \[N], and their moment against tilt [N·m].
+    /// Force of the dampers at a \[N].
     #[inline(always)]
-    fn dampers<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
-        // eq. 14: F = −d1 v_a, M = −d2 t×(dt/dt)
-        [
-            motion.station_velocity(-motion.l()) * S::constant(-self.d1),
-            motion.axis().cross(&motion.axis_rate()) * S::constant(-self.d2),
-        ]
-    }
-
-    /// A force at a \[N] and a moment [N·m] as a wrench.
-    #[inline(always)]
-    fn wrench<S: Scalar>(motion: &Motion<S>, [force, moment]: [Vector3<S>; 2]) -> Wrench<S> {
-        // eq. 14: M_c = F×l t + M
-        Wrench { force, moment: force.cross(&motion.lever(motion.l())) + moment }
+    fn damper<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
+        // eq. 14: F = −d1 v_a
+        motion.station_velocity(-motion.l()) * S::constant(-self.d1)
     }
 
     /// Force on the rotor at a \[N].
     fn force<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        self.springs(motion)[0] + self.dampers(motion)[0]
+        self.spring(motion) + self.damper(motion)
     }
 
     /// Moment against tilt [N·m].
     fn moment<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        self.springs(motion)[1] + self.dampers(motion)[1]
+        Wrench::against_lean(motion, self.c2).moment + Wrench::against_turn(motion, self.d2).moment
     }
-}
-
-/// (0, y, z).
-#[inline(always)]
-fn across<S: Scalar>(v: Vector2<S>) -> Vector3<S> {
-    Vector3::new(S::zero(), v.x, v.y)
 }
 
 impl Effect for Support {
@@ -83,13 +67,19 @@ impl Effect for Support {
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let (r_a, lean) = (motion.station(-motion.l()), motion.lean());
         let (v_a, t_rate) = (motion.station_velocity(-motion.l()), motion.axis_rate());
+        let at_a = |force| Wrench::at_station(motion, -motion.l(), force);
         Act {
-            load: Self::wrench(motion, self.springs(motion)),
-            damping: if self.works() { Self::wrench(motion, self.dampers(motion)) } else { Wrench::zero() },
+            // eq. 14: M = −c2 γ, M = −d2 t×(dt/dt)
+            load: at_a(self.spring(motion)) + Wrench::against_lean(motion, self.c2),
+            damping: if self.works() {
+                at_a(self.damper(motion)) + Wrench::against_turn(motion, self.d2)
+            } else {
+                Wrench::zero()
+            },
             // eq. 15: V = ½ c1 |r_a|² + ½ c2 |γ|²
             stored: r_a.dot(&r_a) * S::constant(0.5 * self.c1) + lean.dot(&lean) * S::constant(0.5 * self.c2),
             // eq. 16: P = d1 |v_a|² + d2 |dt/dt|²
-            loss: v_a.dot(&v_a) * S::constant(self.d1) + t_rate.dot(&t_rate) * S::constant(self.d2),
+            loss: motion.power(self.d1, &v_a, &v_a) + motion.power(self.d2, &t_rate, &t_rate),
             ..Act::none()
         }
     }

@@ -149,6 +149,11 @@ impl<const N: usize> Explicit<N> {
         self.y[component] = value;
     }
 
+    /// How small the error of a step must be.
+    pub fn tolerance(&self) -> Tolerance<N> {
+        self.tolerance
+    }
+
     /// How large the motion is.
     pub fn sizes(&self) -> Sizes<N> {
         self.sizes

@@ -3,10 +3,11 @@
 //! From e: L = L(γ)·L(φe), singular where t = −e. From −e: L = L(γ′)·Q·L(φ′e), Q a half turn about y, singular where
 //! t = e. What is reported stays in the first, with |γ| ≤ π.
 
+use super::series::per_sinc;
 use super::{Angle, exact};
 use crate::scalar::Scalar;
 use crate::stored::{Damaged, Stored, Walk, choice};
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// The chart in which γ and φ are written.
@@ -51,6 +52,14 @@ impl Chart {
             Chart::FromE => Chart::FromMinusE,
             Chart::FromMinusE => Chart::FromE,
         }
+    }
+
+    /// γ \[rad] in this chart of an axis t that is not where the chart is singular.
+    #[inline(always)]
+    pub fn gamma_of(self, axis: &Vector3<f64>) -> Vector2<f64> {
+        let sign = self.sign();
+        // eq. 2, eq. 29: γ = ±(θ/sin θ) e×t, cos θ = ±e·t
+        Vector2::new(-axis.z, axis.y) * (sign * per_sinc(sign * axis.x))
     }
 
     /// How far a motion at this γ \[rad] is from where it should go on in the other chart \[rad²]; not positive there.

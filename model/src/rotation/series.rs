@@ -6,6 +6,7 @@
 //! rationals in `model/tests/all/series.rs`: error ≤ 1 ulp of 1 (2.2e-16), on the whole interval.
 
 use crate::scalar::Scalar;
+use std::f64::consts::PI;
 
 /// The coefficients of c, and of j/4 beside them, in powers of θ² = 4x: powers of two change no bit.
 const COSINE_AND_BESSEL: [[f64; 2]; 9] = [
@@ -63,4 +64,64 @@ pub fn arctangent(x: f64) -> f64 {
         }
     }
     (sums[0] + x * sums[1]) + square * (sums[2] + x * sums[3])
+}
+
+/// θ/sin θ of c = cos θ, 0 ≤ θ < π.
+#[inline(always)]
+pub fn per_sinc(c: f64) -> f64 {
+    let (less, more) = (1.0 - c, 1.0 + c);
+    if less <= more {
+        // θ = 2 arctan √x, x = tan²(θ/2) = (1 − c)/(1 + c); sin θ = √x (1 + c)
+        return 2.0 * arctangent(less / more) / more;
+    }
+    let (sine, x) = ((less * more).sqrt(), more / less);
+    (PI - 2.0 * x.sqrt() * arctangent(x)) / sine
+}
+
+/// Terms of a backward recurrence that are this small beside the first are not seen \[1].
+const UNSEEN: f64 = 1e-17;
+
+/// 1/k.
+const PER: [f64; 96] = {
+    let mut per = [0.0; 96];
+    let mut k = 1;
+    while k < per.len() {
+        per[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    per
+};
+
+/// Below this cos θ the recurrence goes forward: the two solutions then grow alike.
+const FORWARD: f64 = 0.3;
+
+/// The terms f_k of f(c + w) = Σ f_k w^k, f being θ/sin θ as a function of c = cos θ, 0 ≤ θ < π: at least two.
+pub fn lean_over_sine(c: f64, terms: &mut [f64]) {
+    let square = (1.0 - c) * (1.0 + c);
+    let first = per_sinc(c);
+    // eq. 102: (k + 1)(1 − c²) f_(k+1) = (2k + 1) c f_k + k f_(k−1), less 1 where k = 0
+    if c < FORWARD {
+        terms[0] = first;
+        terms[1] = (c * first - 1.0) / square;
+        for k in 1..terms.len() - 1 {
+            let of = k as f64;
+            terms[k + 1] = ((2.0 * of + 1.0) * c * terms[k] + of * terms[k - 1]) / ((of + 1.0) * square);
+        }
+        return;
+    }
+    // Backward f is the solution that grows (Miller 1952): the other is less by (1 − c)/(1 + c) a term.
+    let (ratio, mut part, mut k) = ((1.0 - c) / (1.0 + c), 1.0, terms.len());
+    while part > UNSEEN && k < PER.len() - 1 {
+        (part, k) = (part * ratio, k + 1);
+    }
+    let (mut above, mut term) = (0.0, 1e-200);
+    while k > 0 {
+        let below = (square + square * PER[k]) * above - (2.0 * c + c * PER[k]) * term;
+        (above, term, k) = (term, below, k - 1);
+        if let Some(place) = terms.get_mut(k) {
+            *place = term;
+        }
+    }
+    let scale = first / terms[0];
+    terms.iter_mut().for_each(|term| *term *= scale);
 }

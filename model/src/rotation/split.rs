@@ -45,6 +45,14 @@ impl<S: Scalar> Tilt<S> {
         Self { chart, gamma, axis, theta_squared, quarter, numerator, per_sinc }
     }
 
+    /// The tilt of an axis t \[1] of which nothing else is known.
+    #[inline(always)]
+    pub(crate) fn of_axis(chart: Chart, axis: Vector3<S>) -> Self {
+        let none = S::constant(f64::NAN);
+        let gamma = Vector2::new(none, none);
+        Self { chart, gamma, axis, theta_squared: none, quarter: none, numerator: none, per_sinc: none }
+    }
+
     /// τ = tan(θ/2)/θ \[1].
     #[inline(always)]
     fn tau(&self) -> S {

@@ -1,6 +1,7 @@
 //! A method at work on a rotor: charts, whole turns of φ, and the answer at any time of the last step.
 
 use super::auto::Auto;
+use super::by_series::BySeries;
 use super::events::{Events, indicators};
 use super::growth::Watch;
 use super::method::Method;
@@ -26,6 +27,8 @@ pub(super) struct Integration<const N: usize> {
     method: Method<N>,
     /// Where it is that of `auto`.
     auto: Option<Auto>,
+    /// Where it goes by series as often as the motion has one.
+    series: Option<BySeries>,
     tolerance: Tolerance<N>,
     /// So many evaluations a communication step may take.
     most: f64,
@@ -44,7 +47,7 @@ pub(super) struct Integration<const N: usize> {
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
+    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -143,6 +146,7 @@ impl<const N: usize> Integration<N> {
             frame,
             method,
             auto: matches!(plan, Plan::Auto).then(Auto::default),
+            series: matches!(plan, Plan::Taylor).then(|| BySeries::new(&frame.under(effects))),
             tolerance,
             most: setup.solver.max_evaluations,
             last,
@@ -163,6 +167,7 @@ impl<const N: usize> Integration<N> {
             frame: Frame::default(),
             method: Method::blank(),
             auto: None,
+            series: None,
             tolerance: Tolerance::default(),
             most: 0.0,
             last: LastStep::default(),
@@ -238,11 +243,14 @@ impl<const N: usize> Integration<N> {
 
     /// How often `auto` has gone on with another method.
     pub(super) fn changes_of_method(&self) -> u32 {
-        self.auto.map_or(0, |auto| auto.changes())
+        self.auto.map_or(0, |auto| auto.changes()) + self.series.map_or(0, |series| series.changes())
     }
 
-    /// What `auto` does and why.
+    /// What `auto` or `taylor` does and why.
     pub(super) fn auto(&self) -> String {
+        if let Some(series) = &self.series {
+            return series.words(self.method.is_series(), self.method.start_time());
+        }
         let Some(auto) = &self.auto else {
             return "auto takes symplectic: nothing acts on the rotor, so a step of any length is exact".into();
         };
@@ -275,6 +283,12 @@ impl<const N: usize> Integration<N> {
                 let motion = self.frame.under(effects).motion(self.method.time(), &y);
                 self.events.switch(effects, &motion, &y);
                 self.method.go_on_under(&self.frame.under(effects));
+                if let Some(series) = &mut self.series {
+                    series.look(&self.frame.under(effects));
+                }
+            }
+            if let Some(series) = &mut self.series {
+                series.choose(&mut self.method, &self.frame.under(effects));
             }
             let before = self.method.time();
             // Laws that switch to and fro in one place must still go on.
@@ -283,6 +297,9 @@ impl<const N: usize> Integration<N> {
             } else {
                 self.step(effects, most, until)
             };
+            if let Some(series) = &mut self.series {
+                series.hear(self.method.is_series());
+            }
             let moved = self.method.time() > before;
             switched = if moved { 0 } else { switched + 1 };
             if let Err(fault) = outcome {

@@ -7,6 +7,7 @@ use crate::integrate::composition::Composed;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::stiff::{Differentiable, Stiff};
 use crate::integrate::tableau::DOP853;
+use crate::integrate::taylor::Taylor;
 use crate::integrate::{Cost, Fault, System, Tolerance};
 use crate::rotor::Rotor;
 use crate::stored::{Damaged, Stored, Walk};
@@ -19,9 +20,10 @@ pub(super) enum Method<const N: usize> {
     Explicit(Explicit<N>),
     Composed(Composed<N>),
     Stiff(Stiff<N>),
+    Taylor(Taylor<N>),
 }
 
-use Method::{Composed as OfComposition, Explicit as OfPair, Stiff as OfCollocation};
+use Method::{Composed as OfComposition, Explicit as OfPair, Stiff as OfCollocation, Taylor as OfSeries};
 
 /// The same call, whichever method it is.
 macro_rules! each {
@@ -30,6 +32,7 @@ macro_rules! each {
             OfPair($method) => $call,
             OfComposition($method) => $call,
             OfCollocation($method) => $call,
+            OfSeries($method) => $call,
         }
     };
 }
@@ -39,12 +42,13 @@ impl<const N: usize> Method<N> {
     pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) -> Self {
         match plan {
             Plan::Explicit(tableau) => OfPair(Explicit::start(tableau, tolerance, rotor, t, y)),
-            Plan::Auto => OfPair(Explicit::start(&DOP853, tolerance, rotor, t, y)),
             Plan::Composed(composition, Some(size)) => OfComposition(Composed::start(composition, size, t, y)),
             Plan::Composed(composition, None) => {
                 OfComposition(Composed::start_within(composition, tolerance, rotor, t, y))
             }
             Plan::Stiff => OfCollocation(Stiff::start(tolerance, rotor, t, y)),
+            Plan::Taylor if rotor.has_series() => OfSeries(Taylor::start(tolerance, rotor, t, y)),
+            Plan::Auto | Plan::Taylor => OfPair(Explicit::start(&DOP853, tolerance, rotor, t, y)),
         }
     }
 
@@ -95,6 +99,7 @@ impl<const N: usize> Method<N> {
             OfPair(method) => Some(method.rate()),
             OfComposition(_) => None,
             OfCollocation(method) => Some(method.rate()),
+            OfSeries(method) => Some(method.rate()),
         }
     }
 
@@ -129,6 +134,7 @@ impl<const N: usize> Method<N> {
             OfPair(method) => method.go_back(rotor, t, y),
             OfComposition(method) => method.go_back(t, y),
             OfCollocation(method) => method.go_back(rotor, t, y),
+            OfSeries(method) => method.go_back(rotor, t, y),
         }
     }
 
@@ -139,6 +145,7 @@ impl<const N: usize> Method<N> {
             OfPair(method) => method.go_on_from(rotor, y),
             OfComposition(method) => method.go_on_from(y),
             OfCollocation(method) => method.go_on_from(rotor, y),
+            OfSeries(method) => method.go_on_from(rotor, y),
         }
     }
 
@@ -149,6 +156,7 @@ impl<const N: usize> Method<N> {
             OfPair(method) => method.go_on_from(rotor, y),
             OfComposition(method) => method.go_on_from(y),
             OfCollocation(method) => method.go_on_under(rotor, y),
+            OfSeries(method) => method.go_on_from(rotor, y),
         }
     }
 
@@ -165,7 +173,40 @@ impl<const N: usize> Method<N> {
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations. Where none is possible, the method stands as before.
     pub fn step<E: Effects>(&mut self, rotor: &Rotor<'_, E>, most: f64, until: f64) -> Result<(), Fault> {
-        each!(self, method => method.step(rotor, most, until))
+        match self {
+            OfPair(method) => method.step(rotor, most, until),
+            OfComposition(method) => method.step(rotor, most, until),
+            OfCollocation(method) => method.step(rotor, most, until),
+            OfSeries(method) => {
+                if method.step(rotor, most, until)? {
+                    return Ok(());
+                }
+                self.leave_series(rotor);
+                self.step(rotor, most, until)
+            }
+        }
+    }
+
+    /// Whether it goes by series.
+    pub fn is_series(&self) -> bool {
+        matches!(self, OfSeries(_))
+    }
+
+    /// Goes on with dop853 where it went by series.
+    pub fn leave_series<E: Effects>(&mut self, rotor: &Rotor<'_, E>) {
+        if let OfSeries(method) = self {
+            let start = Explicit::start(&DOP853, method.tolerance(), rotor, method.time(), *method.state());
+            let h = start.next_step();
+            *self = OfPair(start.instead(h, method.sizes(), method.cost()));
+        }
+    }
+
+    /// Goes on by series, where it can.
+    pub fn take_series<E: Effects>(&mut self, rotor: &Rotor<'_, E>) {
+        if let OfPair(method) = self {
+            let start = Taylor::start(method.tolerance(), rotor, method.time(), *method.state());
+            *self = OfSeries(start.instead(method.next_step(), method.sizes(), method.cost()));
+        }
     }
 
     /// From now on excursions of these components count from 0.
@@ -192,13 +233,15 @@ impl<const N: usize> Stored for Method<N> {
             OfPair(_) => 0,
             OfComposition(_) => 1,
             OfCollocation(_) => 2,
+            OfSeries(_) => 3,
         };
         kind.walk(walk)?;
         match (kind, &self) {
-            (0, OfPair(_)) | (1, OfComposition(_)) | (2, OfCollocation(_)) => {}
+            (0, OfPair(_)) | (1, OfComposition(_)) | (2, OfCollocation(_)) | (3, OfSeries(_)) => {}
             (0, _) => *self = OfPair(Explicit::blank()),
             (1, _) => *self = OfComposition(Composed::blank()),
             (2, _) => *self = OfCollocation(Stiff::blank()),
+            (3, _) => *self = OfSeries(Taylor::blank()),
             _ => return Err(Damaged),
         }
         each!(self, method => method.walk(walk))

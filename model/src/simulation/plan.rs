@@ -14,6 +14,8 @@ pub(super) enum Plan {
     Composed(&'static Composition, Option<f64>),
     /// Radau IIA with adaptive steps.
     Stiff,
+    /// Taylor's series, and dop853 where there is none.
+    Taylor,
     /// The two adaptive methods, the one or the other.
     Auto,
 }
@@ -35,6 +37,7 @@ impl Plan {
                 Plan::Composed(composition, Some(solver.step_size).filter(|size| *size > 0.0))
             }
             numbers::STIFF => Plan::Stiff,
+            numbers::TAYLOR => Plan::Taylor,
             numbers::DOP853 => Plan::Explicit(&DOP853),
             other => unreachable!("there is no method {other}: it was checked"),
         }

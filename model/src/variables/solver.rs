@@ -47,6 +47,8 @@ pub mod numbers {
     pub const SYMPLECTIC: i32 = 4;
     /// Implicit, order 5.
     pub const STIFF: i32 = 5;
+    /// Taylor's series.
+    pub const TAYLOR: i32 = 6;
 }
 
 /// The type of `solver.method`.
@@ -66,6 +68,7 @@ pub static METHODS: Enumeration = Enumeration {
             "composition of free drifts and kicks, order solver.order, steps of solver.step_size",
         ),
         (numbers::STIFF, "stiff", "implicit Runge-Kutta method Radau IIA, order 5, exact Jacobian, adaptive"),
+        (numbers::TAYLOR, "taylor", "power series in time, adaptive; dop853 where the motion has none"),
     ],
 };
 

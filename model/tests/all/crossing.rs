@@ -7,7 +7,7 @@ use oracles::fixed::Fixed;
 use proptest::prelude::*;
 use split_rotor_model::body::Body;
 use split_rotor_model::effects::support::Support;
-use split_rotor_model::effects::{Called, Effects};
+use split_rotor_model::effects::{Called, Effects, Motion};
 use split_rotor_model::energy;
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::rotation::chart::crossed_exactly;
@@ -49,7 +49,7 @@ fn mount() -> Mount {
 /// Total energy [J] of a body of this shape in a chart.
 fn total(shape: f64, chart: Chart, at: Coordinates<f64>) -> f64 {
     let motion = Kinematics::new(Body { m: 5.0, Ja: shape * 0.078125, Jt: 0.078125, l: 0.75 }.into(), chart, at);
-    energy::kinetic(&motion) + mount().stored(&motion, &[])
+    energy::kinetic(&motion) + mount().stored(&Motion::new(&motion, &[]))
 }
 
 /// eq. 26: γ′ = −(π − θ) γ/θ

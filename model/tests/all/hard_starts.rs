@@ -73,7 +73,7 @@ fn a_law_without_a_limit_is_named() {
         ),
         ("[effects.imposed_speed]\nw = 0.0\n", "the speed that imposed_speed gives a joint"),
     ] {
-        for method in ["auto", "dopri5", "dop853", "stiff", "symplectic"] {
+        for method in ["auto", "dopri5", "dop853", "stiff", "symplectic", "taylor"] {
             if (effect.contains("imposed"), method) == (true, "symplectic") {
                 continue;
             }

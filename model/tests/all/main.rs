@@ -44,6 +44,7 @@ mod stored;
 mod symplectic;
 mod tables;
 mod tangents;
+mod taylor;
 mod traced;
 mod turns;
 mod typed;

@@ -126,7 +126,7 @@ const TOLERANCES: [f64; 5] = [0.03, 0.1, 0.7, 0.5, 0.5];
 #[test]
 fn exact_upright_rotor_under_steps_of_the_command() {
     for lag in LAGS {
-        for method in ["auto", "dopri5", "dop853", "stiff"] {
+        for method in ["auto", "dopri5", "dop853", "stiff", "taylor"] {
             for tolerance in [1e-6, 1e-9] {
                 let solver = format!("[solver]\nmethod = \"{method}\"\nrelative_tolerance = {tolerance:?}\n");
                 let mut named = Named::started(&upright(lag, &solver));
@@ -189,7 +189,7 @@ const LEDGER: f64 = 1.6;
 
 #[test]
 fn exact_ledger_of_a_tilted_rotor_closes() {
-    for method in ["auto", "dopri5", "dop853", "stiff"] {
+    for method in ["auto", "dopri5", "dop853", "stiff", "taylor"] {
         for tolerance in [1e-6, 1e-9] {
             let solver = format!("[solver]\nmethod = \"{method}\"\nrelative_tolerance = {tolerance:?}\n");
             let mut named = Named::started(&swinging(3.0, &solver));
@@ -222,7 +222,7 @@ fn without_stall_torque_the_motor_is_not_there() {
         }
         bits
     };
-    for method in ["auto", "dopri5", "dop853", "stiff", "symplectic"] {
+    for method in ["auto", "dopri5", "dop853", "stiff", "symplectic", "taylor"] {
         assert_eq!(motion(0.0, method), motion(-1.0, method), "{method}");
     }
 }

@@ -38,8 +38,8 @@ pub fn by(machine: &Machine, method: f64, tolerance: f64) -> Named {
     named
 }
 
-/// auto, dopri5, dop853 and stiff.
-const ADAPTIVE: [f64; 4] = [1.0, 2.0, 3.0, 5.0];
+/// auto, dopri5, dop853, stiff and taylor.
+const ADAPTIVE: [f64; 5] = [1.0, 2.0, 3.0, 5.0, 6.0];
 const TOLERANCES: [f64; 8] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 
 /// The largest distance of r_c [m] from this z [m] that is shown from time `from` to the end [s], each 0.1 ms.

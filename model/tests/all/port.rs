@@ -67,7 +67,7 @@ fn exact_a_port_and_a_probe_show_their_station() {
 #[test]
 fn no_load_leaves_the_sign_of_a_zero() {
     // +0 + −0 = +0 would not.
-    let load = Wrench::couple(Vector3::new(1.0, 0.0, -0.0));
+    let load = Wrench { moment: Vector3::new(1.0, 0.0, -0.0), ..Wrench::zero() };
     let sum = Wrench::zero() + load;
     let signs = |v: Vector3<f64>| [v.x, v.y, v.z].map(f64::is_sign_negative);
     assert_eq!(signs(sum.force), [true; 3]);

@@ -71,7 +71,7 @@ fn exact_turns_are_counted_where_a_law_switches_twice_at_once() {
     const SPIN: f64 = 800.0;
     /// Error of φ over it \[1].
     const PHI: f64 = 1e-13;
-    for method in ["dopri5", "dop853", "auto", "stiff"] {
+    for method in ["dopri5", "dop853", "auto", "stiff", "taylor"] {
         let bounce = Bounce::new(method, 1e-8);
         let mut rotor = Named::written(&format!("{}[start]\nomega = {{ x = {SPIN:?} }}\n", bounce.text));
         rotor.start();
@@ -105,7 +105,7 @@ const RUBBING: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[
 fn exact_ledger_closes_with_friction() {
     /// Of the energy that was lost \[1].
     const RESIDUAL: f64 = 1e-8;
-    for method in ["dopri5", "dop853", "auto", "stiff"] {
+    for method in ["dopri5", "dop853", "auto", "stiff", "taylor"] {
         let mut rotor = Named::started(&format!("{RUBBING}method = \"{method}\"\nrelative_tolerance = 1e-10\n"));
         let (mut contacts, mut before) = (0, 0.0);
         for n in 1..=400 {
@@ -178,7 +178,8 @@ fn a_touch_is_heard_anywhere_in_a_step() {
 /// and the rotor lay still.
 #[test]
 fn regress_a_hard_ring_throws_back() {
-    for (method, tolerance) in ["auto", "stiff", "dop853"].into_iter().flat_map(|m| [1e-3, 1e-4, 1e-6].map(|t| (m, t)))
+    for (method, tolerance) in
+        ["auto", "stiff", "dop853", "taylor"].into_iter().flat_map(|m| [1e-3, 1e-4, 1e-6].map(|t| (m, t)))
     {
         for stiffness in [1e7, 1e9, 1e11] {
             let mut rotor = Named::started(&format!(

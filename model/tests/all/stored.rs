@@ -68,7 +68,7 @@ fn nothing(integrator: Integrator) -> Any {
 /// Conservative, working and model exchange runs of every method.
 fn runs() -> impl Iterator<Item = (&'static str, Integrator, f64)> {
     let scenes = ["paper", "free_top", "tumbling", "driven"];
-    let methods = [1.0, 2.0, 3.0, 4.0, 5.0].map(|method| (Integrator::Method, method));
+    let methods = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|method| (Integrator::Method, method));
     let kinds = move || methods.into_iter().chain([(Integrator::Host, 3.0)]);
     scenes.into_iter().flat_map(move |scene| kinds().map(move |(integrator, method)| (scene, integrator, method)))
 }

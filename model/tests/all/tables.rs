@@ -134,7 +134,7 @@ const RUN_UP: f64 = 60.0;
 #[test]
 fn exact_run_up_through_nodes() {
     let [y, z, ..] = ran_up(3.0);
-    for method in ["dopri5", "dop853", "auto", "stiff"] {
+    for method in ["dopri5", "dop853", "auto", "stiff", "taylor"] {
         for tolerance in [1e-6, 1e-9, 1e-12] {
             let mut rotor = run_up(&format!(
                 "method = \"{method}\"\nrelative_tolerance = {tolerance:e}\nabsolute_tolerance = 1e-14\n"

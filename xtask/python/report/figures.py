@@ -15,7 +15,7 @@ from . import measure, paper
 from .notation import number
 
 # Okabe and Ito's palette: told apart by colour-blind readers too.
-BLUE, VERMILLION, GREEN, PURPLE, BLACK = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#222222"
+BLUE, VERMILLION, GREEN, PURPLE, ORANGE, BLACK = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#222222"
 WIDTH = 7.2  # [in]
 
 STYLE = {

@@ -67,6 +67,8 @@ pub trait Block {
     fn no_limit(&self) -> Option<&'static str>;
     /// Whether it can lose energy or be supplied with it.
     fn works(&self) -> bool;
+    /// Whether its law is analytic as it is now.
+    fn is_analytic(&self) -> bool;
     /// Whether what it applies depends on how fast the rotor moves.
     fn follows_speed(&self) -> bool;
     /// The first of its parameters whose value is not possible.

@@ -197,6 +197,10 @@ impl<M: Member> Block for M {
         self.effect().works()
     }
 
+    fn is_analytic(&self) -> bool {
+        self.effect().is_analytic()
+    }
+
     fn follows_speed(&self) -> bool {
         self.effect().follows_speed()
     }

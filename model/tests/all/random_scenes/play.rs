@@ -76,11 +76,13 @@ pub enum Method {
     Symplectic = 4,
     /// Implicit.
     Stiff = 5,
+    /// By power series.
+    Taylor = 6,
 }
 
 impl Method {
     /// All of them.
-    pub const ALL: [Self; 5] = [Self::Auto, Self::Dopri5, Self::Dop853, Self::Symplectic, Self::Stiff];
+    pub const ALL: [Self; 6] = [Self::Auto, Self::Dopri5, Self::Dop853, Self::Symplectic, Self::Stiff, Self::Taylor];
 
     /// Its name.
     pub fn name(self) -> String {
