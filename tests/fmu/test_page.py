@@ -132,7 +132,7 @@ def test_exact_bounds_are_those_of_the_xml(fmu, page):
         elif kind.tag == "Boolean":
             assert rows[name] == "", name
         elif name == "solver.method_number":
-            assert rows[name] == "0 or 1 or 2 or 3 or 4 or 5"
+            assert rows[name] == "0 or 1 or 2 or 3 or 4 or 5 or 6"
         elif name == "solver.absolute_tolerance":
             assert rows[name] == "0 or a number from 1e-20 to 0.01"
             assert (kind.get("min"), kind.get("max")) == ("0.0", "0.01")
