@@ -7,7 +7,7 @@
 #[macro_use]
 mod cases;
 
-use cases::{At, Copied, Hosted, Stepping, copied, rotor};
+use cases::{At, Copied, Expanding, Hosted, Stepping, copied, rotor};
 use gungraun::{Callgrind, LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 use split_rotor::abi::Status;
 use split_rotor::scene::Effects;
@@ -82,6 +82,14 @@ macro_rules! of_each_method {
 methods!(of_each_method);
 
 #[library_benchmark]
+#[bench::order_14(kept(Expanding::at(1e-3)))]
+#[bench::order_22(kept(Expanding::at(1e-6)))]
+#[bench::order_24(kept(Expanding::at(1e-10)))]
+fn step_by_series(it: &mut Expanding) {
+    it.step();
+}
+
+#[library_benchmark]
 #[bench::within_a_step_of_the_solver(kept(Hosted::within_a_step()))]
 #[bench::over_a_tenth_of_a_second(kept(Hosted::before_many_steps()))]
 fn fmi2DoStep(it: &mut Hosted) -> Status {
@@ -91,7 +99,8 @@ fn fmi2DoStep(it: &mut Hosted) -> Status {
 library_benchmark_group!(name = rates, benchmarks = [right_hand_side, right_hand_side_with_work]);
 library_benchmark_group!(
     name = steps,
-    benchmarks = [step, step_with_work, prepare_dense_output, step_without_rates, fixed_step_without_rates]
+    benchmarks =
+        [step, step_with_work, prepare_dense_output, step_without_rates, fixed_step_without_rates, step_by_series]
 );
 library_benchmark_group!(name = calls, benchmarks = fmi2DoStep);
 

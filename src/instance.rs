@@ -139,7 +139,7 @@ impl Instance {
             Integrator::Host => State::EventMode,
             Integrator::Method => {
                 self.tell_tolerance(tolerance);
-                self.tell_auto();
+                self.tell_auto(0);
                 State::StepComplete
             }
         };
@@ -166,11 +166,14 @@ impl Instance {
         });
     }
 
-    /// Says what `auto` does and why.
-    fn tell_auto(&self) {
+    /// Says what the method goes on with and why, after so many changes in this step.
+    fn tell_auto(&self, changes: u32) {
         if self.logger.hears(Category::Solver)
-            && let Some(words) = self.memory.simulation.auto()
+            && let Some(mut words) = self.memory.simulation.auto()
         {
+            if changes > 1 {
+                words += &format!(" (the last of {changes} changes in this communication step)");
+            }
             self.logger.log(Severity::Ok, Category::Solver, &words);
         }
     }

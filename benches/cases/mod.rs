@@ -11,6 +11,7 @@ use split_rotor::scene::Simulation;
 use split_rotor::scene::{Effects, STARTS};
 use split_rotor_model::integrate::explicit::Explicit;
 use split_rotor_model::integrate::tableau::Tableau;
+use split_rotor_model::integrate::taylor::Taylor;
 use split_rotor_model::integrate::{Refusal, System, Tolerance};
 use split_rotor_model::rotor::Rotor;
 use split_rotor_model::simulation::Integrator;
@@ -106,6 +107,29 @@ impl<S: System<N>, const N: usize> Stepping<S, N> {
     /// One step of this size \[s]: no error is estimated.
     pub fn fixed_step(&mut self, h: f64) {
         self.method.fixed_step(&self.system, h);
+    }
+}
+
+/// The rotor under way, by power series.
+pub struct Expanding {
+    method: Taylor<12>,
+    system: Rotor<'static, Effects>,
+}
+
+impl Expanding {
+    /// At this relative tolerance, once the size of the steps is found.
+    pub fn at(relative: f64) -> Self {
+        let At { system, t, y, tolerance } = rotor::<12>();
+        let method = Taylor::start(Tolerance { relative, ..tolerance }, &system, t, y);
+        let mut expanding = Self { method, system };
+        (0..10).for_each(|_| expanding.step());
+        expanding
+    }
+
+    /// One step of the method's own choice.
+    pub fn step(&mut self) {
+        let stepped = self.method.step(&self.system, f64::INFINITY, f64::INFINITY);
+        assert_eq!(stepped, Ok(true), "a motion with a series");
     }
 }
 

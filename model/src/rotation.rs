@@ -15,5 +15,5 @@ pub mod split;
 
 pub use angle::Angle;
 pub use chart::Chart;
-pub use free::{Turn, Turned};
+pub use free::{Turn, Turned, Winding};
 pub use split::Tilt;

@@ -247,6 +247,18 @@ impl<'e, E: Effects> Rotor<'e, E> {
         self.inertia().asymmetric.is_none() && self.effects.imposed(0.0).is_none() && self.effects.are_analytic()
     }
 
+    /// Why its motion has none.
+    pub fn no_series(&self) -> Option<String> {
+        if self.inertia().asymmetric.is_some() {
+            return Some("the body is unbalanced or not symmetric".into());
+        }
+        if self.effects.imposed(0.0).is_some() {
+            return Some("a speed is imposed".into());
+        }
+        let bent = self.effects.active().find(|block| !block.is_analytic())?;
+        Some(format!("{} presses or follows a table", bent.kind().block_name()))
+    }
+
     /// The rates of a state of N numbers in this chart.
     #[inline(always)]
     fn rates_in<S: Scalar, const N: usize, const ALL: bool>(&self, chart: Chart, t: f64, y: &[S; N]) -> [S; N] {

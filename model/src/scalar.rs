@@ -152,7 +152,7 @@ pub trait Scalar:
 
 /// Σ a_i x^i by pairs of terms (Estrin 1960): they wait for one another less than in Horner's scheme.
 #[inline(always)]
-fn estrin<T: Copy + Add<Output = T> + Mul<Output = T>>(a: &[T; 9], x: T) -> T {
+pub(crate) fn estrin<T: Copy + Add<Output = T> + Mul<Output = T>>(a: &[T; 9], x: T) -> T {
     let x2 = x * x;
     let x4 = x2 * x2;
     let two = |i: usize| a[i] + a[i + 1] * x;

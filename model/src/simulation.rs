@@ -3,6 +3,7 @@
 
 mod auto;
 mod by_series;
+mod closest;
 mod events;
 mod exchange;
 mod growth;
@@ -26,7 +27,7 @@ use crate::signal::Signal;
 use crate::state::{COORDINATES, WITH_WORK, own};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
-use crate::variables::{Instant, Parameters, Reading, numbers};
+use crate::variables::{Instant, Parameters, Reading};
 use integration::Integration;
 use nominals::Nominals;
 use start::{BESIDE, Motion};
@@ -180,19 +181,18 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         Ok(())
     }
 
-    /// What `auto` or `taylor` does and why; None where the parameters name the one method.
+    /// What the method goes on with and why, such as another one that `auto` takes; None where it is what the parameters say.
     pub fn auto(&self) -> Option<String> {
-        let chooses = matches!(self.parameters.setup.solver.method_in_force(), numbers::AUTO | numbers::TAYLOR);
-        match self.run.as_ref().filter(|_| chooses)? {
-            Run::Method(integration) => Some(integration.auto()),
+        match self.run.as_ref()? {
+            Run::Method(integration) => integration.goes_on(&self.parameters.effects),
             Run::Exchange(_) => None,
         }
     }
 
-    /// How often it has gone on with another method.
+    /// How often that has changed.
     pub fn changes_of_method(&self) -> u32 {
         match &self.run {
-            Some(Run::Method(integration)) => integration.changes_of_method(),
+            Some(Run::Method(integration)) => integration.changes(),
             Some(Run::Exchange(_)) | None => 0,
         }
     }

@@ -8,20 +8,27 @@ pub use tumbling::{Beside, Tumbling};
 use crate::effects::{Effects, Motion};
 use crate::integrate::composition::{Composition, Split, Splitting};
 use crate::integrate::sizes::Squares;
+use crate::integrate::stiff::Differentiable;
+use crate::integrate::stiff::spectrum::spectral_radius;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::integrate::{Refusal, System};
 use crate::rotation::arc::{Reduced, atan2};
-use crate::rotation::{Angle, Chart, Tilt, Turn, Turned};
+use crate::rotation::{Angle, Chart, Tilt, Turn, Winding};
 use crate::rotor::{FORBIDDEN, LIMIT, Rotor, groups};
 use crate::state::{Coordinates, Kinematics, PHI, own, put_work, rigid, rigid_mut, work};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
 /// A motion of N equations on its way through a step.
+#[derive(Clone)]
 pub struct Flow<'r, E, const N: usize> {
     rotor: &'r Rotor<'r, E>,
+    /// γ is that of the start: meanwhile the axis tells the tilt.
     at: Coordinates<f64>,
-    tilt: Tilt<f64>,
+    /// The axis t \[1].
+    axis: Vector3<f64>,
+    /// What φ of a symmetric body has gained in the chart and in the other one.
+    windings: [Winding; 2],
     /// Whole turns of φ from e since the step began, besides φ in the chart.
     turns: f64,
     /// Work supplied and lost \[J], and whether it is solved.
@@ -57,17 +64,45 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
         Flow {
             rotor: self,
             at,
-            tilt: Tilt::new(self.frame.chart, at.gamma),
+            axis: Tilt::new(self.frame.chart, at.gamma).axis,
+            windings: [Winding::none(); 2],
             turns: 0.0,
             work: work(y),
             y: *y,
             works: self.frame.works(),
             inner: self.effects.follows_speed().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
-            spreads: self.inertia().asymmetric.is_none() && at.k.norm() * h * self.frame.body.per_jt > RESOLVED,
+            spreads: self.spreads(&at, h),
             guarded: self.effects.needs_gamma(),
             evaluations: 0.0,
             refusal: None,
         }
+    }
+
+    #[inline(always)]
+    fn kicks_by_place(&self, y: &[f64; N], h: f64) -> bool {
+        // A kick that is spread turns the axis as well, and work follows the speeds.
+        !self.effects.follows_speed() && !self.frame.works() && !self.spreads(&Coordinates::from_slice(rigid(y)), h)
+    }
+
+    /// From the linear equations of place and speed: what turns K about the axis is followed exactly, as is what dampens.
+    fn fastest(&self, t: f64, y: &[f64; N], h: f64) -> f64 {
+        const SPEEDS: std::ops::Range<usize> = 3..9;
+        // eq. 112: the block A B of the square of these equations
+        let numbers = if self.spreads(&Coordinates::from_slice(rigid(y)), h) { 6 } else { PHI };
+        let mut jacobian = self.jacobian(t, y);
+        for (i, row) in jacobian.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let [i, j] = [i, j].map(|place| place.wrapping_sub(own(N)));
+                if i >= numbers || j >= numbers || SPEEDS.contains(&i) == SPEEDS.contains(&j) {
+                    *entry = 0.0;
+                }
+            }
+        }
+        spectral_radius(&jacobian, own(N) + numbers)
+    }
+
+    fn is_steady(&self) -> bool {
+        !self.frame.has_events()
     }
 
     fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
@@ -78,6 +113,17 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
         squares
     }
 
+    /// Across K, where the nutation is not resolved, a change is a turn of K, which the axis follows: it counts beside γ.
+    fn parts_of_ends(&self, y: &[f64; N], apart: &[f64; N], h: f64) -> Squares<N> {
+        let (mut parts, at) = (self.parts(y, apart), Coordinates::from_slice(rigid(y)));
+        if self.spreads(&at, h) {
+            let [across, gamma] = [groups::ACROSS, groups::GAMMA].map(|group| own(N) + group);
+            parts[gamma] += parts[across] / at.k.norm_squared();
+            parts[across] = 0.0;
+        }
+        parts
+    }
+
     fn apart(&self, a: &[f64; N], b: &[f64; N]) -> [f64; N] {
         let mut apart = std::array::from_fn(|n| a[n] - b[n]);
         // From −e, φ jumps by whole turns where γ is on the other side of where its azimuth begins.
@@ -86,30 +132,54 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
     }
 }
 
+impl<E: Effects> Rotor<'_, E> {
+    /// Whether kicks are spread in a step of size `h` \[s] from there.
+    #[inline(always)]
+    fn spreads(&self, at: &Coordinates<f64>, h: f64) -> bool {
+        self.inertia().asymmetric.is_none() && at.k.norm() * h.abs() * self.frame.body.per_jt > RESOLVED
+    }
+}
+
 impl<E: Effects, const N: usize> Flow<'_, E, N> {
+    /// The tilt of the axis.
+    #[inline(always)]
+    fn tilt(&self) -> Tilt<f64> {
+        Tilt::<f64>::along(self.rotor.frame.chart, self.axis)
+    }
+
     /// Turns the axis by the Euler vector ρ \[rad].
     #[inline(always)]
     fn turn(&mut self, rho: Vector3<f64>) {
-        self.take(self.tilt.turned(&Turn::about(rho)));
-    }
-
-    /// Goes on from a tilt that has turned.
-    #[inline(always)]
-    fn take(&mut self, turned: Turned) {
-        self.at.gamma = turned.gamma;
-        self.at.phi += turned.phi;
-        self.turns += turned.turns;
-        self.tilt = Tilt::new(self.rotor.frame.chart, turned.gamma);
+        let turn = Turn::about(rho);
+        match self.rotor.frame.chart {
+            Chart::FromE => self.windings[0].turn(&turn, &self.axis),
+            Chart::FromMinusE => {
+                self.windings[0].turn(&turn, &-self.axis);
+                self.windings[1].turn(&turn, &self.axis);
+            }
+        }
+        self.axis = turn.carried(&self.axis);
     }
 
     /// Whether the axis may come near −e within a drift of `h` \[s], where a law has no limit.
+    #[inline(always)]
     fn may_pass_the_limit(&self, h: f64) -> bool {
-        let (body, k, theta) = (self.rotor.inertia(), self.at.k, self.tilt.gamma_in_chart().norm());
+        let (body, k) = (self.rotor.inertia(), self.at.k);
+        // An axis on the side of e is too far from −e for a turn by 1 rad.
+        let rho = k.norm_squared() * (h * body.per_jt) * (h * body.per_jt);
+        let is_far = body.asymmetric.is_none() && rho <= 1.0 && self.axis.x >= 0.0;
+        !is_far && self.clone().comes_near_the_limit(h)
+    }
+
+    /// [`Flow::may_pass_the_limit`] where it must be looked at closely.
+    #[inline(never)]
+    fn comes_near_the_limit(self, h: f64) -> bool {
+        let (body, k, theta) = (self.rotor.inertia(), self.at.k, self.tilt().gamma_in_chart().norm());
         let to_antipode = if self.rotor.frame.chart == Chart::FromE { PI - theta } else { theta };
         let way = match &body.asymmetric {
             // About K it goes round on a cone.
             None => {
-                let (across, along) = (k.cross(&self.tilt.axis).norm(), k.dot(&self.tilt.axis).abs());
+                let (across, along) = (k.cross(&self.axis).norm(), k.dot(&self.axis).abs());
                 (across * body.per_jt * h.abs()).min(2.0 * atan2(across, along))
             }
             Some(asymmetric) => k.norm() * body.quickest(asymmetric) * h.abs(),
@@ -121,8 +191,9 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     /// The motion at time `t` \[s], with these speeds where it is.
     #[inline(always)]
     fn motion(&self, t: f64, v: Vector3<f64>, k: Vector3<f64>) -> Kinematics<f64> {
-        let at = Coordinates { v, k, ..self.at };
-        Kinematics::tilted(self.rotor.inertia(), self.tilt, at).when(t, self.rotor.frame.turns)
+        let tilt = self.tilt();
+        let at = Coordinates { v, k, gamma: tilt.gamma_in_chart(), ..self.at };
+        Kinematics::tilted(self.rotor.inertia(), tilt, at).when(t, self.rotor.frame.turns)
     }
 
     /// Follows the speeds for a time `h` \[s], the place and the time `t` \[s] standing still.
@@ -133,14 +204,15 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return;
         }
         if self.guarded
-            && let Err(refusal) = self.rotor.reaches(self.at.gamma, LIMIT)
+            && let Err(refusal) = self.rotor.reaches(self.tilt().gamma_in_chart(), LIMIT)
         {
             self.refusal = Some(refusal);
             return;
         }
         // eq. 40: m dv/dt = ΣF, dK/dt = ΣM, place and time frozen
         if let Some(tableau) = self.inner {
-            return self.push_followed(tableau, t, h);
+            *self = self.clone().pushed_followed(tableau, t, h);
+            return;
         }
         let motion = self.motion(t, self.at.v, self.at.k);
         let load = effects.act(&Motion::new(&motion, &self.y[..own(N)])).load;
@@ -157,9 +229,10 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         self.evaluations += 1.0;
     }
 
-    /// [`Flow::push`] where loads follow the speeds, called: beside it, the other would wait for registers.
+    /// [`Flow::push`] where loads follow the speeds, called: beside it, the other would wait for registers. A copy goes there and comes
+    /// back, or all of the motion would be kept where it can be called with.
     #[inline(never)]
-    fn push_followed(&mut self, tableau: &Tableau, t: f64, h: f64) {
+    fn pushed_followed(mut self, tableau: &Tableau, t: f64, h: f64) -> Self {
         let effects = &self.rotor.effects;
         let mut speeds = self.y;
         Coordinates { v: self.at.v, k: self.at.k, ..self.at }.write(rigid_mut(&mut speeds));
@@ -182,6 +255,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
         (self.at.v, self.at.k, self.work) = (at.v, at.k, work(&speeds));
         self.y[..own(N)].copy_from_slice(&speeds[..own(N)]);
         self.evaluations += tableau.stages.len() as f64;
+        self
     }
 }
 
@@ -198,9 +272,10 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         // eq. 39: r + h v; L(K h/Jt) on the left and K·t h (1/Ja − 1/Jt) about the axis
         self.at.r += self.at.v * h;
         if let Some(asymmetric) = &body.asymmetric {
-            return self.tumble(&body, asymmetric, h);
+            *self = self.clone().tumbled(&body, asymmetric, h);
+            return;
         }
-        self.at.phi += self.at.k.dot(&self.tilt.axis) * (h * body.spin);
+        self.at.phi += self.at.k.dot(&self.axis) * (h * body.spin);
         self.turn(self.at.k * (h * body.per_jt));
     }
 
@@ -224,10 +299,16 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
 
     #[inline(always)]
     fn end(self) -> (Result<[f64; N], Refusal>, f64) {
-        let mut y = self.y;
+        let (mut y, gamma) = (self.y, self.tilt().gamma_in_chart());
+        let (mut phi, mut turns) = (self.at.phi, self.turns);
+        if self.rotor.inertia().asymmetric.is_none() {
+            let [own, other] = &self.windings;
+            let gained = own.advances(other, self.rotor.frame.chart, [self.at.gamma, gamma]);
+            (phi, turns) = (phi + gained.0, turns + gained.1);
+        }
         // φ has all the turns that φ from e has gained.
-        let phi = Angle { turns: self.turns, remainder: self.at.phi }.radians();
-        Coordinates { phi, ..self.at }.write(rigid_mut(&mut y));
+        let phi = Angle { turns, remainder: phi }.radians();
+        Coordinates { phi, gamma, ..self.at }.write(rigid_mut(&mut y));
         put_work(&mut y, self.work);
         (self.refusal.map_or(Ok(y), Err), self.evaluations)
     }

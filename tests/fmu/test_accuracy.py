@@ -1,6 +1,7 @@
 """`cargo xtask accuracy` on a scene of the user's own: what it leaves behind, and that its errors are the true ones."""
 
 import csv
+import importlib
 import json
 import re
 from xml.etree import ElementTree
@@ -12,11 +13,13 @@ import pytest
 NAME = "accuracy_of_a_second"
 STOP = 1.0  # [s]; the reference of the tests has a row there
 STEP = STOP / 100.0  # [s]; the command reads the motion at irregular times, and at the end
-SWEPT = 31  # tolerances
+SWEPT = 34  # tolerances
 STEPS = 13  # of symplectic, for each order
 SAME = 1e-4  # relative, measured 3.2e-5: the reference is right to 2e-13 rad in phi
 TIGHT = 1e-5  # where `auto` need not try stiff
 FLOOR = 1e-11  # of what can be told
+DECADES = 10  # rows of the table: errors from 1e-2 to 1e-11, all of which can be told
+SAME_TIME = 0.12  # relative: times within 5 % are alike, and two digits are shown
 FILES = {"accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg"}
 
 
@@ -75,9 +78,9 @@ def test_exact_each_order_has_its_steps(found, order):
 
 def test_exact_price_of_auto_is_told(found):
     (told,) = (sentence for sentence in found["sentences"] if sentence.startswith("auto takes "))
-    assert "dop853 from " in told and " to 1e-13. At most, at " in told
+    assert "taylor from " in told and " to 1e-13. At most, at " in told
     taken = {row["value"]: row["taken"] for row in found["rows"] if row["method"] == "auto"}
-    assert all(taken[value] == "dop853" for value in taken if value <= TIGHT), taken
+    assert all(taken[value] == "taylor" for value in taken if value <= TIGHT), taken
     assert {row["taken"] for row in found["rows"] if row["method"] != "auto"} == {None}
     assert "as dear as the cheapest that errs no more" in told
 
@@ -118,11 +121,54 @@ def test_exact_advice_is_the_cheapest_row_that_suffices(measured):
         assert re.search(f"For an error of at most {goal} take (dop|taylor)", printed)
 
 
+def test_exact_table_has_the_cheapest_of_each_decade(measured, found):
+    table = (measured[0] / "accuracy.md").read_text(encoding="utf-8").partition("\n- ")[0].splitlines()[2:]
+    assert len(table) == DECADES
+    for line in table:
+        goal, cheapest, after, auto = (cell.strip() for cell in line.strip("|").split("|"))
+        rows = [row for row in found["rows"] if row["failure"] is None and row["error"] <= float(goal)]
+        least = {}
+        for row in (row for row in rows if row["method"] != "auto"):
+            least[row["method"]] = min(row["cpu_time_s"], least.get(row["method"], np.inf))
+        for cell, time in zip((cheapest, after), sorted(least.values())):
+            told = re.fullmatch(r"(\S+) ms, (\w+) .+", cell)
+            assert float(told[1]) == pytest.approx(1e3 * time, rel=SAME_TIME)
+            assert told[2] in least
+        setting = auto.partition(" ms, ")[2]
+        assert any((row["method"], row["value"]) == ("auto", float(setting)) for row in rows)
+
+
+def words_of(picture):
+    svg = ElementTree.parse(picture)
+    return {"".join(text.itertext()) for text in svg.iter("{http://www.w3.org/2000/svg}text")}
+
+
 def test_exact_picture_has_a_curve_a_method_and_its_words(measured):
-    svg = ElementTree.parse(measured[0] / "accuracy.svg")
-    words = " ".join("".join(text.itertext()) for text in svg.iter("{http://www.w3.org/2000/svg}text"))
-    for wanted in ("split-rotor dopri5", "split-rotor dop853", "[ms]", "motion's own size", "CPU", "rustc"):
-        assert wanted in words
+    words = words_of(measured[0] / "accuracy.svg")
+    assert {"dopri5", "dop853", "symplectic", "stiff", "taylor", "worst error over the motion's own size"} <= words
+    assert f"CPU time [ms] for {STOP:g} s of motion" in words
+    assert any("rustc" in text for text in words)
+
+
+def test_exact_picture_has_few_curves(monkeypatch):
+    monkeypatch.syspath_prepend(str(project.ROOT / "xtask" / "python"))
+    accuracy = importlib.import_module("accuracy")
+
+    def row(tool, method, time, error=1e-7, told=100):
+        return {"tool": tool, "method": method, "cpu_time_s": time, "error": error, "points_told": told}
+
+    peers = [row("A", "slow", 9.0), row("A", "quick", 1.0), row("B", "end only", 0.1, told=1), row("C", "wrong", 0.1, 2.0)]
+    beaten = [row("split-rotor", "dop853", 2.0), row("split-rotor", "dop853", 3.0, 1e-5), row("split-rotor", "taylor", 1.0)]
+    failed = row("split-rotor", "stiff", None, None, None)
+
+    def drawn(of_auto):
+        rows = [*beaten, failed, row("split-rotor", "auto", of_auto), *peers]
+        found = accuracy.few({"experiment": {"points": 100}, "rows": rows})
+        return {name: len(of_it) for name, of_it in found}
+
+    few = {("split-rotor", "dop853"): 1, ("split-rotor", "taylor"): 1, ("A", "quick"): 1}
+    assert drawn(of_auto=0.95) == few
+    assert drawn(of_auto=0.5) == few | {("split-rotor", "auto"): 1}
 
 
 def test_exact_message_where_no_method_reaches_the_end(xtask, tmp_path):
@@ -185,10 +231,9 @@ def test_regress_an_ordinary_rotor_is_drawn_and_advised_by_its_whirl(xtask, tmp_
     found = json.loads((folder / "accuracy.json").read_text(encoding="utf-8"))
     assert found["sizes"]["place_m"] == pytest.approx(WHIRL, rel=SEEN)
     assert found["reference"]["agreement"]["error"] < 1e-9
-    drawn = (folder / "accuracy.svg").read_text(encoding="utf-8")
-    for method in ("dopri5", "dop853", "symplectic", "stiff", "taylor", "auto"):
-        assert f"split-rotor {method}<" in drawn
-    assert "no method errs" not in drawn
+    words = words_of(folder / "accuracy.svg")
+    assert {"dopri5", "dop853", "symplectic", "stiff", "taylor"} <= words
+    assert not any("no method errs" in text for text in words)
     rows = [row for row in found["rows"] if row["failure"] is None]
     for goal, sentence in zip(GOALS, (said for said in found["sentences"] if said.startswith("For an error"))):
         method, value = re.search(r" take (\S+) with .* = (\S+):", sentence).groups()

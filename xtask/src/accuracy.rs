@@ -3,9 +3,11 @@
 mod advice;
 mod auto;
 mod files;
+mod interleaved;
 mod machine;
 pub mod motion;
 mod peers;
+mod ratio;
 mod reference;
 mod repeats;
 mod row;
@@ -20,7 +22,7 @@ use crate::{package, scenes};
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 use reference::Reference;
-use row::{Row, Scale};
+use row::{OURS, Row, Scale};
 use run::{Setting, Subject};
 use split_rotor_model::scene::{Experiment, Scene};
 use table::short;
@@ -73,19 +75,17 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
         rows.extend(sweep::measure(subject, curve, &reference, || progress.inc(1)));
     }
     progress.finish_and_clear();
+    let mut left_out = Vec::new();
+    if with_peers {
+        let progress = bar(peers::PEERS.len());
+        left_out = peers::measure(subject, &reference, &mut rows, &progress);
+        progress.finish_and_clear();
+    }
     let mut sentences: Vec<_> = span::told(&experiment, &scene.experiment).into_iter().collect();
     sentences.extend(advice::sentences(&rows, scale.floor, scale.simulated));
     sentences.extend(advice::meaning(&rows, scale.floor));
     sentences.extend(auto::sentence(&rows, scale.floor));
     sentences.extend(substeps(subject, &curves, &rows, scale)?);
-    let mut left_out = Vec::new();
-    if with_peers {
-        let progress = bar(peers::PEERS.len());
-        let theirs = peers::measure(scene, &experiment, &reference, &progress)?;
-        progress.finish_and_clear();
-        rows.extend(theirs.rows);
-        left_out = theirs.left_out;
-    }
     Ok(Accuracy { reference, rows, scale, experiment, sentences, left_out })
 }
 
@@ -105,7 +105,8 @@ pub fn tell(progress: &ProgressBar, what: &str) {
 
 /// What short communication steps cost, at the tightest goal that was reached.
 fn substeps(subject: &Subject, curves: &[Vec<Setting>], rows: &[Row], scale: Scale) -> Result<Option<String>> {
-    let reached = advice::GOALS.iter().rev().find_map(|goal| advice::cheapest(rows, *goal));
+    let ours = || rows.iter().filter(|row| row.tool == OURS);
+    let reached = advice::GOALS.iter().rev().find_map(|goal| advice::cheapest(ours(), *goal));
     let Some((row, _)) = reached else { return Ok(None) };
     let is_it = |s: &&Setting| s.method == row.method && s.order == row.order && s.value == row.value;
     let setting = curves.iter().flatten().find(is_it).context("a row of ours has its setting")?;

@@ -1,8 +1,9 @@
 //! Running other programs.
 
 use anyhow::{Context, Result, bail};
-use std::io::Write;
-use std::process::{Command, Stdio};
+use std::io::{BufRead, BufReader, Lines, Write};
+use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::thread::JoinHandle;
 
 /// The cargo that runs us, in the project's folder.
 pub fn cargo() -> Command {
@@ -31,24 +32,87 @@ pub fn output(command: &mut Command) -> Result<String> {
     Ok(String::from_utf8(output.stdout)?)
 }
 
-/// Runs a command that reads `input`, and returns what it prints; what fails is an error that shows the end of what it
-/// complained of.
-pub fn fed(command: &mut Command, input: &str) -> Result<String> {
-    let shown = shown(command);
-    let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let mut child = piped.spawn().with_context(|| format!("cannot run `{shown}`"))?;
-    // Where it does not want its input, its exit code tells.
-    let _ = child.stdin.take().expect("it is piped").write_all(input.as_bytes());
-    let output = child.wait_with_output()?;
-    if !output.status.success() {
-        let complaint = String::from_utf8_lossy(&output.stderr);
-        let last = complaint.lines().last().unwrap_or("it did not say why");
-        bail!("`{shown}` failed ({}): {last}", output.status);
+/// A program that is asked and answers line by line.
+pub struct Conversation {
+    shown: String,
+    child: Child,
+    asked: ChildStdin,
+    answers: Lines<BufReader<ChildStdout>>,
+    /// What it complains of, read beside the answers, or it would wait for that.
+    complaint: JoinHandle<std::io::Result<String>>,
+}
+
+impl Conversation {
+    /// Starts the program.
+    pub fn with(command: &mut Command) -> Result<Self> {
+        let shown = shown(command);
+        let piped = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = piped.spawn().with_context(|| format!("cannot run `{shown}`"))?;
+        let asked = child.stdin.take().expect("it is piped");
+        let answers = BufReader::new(child.stdout.take().expect("it is piped")).lines();
+        let complaint = child.stderr.take().expect("it is piped");
+        let complaint = std::thread::spawn(move || std::io::read_to_string(complaint));
+        Ok(Self { shown, child, asked, answers, complaint })
     }
-    Ok(String::from_utf8(output.stdout)?)
+
+    /// Says a line.
+    pub fn say(&mut self, line: &str) {
+        // Where it does not want to know, its exit code tells.
+        let _ = writeln!(self.asked, "{line}");
+    }
+
+    /// Its lines up to an empty one, or to the end.
+    pub fn paragraph(&mut self) -> Result<Vec<String>> {
+        let lines = self.answers.by_ref().take_while(|line| line.as_ref().map_or(true, |line| !line.is_empty()));
+        Ok(lines.collect::<std::io::Result<_>>()?)
+    }
+
+    /// Its answer to a line, a line.
+    pub fn ask(&mut self, line: &str) -> Result<String> {
+        self.say(line);
+        self.answers.next().with_context(|| format!("`{}` does not answer", self.shown))?.map_err(Into::into)
+    }
+
+    /// Nothing more is asked; what fails is an error that shows the end of what it complained of.
+    pub fn end(mut self) -> Result<()> {
+        drop(self.asked);
+        let status = self.child.wait()?;
+        if !status.success() {
+            let complaint = self.complaint.join().expect("reading does not panic")?;
+            let last = complaint.lines().last().unwrap_or("it did not say why");
+            bail!("`{}` failed ({status}): {last}", self.shown);
+        }
+        Ok(())
+    }
 }
 
 fn shown(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
     words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Conversation;
+    use std::process::Command;
+
+    #[test]
+    fn a_program_is_asked_line_by_line() {
+        let script = r#"read task; echo "$task 1"; echo "$task 2"; echo; while read n; do echo $((n * n)); done"#;
+        let mut program = Conversation::with(Command::new("sh").args(["-c", script])).unwrap();
+        program.say("task");
+        assert_eq!(program.paragraph().unwrap(), ["task 1", "task 2"]);
+        assert_eq!([3, 4].map(|n| program.ask(&n.to_string()).unwrap()), ["9", "16"]);
+        program.end().unwrap();
+    }
+
+    #[test]
+    fn a_program_that_fails_is_an_error_with_its_last_words() {
+        let mut program =
+            Conversation::with(Command::new("sh").args(["-c", "echo one; echo why >&2; exit 3"])).unwrap();
+        assert_eq!(program.paragraph().unwrap(), ["one"]);
+        assert!(program.ask("more").is_err());
+        let refused = program.end().unwrap_err().to_string();
+        assert!(refused.contains("3") && refused.ends_with(": why"), "{refused}");
+    }
 }

@@ -1,4 +1,4 @@
-//! Solvers in Rust, measured like the FMU: reads a task as JSON from the standard input, prints a JSON line for every
+//! Solvers in Rust, measured like the FMU: reads a task as a line of JSON from the standard input, prints a JSON line for every
 //! setting that it tried. `cargo xtask accuracy --peers` builds and runs it.
 
 mod differential_equations;

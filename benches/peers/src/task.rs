@@ -35,12 +35,12 @@ pub struct Motion {
 }
 
 impl Task {
-    /// The task on the standard input, for the solver in this package.
+    /// The task, a line on the standard input, for the solver in this package.
     pub fn read(package: &str) -> Result<Self> {
         let locked = include_str!("../Cargo.lock");
         let after = locked.split_once(&format!("name = \"{package}\"\nversion = \"")).map(|(_, after)| after);
         let version = after.and_then(|after| after.split('"').next());
-        let asked: Value = serde_json::from_reader(std::io::stdin())?;
+        let asked: Value = serde_json::from_str(&std::io::stdin().lines().next().context("there is no task")??)?;
         let value = |name: &str| asked["values"][name].as_f64().unwrap_or(0.0);
         let vector = |name: &str| ["x", "y", "z"].map(|c| value(&format!("{name}.{c}")));
         let list = |name: &str| -> Result<Vec<f64>> {

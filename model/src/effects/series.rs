@@ -40,8 +40,9 @@ pub struct Now {
 pub struct Series<R: ?Sized = [Row]> {
     /// At the power at hand.
     pub now: Now,
-    /// 1 + e·t.
+    /// 1 + e·t, but for the power at hand, which stands alone.
     one_and_along: Row,
+    along: f64,
     /// Whether anyone asks for powers \[W].
     works: bool,
     leans: Cell<bool>,
@@ -57,6 +58,7 @@ impl<const ROWS: usize> Series<[Row; ROWS]> {
         Self {
             now: Now::default(),
             one_and_along: EMPTY,
+            along: 0.0,
             works,
             leans: Cell::new(false),
             sized: Cell::new(None),
@@ -70,8 +72,8 @@ impl Series {
     /// Goes on to another power, where the coefficient of e·t is `along`.
     #[inline(always)]
     pub fn go_on(&mut self, now: Now, along: f64) {
-        let first = now.power == 0;
-        self.one_and_along[now.power] = if first { 1.0 + along } else { along };
+        self.one_and_along[self.now.power] = self.along;
+        self.along = if now.power == 0 { 1.0 + along } else { along };
         self.now = now;
         self.next.set(0);
     }
@@ -99,8 +101,9 @@ impl Series {
     pub fn product(&self, a: f64, b: f64) -> f64 {
         let power = self.now.power;
         let product = self.take(2, |rows| {
+            let product = outer(a, b, rows, power) + folded(inner(&rows[0], &rows[1], power));
             (rows[0][power], rows[1][MOST_POWER - power]) = (a, b);
-            convolved(&rows[0], &rows[1], power)
+            product
         });
         product.unwrap_or(f64::NAN)
     }
@@ -110,14 +113,13 @@ impl Series {
     pub fn dot(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
         let power = self.now.power;
         let dot = self.take(6, |rows| {
-            let (first, second) = rows.split_at_mut(3);
-            let mut sum = f64x2::ZERO;
-            for i in 0..3 {
-                (first[i][power], second[i][MOST_POWER - power]) = (a[i], b[i]);
-                sum += sum_of_products(&first[i], &second[i], power);
+            let (mut ends, mut between) = (0.0, f64x2::ZERO);
+            for (pair, (a, b)) in rows.as_chunks_mut::<2>().0.iter_mut().zip(a.into_iter().zip(b)) {
+                ends += outer(a, b, pair, power);
+                between += inner(&pair[0], &pair[1], power);
+                (pair[0][power], pair[1][MOST_POWER - power]) = (a, b);
             }
-            let [even, odd] = sum.to_array();
-            even + odd
+            ends + folded(between)
         });
         dot.unwrap_or(f64::NAN)
     }
@@ -148,7 +150,13 @@ impl Series {
     pub fn quotient(&self, a: f64) -> f64 {
         let power = self.now.power;
         let quotient = self.take(1, |rows| {
-            let coefficient = divided(a, &self.one_and_along, &rows[0], power);
+            // q_n d₀ = a_n − d_n q₀ − Σ d_k q_(n−k), 0 < k < n
+            let lower = folded(inner(&self.one_and_along, &rows[0], power));
+            let coefficient = if power == 0 {
+                a / self.along
+            } else {
+                (a - self.along * rows[0][MOST_POWER] - lower) / self.one_and_along[0]
+            };
             rows[0][MOST_POWER - power] = coefficient;
             coefficient
         });
@@ -168,18 +176,17 @@ impl Series {
     }
 }
 
-/// Σ a_k b_(n−k), b being written backwards.
+/// a_n b₀ + a₀ b_n, of which a_n and b_n are not in their rows yet: what was just written makes a pair that is loaded wait.
 #[inline(always)]
-pub fn convolved(a: &Row, b: &Row, n: usize) -> f64 {
-    let [even, odd] = sum_of_products(a, b, n).to_array();
-    even + odd
+fn outer(a: f64, b: f64, rows: &[Row], n: usize) -> f64 {
+    if n == 0 { a * b } else { a * rows[1][MOST_POWER] + rows[0][0] * b }
 }
 
-/// The same, those of even and odd k apart.
+/// Σ a_k b_(n−k), 0 < k < n, those of even and odd k apart: b is written backwards, and a ends before n.
 #[inline(always)]
-fn sum_of_products(a: &Row, b: &Row, n: usize) -> f64x2 {
-    let count = n / 2 + 1;
-    let [a, b] = [&a[..], &b[MOST_POWER - n..]].map(|row| &row.as_chunks::<2>().0[..count]);
+fn inner(a: &Row, b: &Row, n: usize) -> f64x2 {
+    let count = n / 2;
+    let [a, b] = [&a[1..], &b[MOST_POWER + 1 - n..]].map(|row| &row.as_chunks::<2>().0[..count]);
     let mut sum = f64x2::ZERO;
     for i in 0..count {
         sum += f64x2::new(a[i]) * f64x2::new(b[i]);
@@ -187,9 +194,8 @@ fn sum_of_products(a: &Row, b: &Row, n: usize) -> f64x2 {
     sum
 }
 
-/// The n-th coefficient of a quotient by d of which the lower ones are written backwards, a being that of the dividend.
 #[inline(always)]
-pub fn divided(a: f64, d: &Row, quotient: &Row, n: usize) -> f64 {
-    // q_n d₀ = a_n − Σ d_k q_(n−k), 1 ≤ k ≤ n
-    (a - convolved(d, quotient, n)) / d[0]
+fn folded(sum: f64x2) -> f64 {
+    let [odd, even] = sum.to_array();
+    odd + even
 }

@@ -1,15 +1,15 @@
 //! Compositions: a motion that is the sum of two, each of which can be followed by itself, followed in turns. No allocation.
 //!
-//! Steps are of one size, which is given, or found: from time to time a step is compared with two of half its size, first each,
-//! then ever more rarely, as long as nothing changes.
+//! Steps are of one size, which is found, or given as the longest: from time to time a step is compared with two that span it,
+//! first each, then ever more rarely, as long as nothing changes; always where laws have events.
 
 mod coefficients;
 
-pub use coefficients::{KAHAN, SOFRONIOU, STRANG, SUZUKI};
+pub use coefficients::{BLANES_AND_MOAN, KAHAN, SOFRONIOU, STRANG, SUZUKI};
 
 use super::answer::Answer;
 use super::power::power;
-use super::sizes::{Sizes, Squares, largest_square, noise};
+use super::sizes::{Sizes, Squares, larger_of, largest_square, noise};
 use super::{Cost, Fault, LEAST_FIRST, Refusal, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::{Damaged, Stored, Walk, choice, stored};
@@ -37,9 +37,30 @@ pub trait Splitting<const N: usize>: System<N> {
     /// Sets out from y on a step of size `h` \[s].
     fn flow<'s>(&'s self, y: &[f64; N], composition: &Composition, h: f64) -> Self::Flow<'s>;
 
+    /// Whether the kicks of a step of size `h` \[s] from `y` depend on the place alone, and how fast it moves on the speeds
+    /// linearly.
+    fn kicks_by_place(&self, _y: &[f64; N], _h: f64) -> bool {
+        false
+    }
+
+    /// How fast what kicks pull back swings at `y` at time `t` \[s] where nothing dampens it, in a step of size `h` \[s] \[rad/s].
+    fn fastest(&self, _t: f64, _y: &[f64; N], _h: f64) -> f64 {
+        0.0
+    }
+
+    /// Whether one step is like another, as long as they end in places like these.
+    fn is_steady(&self) -> bool {
+        true
+    }
+
     /// [`System::roundings`] of one part of a step of size `h` \[s] from `y`.
     fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
         self.roundings(y, h)
+    }
+
+    /// [`System::parts`] of a difference between two ends of a step of size `h` \[s] to `y`.
+    fn parts_of_ends(&self, y: &[f64; N], apart: &[f64; N], _h: f64) -> Squares<N> {
+        self.parts(y, apart)
     }
 
     /// How far apart two ends of the same step are.
@@ -48,13 +69,19 @@ pub trait Splitting<const N: usize>: System<N> {
     }
 }
 
-/// The parts γ_i of a step, the same from both ends.
+/// The drifts and kicks of a step, the same from both ends.
 #[derive(Debug)]
 pub struct Composition {
     /// Its order.
     pub order: u32,
-    /// γ_1 to the one in the middle \[1].
-    half: &'static [f64],
+    /// How much of the step each drift is \[1], one more than the kicks between them.
+    drifts: &'static [f64],
+    /// How much each kick is \[1].
+    kicks: &'static [f64],
+    /// A step may span so much of the phase of what swings \[rad], or it grows: from the trace of a step of a linear oscillator.
+    stable: f64,
+    /// The one to take where kicks depend on the place alone.
+    nystrom: Option<&'static Composition>,
 }
 
 impl Composition {
@@ -63,24 +90,23 @@ impl Composition {
         ALL.into_iter().find(|composition| composition.order == order)
     }
 
-    /// All γ_i \[1].
-    pub fn parts(&self) -> impl Iterator<Item = f64> {
-        self.half.iter().chain(self.half.iter().rev().skip(1)).copied()
+    /// The composition of this order where kicks depend on the `place` alone, or may not.
+    #[inline(always)]
+    pub fn of_kicks(&self, place: bool) -> &Self {
+        self.nystrom.filter(|_| place).unwrap_or(self)
     }
 
     /// One step of size `h` \[s] from time `t` \[s].
     #[inline(always)]
     pub fn follow<const N: usize>(&self, motion: &mut impl Split<N>, t: f64, h: f64) {
         // eq. 38: S(h) is drift(h/2), kick(h), drift(h/2); a step is S(γ₁h), S(γ₂h), …, and drifts that meet are one
-        let (mut before, mut reached) = (0.0, 0.0);
-        for part in self.parts() {
-            let way = 0.5 * (before + part);
-            motion.drift(way * h);
-            reached += way;
-            motion.kick(t + reached * h, part * h);
-            before = part;
+        let mut reached = 0.0;
+        for (drift, kick) in self.drifts.iter().zip(self.kicks) {
+            motion.drift(drift * h);
+            reached += drift;
+            motion.kick(t + reached * h, kick * h);
         }
-        motion.drift(0.5 * before * h);
+        motion.drift(self.drifts[self.kicks.len()] * h);
     }
 }
 
@@ -103,9 +129,11 @@ const ALL: [&Composition; 4] = [&STRANG, &SUZUKI, &SOFRONIOU, &KAHAN];
 #[derive(Clone, Debug)]
 pub struct Composed<const N: usize> {
     composition: &'static Composition,
-    /// What its steps must keep; None where their size is given.
+    /// What its steps must keep; None where every step is exact.
     tolerance: Option<Tolerance<N>>,
     sizes: Sizes<N>,
+    /// No step is longer \[s]: infinite where the size is not given.
+    longest: f64,
     /// Size of a step \[s].
     size: f64,
     /// Size of the next step \[s], never more.
@@ -114,6 +142,10 @@ pub struct Composed<const N: usize> {
     unchecked: u32,
     /// After so many the next is compared.
     every: u32,
+    /// Error of the last that was, over the tolerance of the run \[1].
+    estimate: f64,
+    /// How far a compared step went at most, group by group.
+    reach: Squares<N>,
     cost: Cost,
     /// The time reached \[s], and the state there.
     t: f64,
@@ -126,14 +158,25 @@ pub struct Composed<const N: usize> {
 }
 
 stored!(Composed<const N: usize> {
-    composition, tolerance, sizes, size, h, unchecked, every, cost, t, y, start, start_y, last, answer
+    composition, tolerance, sizes, longest, size, h, unchecked, every, estimate, reach, cost, t, y, start, start_y, last,
+    answer
 });
 
 /// Comparisons are no further apart than so many steps.
-const EVERY: u32 = 32;
+const EVERY: u32 = 40;
 
-/// The error of a step may be this part of the tolerance, since errors add up \[1].
+/// The error of a step whose size is found may be this part of the tolerance, since errors add up \[1].
 const SHARE: f64 = 0.1;
+
+/// That of a step whose size is given may be so many tolerances, since whoever gives it wants it \[1].
+const GIVEN: f64 = 10.0;
+
+/// A step is compared with two, of which the first is this part of it, a golden section \[1]: halves of a step of four nutations would
+/// err by their resonance as the whole does.
+const PART: f64 = 0.381_966_011_250_105_15;
+
+/// A step that goes farther than any that was compared, by this factor squared, is compared \[1].
+const FARTHER: f64 = 4.0;
 
 /// A step is chosen this much smaller than the error would allow, and grows only where it can grow by this; at most by
 /// [`MOST_GROWTH`] at once \[1].
@@ -148,16 +191,19 @@ const SUMS: f64 = 4.0;
 const LONGEST_FIRST: f64 = 1e-2;
 
 impl<const N: usize> Composed<N> {
-    /// Starts at time `t` \[s] and state `y`, with steps of this size \[s].
+    /// Starts at time `t` \[s] and state `y`, with steps of this size \[s], of which none is compared.
     pub fn start(composition: &'static Composition, size: f64, t: f64, y: [f64; N]) -> Self {
         Self {
             composition,
             tolerance: None,
             sizes: Sizes::blank(),
+            longest: size,
             size,
             h: size,
             unchecked: 0,
             every: 0,
+            estimate: 0.0,
+            reach: [0.0; N],
             cost: Cost::default(),
             t,
             y,
@@ -168,23 +214,27 @@ impl<const N: usize> Composed<N> {
         }
     }
 
-    /// The same with steps that keep the tolerance.
+    /// The same with steps that keep the tolerance, none longer than `longest` \[s], where that is given.
     pub fn start_within(
         composition: &'static Composition,
+        longest: Option<f64>,
         tolerance: Tolerance<N>,
         system: &impl System<N>,
         t: f64,
         y: [f64; N],
     ) -> Self {
-        let tolerance = tolerance.times(SHARE);
+        let tolerance = tolerance.times(if longest.is_some() { GIVEN } else { SHARE });
         let rate = system.rates_of_all(t, &y);
         let sizes = Sizes::at_start(&tolerance, system, &y, &rate);
-        let weights =
-            sizes.weights(system, &tolerance, &system.roundings(&y, f64::INFINITY), &sizes.seen(system, &y, &rate));
-        let speed = largest_square(system, &system.parts(&y, &rate), &weights).sqrt();
-        // In which some size changes by a hundredth; what is too long is rejected.
-        let size = (0.01 / (tolerance.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t));
-        Self { tolerance: Some(tolerance), sizes, ..Self::start(composition, size, t, y) }
+        let size = longest.unwrap_or_else(|| {
+            let rounded = system.roundings(&y, f64::INFINITY);
+            let weights = sizes.weights(system, &tolerance, &rounded, &sizes.seen(system, &y, &rate));
+            let speed = largest_square(system, &system.parts(&y, &rate), &weights).sqrt();
+            // In which some size changes by a hundredth; what is too long is rejected.
+            (0.01 / (tolerance.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t))
+        });
+        let longest = longest.unwrap_or(f64::INFINITY);
+        Self { tolerance: Some(tolerance), sizes, longest, ..Self::start(composition, size, t, y) }
     }
 
     /// Nothing yet: a place for what was stored.
@@ -225,8 +275,30 @@ impl<const N: usize> Composed<N> {
     /// Goes back to a time `t` \[s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, t: f64, y: [f64; N]) {
         (self.t, self.y) = (t, y);
-        // What acts now may act otherwise.
+        // What acts now may act otherwise. A given size need not be found again, and what throws the rotor farther is seen.
+        if !self.is_given() {
+            self.every = 0;
+        }
+    }
+
+    /// Goes on from the state reached under another law.
+    pub fn go_on_under(&mut self) {
         self.every = 0;
+    }
+
+    /// Whether every step is exact.
+    pub fn is_exact(&self) -> bool {
+        self.tolerance.is_none()
+    }
+
+    /// The size of its steps and the longest that they may have \[s], where they are shorter than that.
+    pub fn shortened(&self) -> Option<[f64; 2]> {
+        (self.is_given() && self.size < self.longest).then_some([self.size, self.longest])
+    }
+
+    /// Whether the size of steps is given.
+    fn is_given(&self) -> bool {
+        self.longest.is_finite()
     }
 
     /// Goes on from another description `y` of the state reached.
@@ -244,14 +316,20 @@ impl<const N: usize> Composed<N> {
         self.sizes.recount(components);
     }
 
-    /// What the run has cost so far. No error is estimated.
+    /// What the run has cost so far.
     pub fn cost(&self) -> Cost {
         Cost { next_step: self.h, ..self.cost }
+    }
+
+    /// So many evaluations were made until now.
+    pub fn charge(&mut self, evaluations: f64) {
+        self.cost.evaluations = evaluations;
     }
 
     /// One step forward, but not past time `until` \[s], while the run has taken at most `most` evaluations. One that cannot be
     /// done is tried again with half its size; where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl Splitting<N>, most: f64, until: f64) -> Result<(), Fault> {
+        self.keep_stable(system);
         let mut h = self.h;
         let mut fault = None;
         loop {
@@ -275,9 +353,14 @@ impl<const N: usize> Composed<N> {
                     factor => {
                         // Where a longer step was just refused, it does not grow.
                         let is_first = h == self.h;
+                        // A step in between errs as the last that was compared, a shorter one less.
+                        let share = factor.map_or(span / self.size, |_| 1.0);
+                        self.cost.error_estimate += self.estimate * share;
                         self.accept(end, y, span);
-                        if let Some(factor) = factor {
-                            self.resize(h, span, if is_first { factor } else { 1.0 });
+                        match factor {
+                            Some(factor) if is_first => self.resize(self.size, span, factor),
+                            Some(_) => self.resize(h, span, 1.0),
+                            None => {}
                         }
                         return Ok(());
                     }
@@ -290,29 +373,46 @@ impl<const N: usize> Composed<N> {
         }
     }
 
+    /// Where a size is new or the law is, a step is not so long that what swings would grow from rounding, unseen between comparisons.
+    fn keep_stable(&mut self, system: &impl Splitting<N>) {
+        if self.tolerance.is_none() || self.every > 0 {
+            return;
+        }
+        let composition = self.composition.of_kicks(system.kicks_by_place(&self.y, self.size));
+        // eq. 112: h = φ_max/ω_max
+        let longest = composition.stable / system.fastest(self.t, &self.y, self.size);
+        if self.size > longest {
+            self.size = longest;
+            self.limit_step(longest);
+        }
+    }
+
     /// By which factor a step may grow \[1] that ends at `y` after a time `h` \[s]: it must shrink by one below 1, and is right
     /// otherwise. None where that is not asked now.
     fn checked(&mut self, system: &impl Splitting<N>, y: &[f64; N], h: f64) -> Option<f64> {
         let tolerance = self.tolerance?;
-        if self.unchecked < self.every {
+        let (from, way) = (self.y, system.parts(&self.y, &system.apart(y, &self.y)));
+        let farther = |group: usize| way[group] > FARTHER * self.reach[group];
+        if self.unchecked < self.every && system.is_steady() && !(0..N).any(farther) {
             return None;
         }
-        let from = self.y;
-        let middle = self.followed(system, self.t, &from, 0.5 * h);
-        let halves = middle.and_then(|middle| self.followed(system, self.t + 0.5 * h, &middle, 0.5 * h));
-        let Ok(halves) = halves else { return Some(0.5) };
+        let part = PART * h;
+        let middle = self.followed(system, self.t, &from, part);
+        let parts = middle.and_then(|middle| self.followed(system, self.t + part, &middle, h - part));
+        let Ok(in_parts) = parts else { return Some(0.5) };
         let end = self.t + h;
         let rate = system.rates_of_all(end, y);
         self.cost.evaluations += 1.0;
         let seen = self.sizes.seen(system, y, &rate);
-        let sums = self.composition.parts().count() as f64;
+        let sums = self.composition.kicks.len() as f64;
         let rounded = system.roundings_of_parts(&self.y, h).map(|square| square * sums * sums);
-        let noise = noise(&rounded);
+        // The two parts together round twice as often.
+        let noise = noise(&rounded.map(|square| 4.0 * square));
         let rounded = rounded.map(|square| square * SUMS * SUMS);
         let weights = self.sizes.weights(system, &tolerance, &rounded, &seen);
         // eq. 45
-        let apart = system.apart(y, &halves);
-        let parts = system.parts(&self.y, &apart);
+        let apart = system.apart(y, &in_parts);
+        let parts = system.parts_of_ends(&self.y, &apart, h);
         let error = largest_square(system, &parts, &weights).sqrt();
         if !error.is_finite() {
             return Some(0.5);
@@ -322,7 +422,8 @@ impl<const N: usize> Composed<N> {
             return Some(factor(error).max(0.1));
         }
         self.sizes.take(system, &seen, 1.0);
-        self.cost.error_estimate += SHARE * error;
+        self.reach = larger_of(&self.reach, &way);
+        self.estimate = error * if self.is_given() { GIVEN } else { SHARE };
         // What rounding alone may do says nothing of the step.
         let told = std::array::from_fn(|group| if parts[group] > noise[group] { parts[group] } else { 0.0 });
         Some(factor(largest_square(system, &told, &weights).sqrt()).clamp(1.0, MOST_GROWTH))
@@ -344,14 +445,26 @@ impl<const N: usize> Composed<N> {
         if let Some(answer) = self.answer.at(t) {
             return answer;
         }
-        let y = self.start_y;
-        let answer = self.followed(system, self.start, &y, t - self.start).unwrap_or([f64::NAN; N]);
+        // On the way other places are come to than in the whole step: where one has no limit, shorter steps follow the motion more closely.
+        let mut answer = [f64::NAN; N];
+        for parts in [1, 2, 4, 8, 16, 32, 64] {
+            let size = (t - self.start) / f64::from(parts);
+            let start = self.start;
+            let end =
+                (0..parts).try_fold(self.start_y, |y, n| self.followed(system, start + f64::from(n) * size, &y, size));
+            if let Ok(y) = end
+                && y.iter().all(|y| y.is_finite())
+            {
+                answer = y;
+                break;
+            }
+        }
         self.answer.keep(t, answer)
     }
 
     fn followed(&mut self, system: &impl Splitting<N>, t: f64, y: &[f64; N], h: f64) -> Result<[f64; N], Refusal> {
         let mut motion = system.flow(y, self.composition, h);
-        self.composition.follow(&mut motion, t, h);
+        self.composition.of_kicks(system.kicks_by_place(y, h)).follow(&mut motion, t, h);
         let (y, evaluations) = motion.end();
         self.cost.evaluations += evaluations;
         y
@@ -369,10 +482,13 @@ impl<const N: usize> Composed<N> {
     /// The size of steps from here on, after one of size `wish` \[s], of which `h` \[s] were left, may grow by `factor` \[1]. Errors
     /// add up least where steps are of one size, so it is changed only where that pays.
     fn resize(&mut self, wish: f64, h: f64, factor: f64) {
-        let (is_whole, grows) = (h >= 0.999 * wish, factor >= GROWTH);
-        self.size = if is_whole && grows { factor * h } else { wish };
+        let is_whole = h >= 0.999 * wish;
+        let grows = is_whole && factor >= GROWTH && wish < self.longest;
+        self.size = if grows { (factor * h).min(self.longest) } else { wish };
         self.unchecked = 0;
-        self.every = if is_whole && !grows { (2 * self.every).clamp(1, EVERY) } else { 0 };
+        // A part of a step says nothing of a size that is to be found.
+        let is_settled = !grows && (is_whole || self.is_given());
+        self.every = if is_settled { self.every.saturating_mul(2).clamp(1, EVERY) } else { 0 };
         self.h = self.size;
     }
 }

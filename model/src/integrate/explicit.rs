@@ -175,6 +175,11 @@ impl<const N: usize> Explicit<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
+    /// So many evaluations were made until now.
+    pub fn charge(&mut self, evaluations: f64) {
+        self.cost.evaluations = evaluations;
+    }
+
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations. Where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl System<N>, most: f64, until: f64) -> Result<(), Fault> {

@@ -23,6 +23,9 @@ pub const POWERS: usize = MOST_ORDER + 2;
 /// Two numbers of each power.
 pub type Powers = [f64x2; POWERS];
 
+/// What a series starts with that the state has in another form, and so rounded.
+pub type Seed = [f64; 7];
+
 /// What a series of an axis and of θ/sin θ is made of. It is written before it is read, and so no part of what is stored.
 #[derive(Clone, Debug)]
 pub struct Scratch {
@@ -52,22 +55,24 @@ pub trait Analytic<const N: usize>: System<N> {
     /// See there.
     const RATED: usize;
 
+    /// What a series that begins at `y` at time `t` \[s] is to start with.
+    fn seed(&self, t: f64, y: &[f64; N]) -> Seed;
+
     /// The terms up to this order of the motion that is at `y` at time `t` \[s], within this room; how much of it was needed.
     fn expand(
         &self,
-        t: f64,
-        y: &[f64; N],
+        start: (f64, &[f64; N], &Seed),
         order: usize,
         room: Room,
         scratch: &mut Scratch,
         terms: &mut Terms<N>,
     ) -> Room;
 
-    /// So many levels are needed in a step of size `s` \[s], so that less than this part of a change is left out \[1].
-    fn levels(&self, terms: &Terms<N>, s: f64, least: f64) -> u32;
+    /// So many levels are needed in a step of size `s` \[s] with these terms, so that less than this part of a change is left out \[1].
+    fn levels(&self, terms: &[[f64; N]], s: f64, least: f64) -> u32;
 
-    /// The state, of these numbers and their rates.
-    fn state_of(&self, numbers: &[f64; N], rates: &[f64; N]) -> [f64; N];
+    /// The state, of these numbers and their rates, and what the next series is to start with.
+    fn state_of(&self, numbers: &[f64; N], rates: &[f64; N]) -> ([f64; N], Seed);
 
     /// The norm of what the term of this power adds to the state [1/s^power], squared, where the groups have these weights.
     fn term(&self, y: &[f64; N], terms: &Terms<N>, power: usize, weights: &Squares<N>) -> f64;
@@ -93,10 +98,13 @@ pub struct Taylor<const N: usize> {
     sizes: Sizes<N>,
     cost: Cost,
     room: Room,
-    /// The time reached \[s], the state there and its rate.
+    /// So many powers the last expansion has; 0 where there is none yet.
+    order: u32,
+    /// The time reached \[s], the state there and its rate, and what the last series left.
     t: f64,
     y: [f64; N],
     rate: [f64; N],
+    seed: Option<Seed>,
     /// Size of the next step \[s], and how long it may be.
     h: f64,
     limit: f64,
@@ -109,8 +117,19 @@ pub struct Taylor<const N: usize> {
 }
 
 stored!(Taylor<const N: usize> {
-    tolerance, sizes, cost, room, t, y, rate, h, limit, start, y_start, terms, scratch, sizes_start
+    tolerance, sizes, cost, room, order, t, y, rate, seed, h, limit, start, y_start, terms, scratch, sizes_start
 });
+
+/// How long a step may be.
+#[derive(Clone, Copy)]
+struct Wish {
+    /// It itself \[s].
+    size: f64,
+    /// So long \[s] that the last term would be the tolerance.
+    last: f64,
+    /// By so much terms fall from one power to the next, in a step of 1 s \[1/s].
+    fall: f64,
+}
 
 /// A refused step is tried again with this part of it.
 const REFUSED: f64 = 0.6;
@@ -118,11 +137,26 @@ const REFUSED: f64 = 0.6;
 /// A step is at most so many times as long as the last.
 const GREATEST: f64 = 6.0;
 
+/// A short step needs so many powers at least.
+const LEAST_ORDER: usize = 6;
+
+/// Terms fall by this from one power to the next at least, seen over [`APART`] powers, or something that is still below the tolerance
+/// has no series for so long a step \[1].
+const FALL: f64 = 0.5;
+const APART: usize = 4;
+
+/// Terms may be so many times as large as they are foreseen, or a step must be shortened \[1].
+const MARGIN: f64 = 10.0;
+
 /// A series that lasts for less than this part of a step is not worth its while \[1].
 const HELD: f64 = 0.2;
 
 /// Levels beyond this part of the tolerance are not seen \[1].
 const UNSEEN: f64 = 1e-2;
+
+/// A polynomial of order p stays within 1 in modulus, as the exponential function, about so many times p from 0, on the imaginary axis and
+/// left of it \[rad]: 6.3, 9.5 and 10.3 of 14, 22 and 24.
+const STABLE: f64 = 0.43;
 
 /// The first is at most so long \[s].
 const LONGEST_FIRST: f64 = 1.0;
@@ -144,9 +178,11 @@ impl<const N: usize> Taylor<N> {
             sizes: Sizes::blank(),
             cost: Cost::default(),
             room: Room { rows: 0, levels: 0, horizon: f64::INFINITY },
+            order: 0,
             t: 0.0,
             y: [0.0; N],
             rate: [0.0; N],
+            seed: None,
             h: 0.0,
             limit: f64::INFINITY,
             start: 0.0,
@@ -192,6 +228,11 @@ impl<const N: usize> Taylor<N> {
         self.limit
     }
 
+    /// Steps may span so much of the phase of what dies out or swings \[rad], or it grows.
+    pub fn stable(&self) -> f64 {
+        STABLE * order(&self.tolerance) as f64
+    }
+
     /// Goes back to a time `t` \[s] within the last step, where the state is `y`.
     pub fn go_back(&mut self, system: &impl Analytic<N>, t: f64, y: [f64; N]) {
         let is_within = t < self.t;
@@ -207,7 +248,7 @@ impl<const N: usize> Taylor<N> {
 
     /// Goes on from another description `y` of the state reached, or under another law.
     pub fn go_on_from(&mut self, system: &impl Analytic<N>, y: [f64; N]) {
-        self.y = y;
+        (self.y, self.seed) = (y, None);
         self.rate = self.evaluate(system, self.t, &y);
     }
 
@@ -242,17 +283,20 @@ impl<const N: usize> Taylor<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
+    /// So many evaluations were made until now.
+    pub fn charge(&mut self, evaluations: f64) {
+        self.cost.evaluations = evaluations;
+    }
+
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations; false where the laws have a series for too short a time. Where no step is possible, the method stands where it
     /// stood, and its last step is forgotten.
     pub fn step(&mut self, system: &impl Analytic<N>, most: f64, until: f64) -> Result<bool, Fault> {
         // The terms of the last step go: it ends where it began.
         (self.start, self.y_start, self.sizes_start) = (self.t, self.y, self.sizes);
-        let (wish, first) = self.expand(system);
-        if wish.is_nan() {
-            return Err(Fault::NotFinite { t: self.t });
-        }
-        if self.room.horizon < HELD * first {
+        let (wish, first) = self.expand(system, until - self.t);
+        // Coefficients of a motion that is too fast overflow.
+        if wish.size.is_nan() || self.room.horizon < HELD * first {
             return Ok(false);
         }
         let first = first.min(self.room.horizon);
@@ -263,14 +307,14 @@ impl<const N: usize> Taylor<N> {
                 return Err(Fault::of_no_step(self.t, advances, obstacle));
             }
             let end = end_of_step(self.t, h, until);
-            let y = state_after(system, &self.terms, order(&self.tolerance), end - self.t);
+            let (y, seed) = self.after(system, end - self.t);
             obstacle = match system.admits(end, &y) {
                 _ if !y.iter().all(|y| y.is_finite()) => Some(Fault::NotFinite { t: self.t }),
                 Err(reason) => Some(Fault::Refused { t: self.t, reason }),
                 Ok(()) => {
                     // What was refused ahead keeps the next step short.
-                    let wish = if obstacle.is_some() { h } else { wish };
-                    self.accept(system, end, y, [h, wish]);
+                    let size = if obstacle.is_some() { h } else { wish.size };
+                    self.accept(system, end, (y, seed), h, Wish { size, ..wish });
                     return Ok(true);
                 }
             };
@@ -279,22 +323,28 @@ impl<const N: usize> Taylor<N> {
         }
     }
 
-    /// The terms from here on, made again until there was room for all: so long \[s] a step may be, and so long the next is at most.
-    fn expand(&mut self, system: &impl Analytic<N>) -> (f64, f64) {
+    /// The terms from here on, made again until there was room for all: so long a step may be, and so long \[s] the next is at most.
+    fn expand<A: Analytic<N>>(&mut self, system: &A, left: f64) -> (Wish, f64) {
+        let order = self.order_within(left);
+        let seed = self.seed.unwrap_or_else(|| system.seed(self.t, &self.y));
         loop {
             let had = self.room;
-            self.room = system.expand(self.t, &self.y, order(&self.tolerance), had, &mut self.scratch, &mut self.terms);
-            self.cost.evaluations += order(&self.tolerance) as f64;
+            let start = (self.t, &self.y, &seed);
+            self.room = system.expand(start, order, had, &mut self.scratch, &mut self.terms);
+            self.cost.evaluations += order as f64;
+            // A longer series may have left more of them.
+            self.terms[order + 1][A::RATED..].fill(0.0);
             if self.room.rows > had.rows {
                 self.room.levels = had.levels;
                 continue;
             }
-            let wish = self.longest_step(system);
-            let first = wish.max(LEAST_FIRST * ulp(self.t)).min(GREATEST * self.h).min(self.limit);
+            self.order = order as u32;
+            let wish = self.longest_step(system, order);
+            let first = wish.size.max(LEAST_FIRST * ulp(self.t)).min(GREATEST * self.h).min(self.limit);
             if self.room.levels > 0 {
-                self.room.levels = system.levels(&self.terms, first, UNSEEN * self.tolerance.relative);
+                self.room.levels = system.levels(&self.terms[..=order], first, UNSEEN * self.tolerance.relative);
             }
-            if self.room.levels <= had.levels || wish.is_nan() {
+            if self.room.levels <= had.levels || wish.size.is_nan() {
                 return (wish, first);
             }
         }
@@ -302,11 +352,7 @@ impl<const N: usize> Taylor<N> {
 
     /// The state at a time `t` \[s] within the last step.
     pub fn dense(&self, system: &impl Analytic<N>, t: f64) -> [f64; N] {
-        if t == self.start {
-            self.y_start
-        } else {
-            state_after(system, &self.terms, order(&self.tolerance), t - self.start)
-        }
+        if t == self.start { self.y_start } else { self.after(system, t - self.start).0 }
     }
 
     fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {
@@ -314,27 +360,62 @@ impl<const N: usize> Taylor<N> {
         system.rates_of_all(t, y)
     }
 
-    /// So long \[s] that neither of the last two terms is beyond the tolerance.
-    fn longest_step(&self, system: &impl Analytic<N>) -> f64 {
-        let seen = self.sizes.seen(system, &self.y, &self.rate);
-        let weights = self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, self.h), &seen);
-        let order = order(&self.tolerance);
-        // eq. 107: h = min (1/‖y_n‖)^(1/n), n = p − 1, p
-        let [a, b] = [order - 1, order].map(|n| power(system.term(&self.y, &self.terms, n, &weights), -0.5 / n as f64));
-        // Not `min`, which passes over what is not a number.
-        if a < b { a } else { b }
+    /// The state a time `s` \[s] after the start of the last step, and what a series from there is to start with.
+    fn after(&self, system: &impl Analytic<N>, s: f64) -> ([f64; N], Seed) {
+        state_after(system, &self.terms, self.last_order(), s)
     }
 
-    fn accept(&mut self, system: &impl Analytic<N>, end: f64, y: [f64; N], [h, wish]: [f64; 2]) {
+    /// So many powers the last expansion has: what was stored may have been altered.
+    fn last_order(&self) -> usize {
+        (self.order as usize).min(MOST_ORDER)
+    }
+
+    /// Of how many terms a step that is at most `left` \[s] long needs no more, as far as the last one tells.
+    fn order_within(&self, left: f64) -> usize {
+        let (most, last, h) = (order(&self.tolerance), self.last_order(), left.min(self.limit));
+        if last == 0 || h >= self.h {
+            return most;
+        }
+        // eq. 109: terms as those of an exponential function, ‖y_n‖ = (v h)ⁿ/(n! rtol), of which the last one was 1
+        let reach = power(FACTORIALS[last] * self.tolerance.relative, 1.0 / last as f64) * (h / self.h);
+        let mut term = MARGIN / self.tolerance.relative;
+        for n in 1..most {
+            term *= reach / n as f64;
+            if term <= 1.0 {
+                return (n + 1).max(LEAST_ORDER);
+            }
+        }
+        most
+    }
+
+    /// So long that neither of the last two terms is beyond the tolerance, and that terms fall.
+    fn longest_step(&self, system: &impl Analytic<N>, order: usize) -> Wish {
+        let seen = self.sizes.seen(system, &self.y, &self.rate);
+        let weights = self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, self.h), &seen);
+        let square = |n: usize| system.term(&self.y, &self.terms, n, &weights);
+        // eq. 107: h = min (1/‖y_n‖)^(1/n), n = p − 1, p
+        let [a, b] = [order - 1, order].map(|n| power(square(n), -0.5 / n as f64));
+        // Not `min`, which passes over what is not a number.
+        let size = if a < b { a } else { b };
+        // eq. 110: q⁴ = max ‖y_n‖ hⁿ/max ‖y_m‖ hᵐ, m = n − 4, where the larger of the last two is 1
+        let [a, b] = [order - 1 - APART, order - APART].map(|m| square(m) * Scalar::powi(size * size, m as i32));
+        let fall =
+            if size < f64::INFINITY { power(if a > b { a } else { b }, -0.5 / APART as f64) / size } else { 0.0 };
+        Wish { size: if size * fall > FALL { FALL / fall } else { size }, last: size, fall }
+    }
+
+    fn accept(&mut self, system: &impl Analytic<N>, end: f64, (y, seed): ([f64; N], Seed), h: f64, wish: Wish) {
         let step = end - self.t;
-        (self.t, self.y, self.limit) = (end, y, f64::INFINITY);
+        (self.t, self.y, self.seed, self.limit) = (end, y, Some(seed), f64::INFINITY);
         self.rate = self.evaluate(system, end, &y);
         let seen = self.sizes.seen(system, &y, &self.rate);
         self.sizes.take(system, &seen, step / h);
         // What is cut short says little about the steps that may follow.
-        self.h = if wish.is_finite() { wish } else { h };
+        self.h = if wish.size.is_finite() { wish.size } else { h };
         self.cost.steps += 1.0;
-        self.cost.error_estimate += Scalar::powi(step / wish, order(&self.tolerance) as i32);
+        // eq. 111: the terms that are left out as a geometric series
+        let ratio = (wish.fall * step).min(FALL);
+        self.cost.error_estimate += Scalar::powi(step / wish.last, self.order as i32) * ratio / (1.0 - ratio);
     }
 }
 
@@ -348,9 +429,20 @@ fn order<const N: usize>(tolerance: &Tolerance<N>) -> usize {
     }
 }
 
-/// The state a time `s` \[s] after the start of the series.
+/// n!
+const FACTORIALS: [f64; MOST_ORDER + 1] = {
+    let mut factorials = [1.0; MOST_ORDER + 1];
+    let mut n = 1;
+    while n <= MOST_ORDER {
+        factorials[n] = factorials[n - 1] * n as f64;
+        n += 1;
+    }
+    factorials
+};
+
+/// The state a time `s` \[s] after the start of the series, and what the next one is to start with.
 #[inline(always)]
-fn state_after<A: Analytic<N>, const N: usize>(system: &A, terms: &Terms<N>, order: usize, s: f64) -> [f64; N] {
+fn state_after<A: Analytic<N>, const N: usize>(system: &A, terms: &Terms<N>, order: usize, s: f64) -> ([f64; N], Seed) {
     let (mut changes, mut rate_changes) = ([both(0.0); N], [both(0.0); N]);
     let (changes, rate_changes) = (&mut changes[..pairs(A::NUMBERS)], &mut rate_changes[..pairs(A::RATED)]);
     let (mut power, s) = (both(s), both(s));

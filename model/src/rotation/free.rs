@@ -17,12 +17,12 @@ pub struct Turned {
     pub turns: f64,
 }
 
-/// The rotation ρ as a quaternion (w, p), its half angle less n half turns.
+/// The rotation ρ as a quaternion (w, σρ), its half angle less n half turns.
 #[derive(Clone, Copy, Debug)]
 pub struct Turn {
     rho: Vector3<f64>,
     w: f64,
-    p: Vector3<f64>,
+    sigma: f64,
     half_turns: f64,
 }
 
@@ -34,49 +34,55 @@ impl Turn {
         if square <= PI * PI {
             // eq. 9
             let [c, j_quarter] = series::cosine_and_bessel(square);
-            return Self { rho, w: c, p: rho * (0.5 * (c + square * j_quarter)), half_turns: 0.0 };
+            return Self { rho, w: c, sigma: 0.5 * (c + square * j_quarter), half_turns: 0.0 };
         }
         let angle = square.sqrt();
         let half = Reduced::new(0.5 * angle);
-        Self { rho, w: half.cosine, p: rho * (half.beta * half.sinc / angle), half_turns: half.half_turns }
+        Self { rho, w: half.cosine, sigma: half.beta * half.sinc / angle, half_turns: half.half_turns }
     }
 
     /// That of a quaternion of any length and sign, half a turn or less.
     pub fn of(w: f64, p: Vector3<f64>) -> Self {
         let per = (1.0 / (w * w + p.norm_squared()).sqrt()).copysign(w);
-        Self { rho: p * per, w: w * per, p: p * per, half_turns: 0.0 }
+        Self { rho: p * per, w: w * per, sigma: 1.0, half_turns: 0.0 }
     }
 
     /// This one after another, half a turn or less.
     pub fn after(&self, other: &Self) -> Self {
-        Self::of(self.w * other.w - self.p.dot(&other.p), other.p * self.w + self.p * other.w + self.p.cross(&other.p))
+        let ((w, p), (v, q)) = (self.quaternion(), other.quaternion());
+        Self::of(w * v - p.dot(&q), q * w + p * v + p.cross(&q))
     }
 
     /// The same backwards.
     pub fn back(&self) -> Self {
-        Self { rho: -self.rho, p: -self.p, ..*self }
+        Self { rho: -self.rho, ..*self }
     }
 
     /// The same seen from other axes, those of a rotation matrix.
     pub fn seen_from(&self, axes: &Matrix3<f64>) -> Self {
-        Self { rho: axes * self.rho, p: axes * self.p, ..*self }
+        Self { rho: axes * self.rho, ..*self }
     }
 
     /// Where it takes a vector.
+    #[inline(always)]
     pub fn carried(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        let across = self.p.cross(v);
-        v + (across * self.w + self.p.cross(&across)) * 2.0
+        let across = self.rho.cross(v);
+        let twice = 2.0 * self.sigma;
+        // The products with ρ need not wait for w and σ.
+        v + across * (twice * self.w) + self.rho.cross(&across) * (twice * self.sigma)
     }
 
     /// Real and imaginary part \[1].
+    #[inline(always)]
     pub fn quaternion(&self) -> (f64, Vector3<f64>) {
-        (self.w, self.p)
+        (self.w, self.rho * self.sigma)
     }
 
     /// Real part and part along e of its product with (a, 0, b).
     #[inline(always)]
     fn along(&self, a: f64, b: Vector2<f64>) -> (f64, f64) {
-        (self.w * a - self.p.yz().dot(&b), self.p.x * a + self.p.yz().perp(&b))
+        let (w, p) = self.quaternion();
+        (w * a - p.yz().dot(&b), p.x * a + p.yz().perp(&b))
     }
 
     /// The half angle δ/2 of that part \[rad] in [−π, π], and the half turns that it does besides.
@@ -89,6 +95,65 @@ impl Turn {
     }
 }
 
+/// How far an axis that is turned again and again turns the rotor about it beside a chart, whole turns among it: a product of
+/// complex numbers, so that many turns take one arc tangent.
+#[derive(Clone, Copy, Debug)]
+pub struct Winding {
+    real: f64,
+    imaginary: f64,
+    half_turns: f64,
+}
+
+impl Winding {
+    /// Not turned yet.
+    pub fn none() -> Self {
+        Self { real: 1.0, imaginary: 0.0, half_turns: 0.0 }
+    }
+
+    /// Goes on with a turn of an axis that is here \[1]: t in the chart from e, −t in the other.
+    #[inline(always)]
+    pub fn turn(&mut self, q: &Turn, axis: &Vector3<f64>) {
+        let (sum, (real, p)) = (Vector3::new(1.0 + axis.x, axis.y, axis.z), q.quaternion());
+        // eq. 108: q = p_w (1 + t_x) + p_y t_z − p_z t_y + i p·(e + t), whose angle is δ/2
+        let (w, x) = (real * sum.x + p.y * sum.z - p.z * sum.y, p.dot(&sum));
+        let (real, imaginary) = (self.real * w - self.imaginary * x, self.real * x + self.imaginary * w);
+        // An angle within ±π that is gone on from by less than π the same way has passed ±π where the side changes.
+        if (self.imaginary < 0.0) == (x < 0.0) && (imaginary < 0.0) != (x < 0.0) {
+            self.half_turns += if x < 0.0 { -2.0 } else { 2.0 };
+        }
+        if q.half_turns != 0.0 {
+            // eq. 36
+            self.half_turns += if q.rho.dot(&sum) < 0.0 { -q.half_turns } else { q.half_turns };
+        }
+        (self.real, self.imaginary) = (real, imaginary);
+    }
+
+    /// The half angle \[rad] in [−π, π], and the half turns that it does besides.
+    #[inline(always)]
+    fn half_angle(&self) -> (f64, f64) {
+        (atan2(self.imaginary, self.real), self.half_turns)
+    }
+
+    /// How φ in a chart advances \[rad] and φ from e besides it by whole turns, while γ \[rad] goes `from` there `to` here; beside
+    /// the other chart the axis winds by `other`, which the chart from e does not ask for.
+    #[inline(always)]
+    pub fn advances(&self, other: &Self, chart: Chart, [from, to]: [Vector2<f64>; 2]) -> (f64, f64) {
+        let (half, turns) = self.half_angle();
+        match chart {
+            Chart::FromE => (2.0 * half, turns),
+            Chart::FromMinusE => (-2.0 * half, gained([(half, turns), other.half_angle()], from, to) - turns),
+        }
+    }
+}
+
+/// The turns that φ from e gains from an azimuth that goes on by half the sum of these angles, each with half turns besides.
+#[inline(always)]
+fn gained([(half, turns), (other_half, other_turns)]: [(f64, f64); 2], from: Vector2<f64>, to: Vector2<f64>) -> f64 {
+    // eq. 37: 2Δβ = δ + δ′
+    let beta = (half + other_half) + PI * (turns + other_turns);
+    2.0 * ((azimuth(from) + beta - azimuth(to)) / TAU).round()
+}
+
 impl Tilt<f64> {
     /// The tilt after a turn about its direction all the way.
     #[inline(always)]
@@ -96,8 +161,9 @@ impl Tilt<f64> {
         let b = self.half_tangent();
         // eq. 35: (w, x, y, z) is the product of the quaternions of ρ and (1, 0, b), b = tan(θ/2) γ/θ
         let (w, x) = q.along(1.0, b);
-        let y = q.w * b.x + q.p.y - q.p.x * b.y;
-        let z = q.w * b.y + q.p.z + q.p.x * b.x;
+        let (real, p) = q.quaternion();
+        let y = real * b.x + p.y - p.x * b.y;
+        let z = real * b.y + p.z + p.x * b.x;
         // eq. 36: γ₁ = 2 arctan(|y + iz|/|w + ix|), along (y + iz)(w + ix)
         let (along, across) = (w * w + x * x, y * y + z * z);
         let direction = Vector2::new(y * w - z * x, y * x + z * w);
@@ -113,10 +179,9 @@ impl Tilt<f64> {
         match self.chart() {
             Chart::FromE => Turned { gamma, phi: 2.0 * half, turns },
             Chart::FromMinusE => {
-                // eq. 37: 2Δβ = δ + δ′; in the chart from e γ has the quaternion (|b|², 0, −b)
-                let (other_half, other_turns) = q.half_angle(b.norm_squared(), -b);
-                let beta = (half + other_half) + PI * (turns + other_turns);
-                let gained = 2.0 * ((azimuth(self.gamma_in_chart()) + beta - azimuth(gamma)) / TAU).round();
+                // In the chart from e γ has the quaternion (|b|², 0, −b).
+                let other = q.half_angle(b.norm_squared(), -b);
+                let gained = gained([(half, turns), other], self.gamma_in_chart(), gamma);
                 Turned { gamma, phi: -2.0 * half, turns: gained - turns }
             }
         }

@@ -53,6 +53,16 @@ impl<S: Scalar> Tilt<S> {
         Self { chart, gamma, axis, theta_squared: none, quarter: none, numerator: none, per_sinc: none }
     }
 
+    /// The tilt of an axis t \[1] that is not where the chart is singular. What nobody asks for is not computed.
+    #[inline(always)]
+    pub fn along(chart: Chart, axis: Vector3<f64>) -> Tilt<f64> {
+        let (sign, across) = (chart.sign(), axis.yz());
+        let per_sinc = series::per_sinc_of_both(sign * axis.x, across.norm_squared());
+        // eq. 2, eq. 29: γ = ±(θ/sin θ) e×t
+        let gamma = Vector2::new(-across.y, across.x) * (sign * per_sinc);
+        Tilt { axis, ..Tilt::new(chart, gamma) }
+    }
+
     /// τ = tan(θ/2)/θ \[1].
     #[inline(always)]
     fn tau(&self) -> S {

@@ -10,9 +10,9 @@ use crate::coefficient::Coefficient;
 use crate::effects::series::{MOST_POWER, Now, Row, Series};
 use crate::effects::{Effects, Motion};
 use crate::integrate::sizes::{Squares, largest_square};
-use crate::integrate::taylor::{Analytic, Room, Scratch, Terms};
+use crate::integrate::taylor::{Analytic, Room, Scratch, Seed, Terms};
 use crate::rotation::Tilt;
-use crate::state::{Coordinates, Kinematics, SUPPLIED, WITH_WORK, own, rigid_mut};
+use crate::state::{Coordinates, Kinematics, SUPPLIED, WITH_WORK, own, rigid, rigid_mut};
 use axis::{Axis, Lower, Pairs};
 use lean::Lean;
 use nalgebra::Vector3;
@@ -113,34 +113,34 @@ impl<E: Effects> Rotor<'_, E> {
         series: &mut Series,
         scratch: &mut Scratch,
         levels: u32,
-        (t, y): (f64, &[f64; N]),
+        (t, y, seed): (f64, &[f64; N], &Seed),
         order: usize,
         terms: &mut Terms<N>,
     ) {
         let own = own(N);
         let body = self.frame.body;
-        let motion: Kinematics<f64> = self.motion(t, y);
+        let at = Coordinates::from_slice(rigid(y));
         let sign = f64x2::splat(self.frame.chart.sign());
         let per_ja = body.spin + body.per_jt;
         let works = series.works() && N >= WITH_WORK;
-        let [first, second] = [*motion.axis(), motion.axis_rate()].map(Triple::of);
-        let along = motion.axis().x;
+        let [first, second] = [0, 3].map(|n| Triple::of(vector(&seed[n..])));
+        let along = seed[0];
         let per_divisor = f64x2::ONE / (f64x2::ONE + sign * f64x2::splat(along));
-        let mut momentum = motion.at.k.dot(motion.axis());
+        let mut momentum = seed[6];
         let mut axis = Axis::new(&mut scratch.axis, first, second, momentum);
         let mut lean = Lean::new(&mut scratch.lean, levels);
         let steepness = lean.begin(along);
 
         let begin = &mut terms[0];
         begin[OWN..][..own].copy_from_slice(&y[..own]);
-        begin[PLACE..][..3].copy_from_slice(motion.at.r.as_slice());
-        begin[AXIS..][..3].copy_from_slice(motion.axis().as_slice());
-        (begin[SPIN], begin[ANGLE]) = (momentum, motion.at.phi);
+        begin[PLACE..][..3].copy_from_slice(at.r.as_slice());
+        begin[AXIS..][..3].copy_from_slice(&seed[..3]);
+        (begin[SPIN], begin[ANGLE]) = (momentum, at.phi);
         if works {
             begin[OWN + own..][..2].copy_from_slice(&y[own + SUPPLIED..][..2]);
         }
-        terms[1][PLACE..][..3].copy_from_slice(motion.at.v.as_slice());
-        terms[1][AXIS..][..3].copy_from_slice(second.vector().as_slice());
+        terms[1][PLACE..][..3].copy_from_slice(at.v.as_slice());
+        terms[1][AXIS..][..3].copy_from_slice(&seed[3..6]);
         let (mut at, mut coming) = (first, second);
         let mut turn = first.cross(second);
 
@@ -189,6 +189,12 @@ impl<E: Effects> Rotor<'_, E> {
     }
 }
 
+/// The axis, its rate and S.
+#[inline(always)]
+fn seed(axis: &Vector3<f64>, rate: &Vector3<f64>, momentum: f64) -> Seed {
+    [axis.x, axis.y, axis.z, rate.x, rate.y, rate.z, momentum]
+}
+
 /// n + 1 and (n + 1)(n + 2), and 1 over each.
 const FACTORS: [[f64; 4]; MOST_POWER] = {
     let mut factors = [[0.0; 4]; MOST_POWER];
@@ -211,11 +217,15 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
 
     const NUMBERS: usize = N - 4;
 
+    fn seed(&self, t: f64, y: &[f64; N]) -> Seed {
+        let motion: Kinematics<f64> = self.motion(t, y);
+        seed(motion.axis(), &motion.axis_rate(), motion.at.k.dot(motion.axis()))
+    }
+
     #[inline(never)]
     fn expand(
         &self,
-        t: f64,
-        y: &[f64; N],
+        start: (f64, &[f64; N], &Seed),
         order: usize,
         room: Room,
         scratch: &mut Scratch,
@@ -223,7 +233,7 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
     ) -> Room {
         let works = self.frame.works;
         let mut expand = |series: &mut Series| {
-            self.expanded(series, scratch, room.levels, (t, y), order, terms);
+            self.expanded(series, scratch, room.levels, start, order, terms);
             Room {
                 rows: series.count() as u32,
                 levels: if series.leans() { room.levels.max(1) } else { 0 },
@@ -233,17 +243,19 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
         // Each by itself: room on the stack that is not needed is not touched.
         match room.rows {
             0 => with_rows::<0>(works, &mut expand),
-            1..=32 => with_rows::<32>(works, &mut expand),
+            1..=8 => with_rows::<8>(works, &mut expand),
+            9..=16 => with_rows::<16>(works, &mut expand),
+            17..=32 => with_rows::<32>(works, &mut expand),
             33..=96 => with_rows::<96>(works, &mut expand),
             _ => with_rows::<400>(works, &mut expand),
         }
     }
 
-    fn levels(&self, terms: &Terms<N>, s: f64, least: f64) -> u32 {
+    fn levels(&self, terms: &[[f64; N]], s: f64, least: f64) -> u32 {
         let along = |n: usize| terms[n][AXIS];
         let places = [0.25, 0.5, 0.75, 1.0].map(|part| part * s);
         let mut changes = f64x4::ZERO;
-        for n in (1..=SEEN).rev() {
+        for n in (1..terms.len()).take(SEEN).rev() {
             changes = (changes + f64x4::splat(along(n))) * f64x4::new(places);
         }
         // eq. 102: f_(k+1) is to f_k about as −1 to 1 + e·t
@@ -258,7 +270,7 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
     }
 
     #[inline(always)]
-    fn state_of(&self, numbers: &[f64; N], rates: &[f64; N]) -> [f64; N] {
+    fn state_of(&self, numbers: &[f64; N], rates: &[f64; N]) -> ([f64; N], Seed) {
         let own = own(N);
         let [of, rate] = [numbers, rates];
         // Rounding leaves t beside the sphere, and dt/dt beside its tangent plane.
@@ -280,7 +292,7 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
         if N >= WITH_WORK {
             y[own + SUPPLIED..][..2].copy_from_slice(&of[OWN + own..][..2]);
         }
-        y
+        (y, seed(&axis, &axis_rate, of[SPIN]))
     }
 
     #[inline(always)]

@@ -11,6 +11,8 @@ use nalgebra::Vector3;
 
 /// How many there are, beside the own states, which come first, each a group of its own.
 pub const RIGID: usize = 9;
+/// The number of K across K among them.
+pub const ACROSS: usize = 5;
 /// The number of γ among them.
 pub const GAMMA: usize = 6;
 /// The number of φ.

@@ -1,4 +1,5 @@
-//! `auto`: dop853, and `stiff` as long as stability alone holds dop853 to short steps.
+//! `auto`: `taylor` (or dop853 where there is no series), and `stiff` as long as stability alone holds these to short steps; and
+//! `taylor`, which takes dop853 as long as stability holds a series.
 //!
 //! Where stiffness is suspected, `stiff` is tried, and what both spend is compared: by evaluations, so that every machine takes
 //! the same way (Hairer and Wanner, Solving Ordinary Differential Equations II, section IV.2; Petzold 1983).
@@ -9,33 +10,42 @@ use crate::stored::stored;
 /// What is known of the stiffness of a run.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Auto {
+    /// Whether `stiff` may be taken.
+    may_be_stiff: bool,
     /// Steps until it is looked at again.
     rest: u32,
-    /// Steps between two looks at a run of dop853 that found nothing.
+    /// Steps between two looks that found nothing.
     pause: u32,
     /// When the look began \[s], and after how many evaluations.
     since: f64,
     spent: f64,
     /// The fastest rate of the linear equations, when it was last looked at [rad/s].
     fastest: f64,
+    /// Whether stability held explicit steps there, and whether these are tried for the first time since.
+    held: bool,
+    is_trial: bool,
     /// How often the method was changed.
     changes: u32,
 }
 
-stored!(Auto { rest, pause, since, spent, fastest, changes });
+stored!(Auto { may_be_stiff, rest, pause, since, spent, fastest, held, is_trial, changes });
 
 /// Steps between two looks; at first, and at most.
-const LOOK: u32 = 16;
+const LOOK: u32 = 128;
 const LONGEST_PAUSE: u32 = 4096;
+
+/// A trial of `stiff` takes about as long as so many steps, and none is made where no more are left.
+const WORTH: f64 = 512.0;
 
 /// `stiff` is measured over so many steps, after as many to find its own step.
 const TRIAL: u32 = 8;
 
 /// Dop853 is stable where a step spans less than this \[rad], on the imaginary axis and on the negative one.
-const STABLE: f64 = 6.0;
+pub(super) const STABLE: f64 = 6.0;
 
-/// Stability may hold a step that spans this part of it.
-const SUSPECT: f64 = 0.5;
+/// Stability may hold a step that spans this part of what is stable: one of dop853, which stability refuses now and then, and one of
+/// taylor, which stays near it.
+pub(super) const SUSPECT: [f64; 2] = [0.5, 0.75];
 
 /// A step of dop853 takes so many evaluations.
 const STAGES: f64 = 12.0;
@@ -56,16 +66,42 @@ pub(super) enum Verdict {
 }
 
 impl Default for Auto {
-    /// At the start of a run.
+    /// At the start of a run without `stiff`.
     fn default() -> Self {
-        Self { rest: LOOK, pause: LOOK, since: f64::NAN, spent: 0.0, fastest: 0.0, changes: 0 }
+        let [may_be_stiff, held, is_trial] = [false; 3];
+        Self {
+            may_be_stiff,
+            rest: LOOK,
+            pause: LOOK,
+            since: f64::NAN,
+            spent: 0.0,
+            fastest: 0.0,
+            held,
+            is_trial,
+            changes: 0,
+        }
     }
 }
 
 impl Auto {
+    /// At the start of a run that may take `stiff`.
+    pub fn with_stiff() -> Self {
+        Self { may_be_stiff: true, ..Self::default() }
+    }
+
+    /// Whether `stiff` may be taken.
+    pub fn may_be_stiff(&self) -> bool {
+        self.may_be_stiff
+    }
+
     /// The fastest rate of the linear equations, when it was last looked at [rad/s].
     pub fn fastest(&self) -> f64 {
         self.fastest
+    }
+
+    /// Whether stability held explicit steps, when it was last looked at.
+    pub fn holds_steps(&self) -> bool {
+        self.held
     }
 
     /// How often the method was changed.
@@ -85,14 +121,26 @@ impl Auto {
         self.rest == 0
     }
 
-    /// Of dop853, whose next step is `h` \[s] where the linear equations are these.
-    pub fn look_at_explicit<const N: usize>(&mut self, h: f64, jacobian: &[[f64; N]; N], size: usize) -> Verdict {
+    /// Of a method whose next step is `h` \[s], with `left` \[s] to go, where the linear equations are these, and where one that spans
+    /// less than `suspect` \[rad] is not held by stability.
+    pub fn look_at_explicit<const N: usize>(
+        &mut self,
+        [h, left, suspect]: [f64; 3],
+        jacobian: &[[f64; N]; N],
+        size: usize,
+    ) -> Verdict {
         self.fastest = spectral_radius(jacobian, size);
-        if h * self.fastest < SUSPECT * STABLE {
+        self.held = h * self.fastest >= suspect;
+        if std::mem::take(&mut self.is_trial) {
+            self.rest = self.pause;
+        } else if !self.held {
             self.rest = self.paused(2);
-            return Verdict::Stay;
+        } else if !self.may_be_stiff || left < WORTH * h {
+            self.try_explicit(2);
+        } else {
+            return self.change(TRIAL);
         }
-        self.change(TRIAL)
+        Verdict::Stay
     }
 
     /// Of `stiff`, which has reached time `t` \[s] after so many evaluations.
@@ -116,8 +164,14 @@ impl Auto {
             self.pause = LOOK;
             return Verdict::Stay;
         }
-        let rest = self.paused(4);
-        self.change(rest)
+        self.try_explicit(4);
+        self.change(self.rest)
+    }
+
+    /// Explicit steps are tried; the pause after that is so many times as long as the last.
+    fn try_explicit(&mut self, times: u32) {
+        self.paused(times);
+        (self.rest, self.is_trial) = (2 * TRIAL, true);
     }
 
     fn change(&mut self, rest: u32) -> Verdict {

@@ -1,4 +1,4 @@
-//! `taylor`: by series where the motion has one, with dop853 where it has none.
+//! `taylor` and `auto`: by series where the motion has one, with dop853 where it has none.
 
 use super::method::Method;
 use crate::effects::Effects;
@@ -13,6 +13,8 @@ pub(super) struct BySeries {
     /// Whether the next step is tried by series, and whether the last one went so.
     tried: bool,
     at_work: bool,
+    /// Whether stability would hold its steps.
+    held: bool,
     /// Steps until the series is tried again, and after how many it then was.
     rest: u32,
     pause: u32,
@@ -20,21 +22,17 @@ pub(super) struct BySeries {
     changes: u32,
 }
 
-stored!(BySeries { analytic, tried, at_work, rest, pause, changes });
+stored!(BySeries { analytic, tried, at_work, held, rest, pause, changes });
 
 /// Steps with dop853 until the series is tried again; at first, and at most.
 const PAUSE: u32 = 16;
 const LONGEST_PAUSE: u32 = 1024;
 
-/// Why a motion has none.
-const NO_SERIES: &str = "the motion has no power series while a contact presses, a table is followed, a speed is imposed or the body \
-    is unbalanced or not symmetric";
-
 impl BySeries {
     /// At the start of a run.
     pub fn new<E: Effects>(rotor: &Rotor<'_, E>) -> Self {
         let analytic = rotor.has_series();
-        Self { analytic, tried: analytic, at_work: analytic, rest: 0, pause: PAUSE, changes: 0 }
+        Self { analytic, tried: analytic, at_work: analytic, held: false, rest: 0, pause: PAUSE, changes: 0 }
     }
 
     /// A law has switched.
@@ -42,9 +40,10 @@ impl BySeries {
         (self.analytic, self.rest) = (rotor.has_series(), 0);
     }
 
-    /// The method of the next step.
-    pub fn choose<E: Effects, const N: usize>(&mut self, method: &mut Method<N>, rotor: &Rotor<'_, E>) {
-        match (method.is_series(), self.analytic, self.rest) {
+    /// The method of the next step; `held` tells whether stability holds explicit steps, of which those of dop853 are cheaper then.
+    pub fn choose<E: Effects, const N: usize>(&mut self, method: &mut Method<N>, rotor: &Rotor<'_, E>, held: bool) {
+        self.held = held;
+        match (method.is_series(), self.analytic && !held, self.rest) {
             (true, false, _) => method.leave_series(rotor),
             (false, true, 0) => method.take_series(rotor),
             (false, true, _) => self.rest -= 1,
@@ -72,16 +71,13 @@ impl BySeries {
         self.changes
     }
 
-    /// What it does from time `t` \[s] on, and why.
-    pub fn words(&self, by_series: bool, t: f64) -> String {
-        match (by_series, self.analytic) {
-            (true, _) if self.changes == 0 => "taylor takes power series, and dop853 where the motion has none".into(),
-            (true, _) => format!("taylor goes on with power series from t = {t:?} s"),
-            (false, true) => format!(
-                "taylor goes on with dop853 from t = {t:?} s: a size passes zero here, where its law has no power series"
-            ),
-            (false, false) if self.changes == 0 => format!("taylor takes dop853: {NO_SERIES}"),
-            (false, false) => format!("taylor goes on with dop853 from t = {t:?} s: {NO_SERIES}"),
+    /// Why it goes by series or by dop853.
+    pub fn words<E: Effects>(&self, by_series: bool, rotor: &Rotor<'_, E>) -> String {
+        match (by_series, rotor.no_series()) {
+            (true, _) => "the motion has a power series".into(),
+            (false, None) if self.held => "stability would hold the steps of its power series".into(),
+            (false, None) => "its power series lasts for too short a time here".into(),
+            (false, Some(cause)) => format!("the motion has no power series while {cause}"),
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::auto::Auto;
 use super::by_series::BySeries;
+use super::closest::closest_to_origin;
 use super::events::{Events, indicators};
 use super::growth::Watch;
 use super::method::Method;
@@ -25,7 +26,7 @@ pub(super) struct Integration<const N: usize> {
     /// The chart and the whole turns of the time that the method has reached.
     frame: Frame,
     method: Method<N>,
-    /// Where it is that of `auto`.
+    /// Where it is that of `auto` or `taylor`.
     auto: Option<Auto>,
     /// Where it goes by series as often as the motion has one.
     series: Option<BySeries>,
@@ -101,12 +102,15 @@ const NEAR: f64 = 1.0;
 /// No step is longer than so many communication steps: a rotor at rest would ask for one without end \[1].
 const AHEAD: f64 = 1e6;
 
+/// Nor is an exact one longer than so many \[1]: each communication point within it is reached from where it began.
+const EXACT_AHEAD: f64 = 8.0;
+
 /// φ \[rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
 /// last place for the remainder of φ to stay exact.
 const LONGEST_TURN: f64 = 16.0 * TAU;
 
 /// γ \[rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
-/// keep the step from growing beyond what its dense output can follow.
+/// keep the step from growing beyond what its dense output can follow. A power series can be read wherever it is right.
 const LONGEST_TILT: f64 = 1.0;
 
 /// An exact drift in which events are looked for nutates by at most so much \[rad], so that places in it tell where a station goes.
@@ -115,12 +119,17 @@ const LONGEST_LOOK: f64 = 1.0;
 /// The azimuth of γ from −e \[rad] advances by about so much at most in a step, so that its turns can be counted.
 const LONGEST_WHIRL: f64 = 1.0;
 
+/// A step in which events are looked for is halved so often at most.
+const MOST_HALVES: u32 = 8;
+
 /// So often laws may switch without a step between.
 const MOST_SWITCHES: u32 = 32;
 
 /// Where the ledger leaves over more than this part of all energy that there is, was, came and went, a method without an
 /// error estimate has lost the motion \[1].
 const LOST: f64 = 0.1;
+
+const AND_STIFF: &str = "; and it takes stiff as long as stability alone would hold it to short steps";
 
 const TOO_LONG: Refusal = Refusal(
     "the energy is not kept, so the steps of the symplectic method are too long for these forces: shorten \
@@ -141,12 +150,17 @@ impl<const N: usize> Integration<N> {
         let Motion { frame, state: y, events, .. } = *start;
         let plan = Plan::new(&setup.solver, effects);
         let method = Method::start(plan, tolerance, &frame.under(effects), t, y);
+        let auto = match plan {
+            Plan::Auto => Some(Auto::with_stiff()),
+            Plan::Taylor => Some(Auto::default()),
+            _ => None,
+        };
         let last = LastStep { chart: frame.chart, turns: frame.turns, gamma: gamma(&y), closest: None };
         let mut integration = Self {
             frame,
             method,
-            auto: matches!(plan, Plan::Auto).then(Auto::default),
-            series: matches!(plan, Plan::Taylor).then(|| BySeries::new(&frame.under(effects))),
+            auto,
+            series: auto.map(|_| BySeries::new(&frame.under(effects))),
             tolerance,
             most: setup.solver.max_evaluations,
             last,
@@ -216,14 +230,24 @@ impl<const N: usize> Integration<N> {
     }
 
     /// Moves the communication point to time `t` \[s]. On a fault it stands at the last time reached.
+    #[inline]
     pub(super) fn advance<E: Effects>(&mut self, effects: &mut E, t: f64) -> Result<(), Fault> {
         assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
+        if self.held.is_none() && t <= self.method.time() && !self.method.counts_turns() {
+            self.t = t;
+            return Ok(());
+        }
+        self.go_to(effects, t)
+    }
+
+    /// Moves the communication point to where the solver may not have been.
+    #[inline(never)]
+    fn go_to<E: Effects>(&mut self, effects: &mut E, t: f64) -> Result<(), Fault> {
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
         let until = if self.held.is_some() { t } else { self.stop.max(t) };
         self.go_back(effects)?;
         if self.method.time() >= t {
-            self.t = t;
-            return Ok(());
+            return self.show_at(effects, t);
         }
         if !matches!(self.method, Method::Composed(_)) {
             return self.run_to(effects, t, until);
@@ -232,7 +256,7 @@ impl<const N: usize> Integration<N> {
         let outcome = self.run_to(effects, t, until);
         // Where the motion is lost, what stands in its way has another cause.
         if self.keeps_energy(effects) {
-            return outcome;
+            return outcome.and_then(|()| self.show_at(effects, t));
         }
         (self.t, self.method, self.last, self.frame, self.events) = before;
         let y = self.method.state();
@@ -241,42 +265,70 @@ impl<const N: usize> Integration<N> {
         Err(Fault::Refused { t: self.t, reason: TOO_LONG })
     }
 
-    /// How often `auto` has gone on with another method.
-    pub(super) fn changes_of_method(&self) -> u32 {
-        self.auto.map_or(0, |auto| auto.changes()) + self.series.map_or(0, |series| series.changes())
+    /// Moves the communication point to time `t` \[s] within the last step, if there is a state to show.
+    fn show_at<E: Effects>(&mut self, effects: &E, t: f64) -> Result<(), Fault> {
+        let before = std::mem::replace(&mut self.t, t);
+        if self.shown(effects).0.iter().all(|y| y.is_finite()) {
+            return Ok(());
+        }
+        self.t = before;
+        Err(effects.no_limit().map_or(Fault::NotFinite { t }, |reason| Fault::Refused { t, reason: Refusal(reason) }))
     }
 
-    /// What `auto` or `taylor` does and why.
-    pub(super) fn auto(&self) -> String {
-        if let Some(series) = &self.series {
-            return series.words(self.method.is_series(), self.method.start_time());
-        }
-        let Some(auto) = &self.auto else {
-            return "auto takes symplectic: nothing acts on the rotor, so a step of any length is exact".into();
-        };
+    /// How often the run has gone on otherwise: with another method, or in shorter steps than those given, or in these again.
+    pub(super) fn changes(&self) -> u32 {
+        let [auto, series] = [self.auto.map(|auto| auto.changes()), self.series.map(|series| series.changes())];
+        let shortened = u32::from(self.method.shortened().is_some());
+        auto.unwrap_or(0).saturating_add(series.unwrap_or(0)).saturating_add(shortened)
+    }
+
+    /// What the run goes on with and why; None where that is what was asked for.
+    pub(super) fn goes_on<E: Effects>(&self, effects: &E) -> Option<String> {
         let t = self.method.start_time();
-        match &self.method {
-            Method::Stiff(_) => format!(
-                "auto goes on with stiff from t = {t:?} s: what changes at {:.3e} rad/s would hold dop853 to steps of {:.3e} s",
+        if let Some([size, given]) = self.method.shortened() {
+            return Some(format!(
+                "symplectic goes on in steps of {size:.3e} s from t = {t:?} s: steps of {given:?} s, as given, would err too much for \
+                 solver.relative_tolerance or grow from rounding"
+            ));
+        }
+        if let (Some(auto), true) = (&self.auto, self.method.is_stiff()) {
+            return Some(format!(
+                "auto goes on with stiff from t = {t:?} s: what changes at {:.3e} rad/s would hold explicit steps to some {:.3e} s",
                 auto.fastest(),
                 auto.stable_step()
-            ),
-            _ if auto.changes() > 0 => format!("auto goes on with dop853 from t = {t:?} s: stiff no longer saves work"),
-            _ => "auto takes dop853, and stiff as long as stability alone would hold dop853 to short steps".into(),
+            ));
         }
+        let Some(series) = self.series else {
+            const FREE: &str = "auto takes symplectic: nothing acts on the rotor, so a step of any length is exact";
+            return self.method.is_exact().then(|| FREE.into());
+        };
+        let is_auto = self.auto.is_some_and(|auto| auto.may_be_stiff());
+        let (who, also) = if is_auto { ("auto", AND_STIFF) } else { ("taylor", "") };
+        let is_series = self.method.is_series();
+        let what = match (is_series, who) {
+            (true, "auto") => "taylor",
+            (true, _) => "power series",
+            (false, _) => "dop853",
+        };
+        let why = series.words(is_series, &self.frame.under(effects));
+        Some(match self.changes() {
+            0 => format!("{who} takes {what}: {why}{also}"),
+            _ => format!("{who} goes on with {what} from t = {t:?} s: {why}"),
+        })
     }
 
     /// Steps up to time `t` \[s] or past it, but not past `until` \[s]; the communication point is then there, or where steps
     /// came to.
     fn run_to<E: Effects>(&mut self, effects: &mut E, t: f64, until: f64) -> Result<(), Fault> {
         let most = self.method.cost().evaluations + self.most;
-        self.method.limit_step(AHEAD * (t - self.t));
+        let ahead = if self.method.is_exact() { EXACT_AHEAD } else { AHEAD };
+        self.method.limit_step(ahead * (t - self.t));
         let mut switched = 0;
         while self.method.time() < t {
             if let Some(auto) = &mut self.auto
                 && auto.is_due()
             {
-                self.method.adapt(auto, self.tolerance, &self.frame.under(effects));
+                self.method.adapt(auto, self.tolerance, &self.frame.under(effects), self.stop);
             }
             if self.events.is_due() {
                 let y = *self.method.state();
@@ -287,8 +339,11 @@ impl<const N: usize> Integration<N> {
                     series.look(&self.frame.under(effects));
                 }
             }
-            if let Some(series) = &mut self.series {
-                series.choose(&mut self.method, &self.frame.under(effects));
+            if let Some(series) = &mut self.series
+                && !self.method.is_stiff()
+            {
+                let held = self.auto.is_some_and(|auto| auto.holds_steps());
+                series.choose(&mut self.method, &self.frame.under(effects), held);
             }
             let before = self.method.time();
             // Laws that switch to and fro in one place must still go on.
@@ -297,7 +352,9 @@ impl<const N: usize> Integration<N> {
             } else {
                 self.step(effects, most, until)
             };
-            if let Some(series) = &mut self.series {
+            if let Some(series) = &mut self.series
+                && !self.method.is_stiff()
+            {
                 series.hear(self.method.is_series());
             }
             let moved = self.method.time() > before;
@@ -384,9 +441,10 @@ impl<const N: usize> Integration<N> {
             self.method.limit_step(most / nutation.sqrt());
         }
         // At its present rate γ stays within reach of its chart.
-        let far = at.norm_squared() < (Chart::REACH - LONGEST_TILT) * (Chart::REACH - LONGEST_TILT);
-        if !far || rate.norm_squared() * h * h >= LONGEST_TILT * LONGEST_TILT {
-            self.method.limit_step((Chart::REACH - at.norm()).min(LONGEST_TILT) / rate.norm());
+        let longest = if self.method.is_series() { Chart::REACH } else { LONGEST_TILT };
+        let far = at.norm_squared() < (Chart::REACH - longest) * (Chart::REACH - longest);
+        if !far || rate.norm_squared() * h * h >= longest * longest {
+            self.method.limit_step((Chart::REACH - at.norm()).min(longest) / rate.norm());
         }
         if self.frame.chart == Chart::FromMinusE {
             // dβ/dt = e·(γ×dγ/dt)/|γ|²
@@ -406,7 +464,19 @@ impl<const N: usize> Integration<N> {
         let before = (E::FACTS.indicators > 0 && self.frame.has_events()).then(|| (self.method.clone(), self.last));
         self.step(effects, most, until)?;
         let Some((method, last)) = before else { return Ok(()) };
-        let (from, to, rotor) = (self.method.start_time(), self.method.time(), self.frame.under(effects));
+        let rotor = self.frame.under(effects);
+        // Each place of a step that is too long for its polynomial would be a motion of its own.
+        for _ in 0..MOST_HALVES {
+            if !self.method.is_rough(&rotor) {
+                break;
+            }
+            let h = 0.5 * (self.method.time() - self.method.start_time());
+            self.method.take_back(method.clone());
+            self.last = last;
+            self.method.limit_step(h);
+            self.step(effects, most, until)?;
+        }
+        let (from, to) = (self.method.start_time(), self.method.time());
         let (method_now, frame) = (&mut self.method, &self.frame);
         let watched = (0..E::FACTS.indicators).filter(|number| frame.watches(*number));
         let found = self.events.first(watched, from, to, |t| {
@@ -415,7 +485,8 @@ impl<const N: usize> Integration<N> {
         });
         let Some((t, number)) = found else { return Ok(()) };
         if t < to {
-            (self.method, self.last) = (method, last);
+            self.method.take_back(method);
+            self.last = last;
             // A law that has just switched may have to switch back.
             if self.method.time() + 0.1 * (t - self.method.time()) > self.method.time() {
                 self.step(effects, most, t)?;
@@ -447,7 +518,8 @@ impl<const N: usize> Integration<N> {
             match (&before, self.last.closest) {
                 (Some((method, last)), Some((_, closest))) if closest.norm() < rotor::FORBIDDEN => {
                     limit = 0.5 * limit.min(self.method.time() - method.time());
-                    (self.method, self.last) = (method.clone(), *last);
+                    self.method.take_back(method.clone());
+                    self.last = *last;
                     self.method.limit_step(limit);
                 }
                 _ => break,
@@ -500,28 +572,14 @@ impl<const N: usize> Integration<N> {
         }
     }
 
-    /// When \[s] and where \[rad] γ came closest to the origin in the last step, by golden sections of its dense output.
+    /// When \[s] and where \[rad] γ came closest to the origin in the last step.
     fn closest_to_origin<E: Effects>(&mut self, rotor: &Rotor<'_, E>) -> (f64, Vector2<f64>) {
-        const GOLDEN: f64 = 0.618_033_988_749_894_9;
-        const SECTIONS: u32 = 40;
-        let (mut low, mut high) = (self.method.start_time(), self.method.time());
-        let mut at = |t: f64| {
+        let (from, to) = (self.method.start_time(), self.method.time());
+        closest_to_origin(from, to, |t| {
             let gamma = gamma(&self.method.dense(rotor, t));
             // Where kicks on the way there have no limit, the origin is near.
-            (t, if gamma.norm().is_nan() { Vector2::zeros() } else { gamma })
-        };
-        let mut a = at(high - GOLDEN * (high - low));
-        let mut b = at(low + GOLDEN * (high - low));
-        for _ in 0..SECTIONS {
-            if a.1.norm_squared() < b.1.norm_squared() {
-                (high, b) = (b.0, a);
-                a = at(high - GOLDEN * (high - low));
-            } else {
-                (low, a) = (a.0, b);
-                b = at(low + GOLDEN * (high - low));
-            }
-        }
-        if a.1.norm_squared() < b.1.norm_squared() { a } else { b }
+            if gamma.norm().is_nan() { Vector2::zeros() } else { gamma }
+        })
     }
 
     /// The state at the communication point, its chart, and the whole turns of φ, under the effects of the last step.

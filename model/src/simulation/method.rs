@@ -1,9 +1,9 @@
 //! The methods that can drive a rotor, behind one interface.
 
-use super::auto::{Auto, Verdict};
+use super::auto::{Auto, STABLE, SUSPECT, Verdict};
 use super::plan::Plan;
 use crate::effects::Effects;
-use crate::integrate::composition::Composed;
+use crate::integrate::composition::{Composed, STRANG};
 use crate::integrate::explicit::Explicit;
 use crate::integrate::stiff::{Differentiable, Stiff};
 use crate::integrate::tableau::DOP853;
@@ -12,6 +12,9 @@ use crate::integrate::{Cost, Fault, System, Tolerance};
 use crate::rotor::Rotor;
 use crate::stored::{Damaged, Stored, Walk};
 use std::ops::Range;
+
+/// Where nothing acts every drift is exact, so its length does not matter \[s].
+const FREE: f64 = 1.0;
 
 /// A method at work.
 #[derive(Clone)]
@@ -42,36 +45,39 @@ impl<const N: usize> Method<N> {
     pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) -> Self {
         match plan {
             Plan::Explicit(tableau) => OfPair(Explicit::start(tableau, tolerance, rotor, t, y)),
-            Plan::Composed(composition, Some(size)) => OfComposition(Composed::start(composition, size, t, y)),
-            Plan::Composed(composition, None) => {
-                OfComposition(Composed::start_within(composition, tolerance, rotor, t, y))
+            Plan::Composed(composition, longest) => {
+                OfComposition(Composed::start_within(composition, longest, tolerance, rotor, t, y))
             }
+            Plan::Free => OfComposition(Composed::start(&STRANG, FREE, t, y)),
             Plan::Stiff => OfCollocation(Stiff::start(tolerance, rotor, t, y)),
-            Plan::Taylor if rotor.has_series() => OfSeries(Taylor::start(tolerance, rotor, t, y)),
+            Plan::Auto | Plan::Taylor if rotor.has_series() => OfSeries(Taylor::start(tolerance, rotor, t, y)),
             Plan::Auto | Plan::Taylor => OfPair(Explicit::start(&DOP853, tolerance, rotor, t, y)),
         }
     }
 
-    /// Looks whether the other adaptive method would now do better, and goes on with it. The last step can then no more be read.
-    pub fn adapt<E: Effects>(&mut self, auto: &mut Auto, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>) {
+    /// Looks whether `stiff` would now do better than what goes by explicit steps up to time `stop` \[s], or these again, and goes on
+    /// with it. The last step can then no more be read.
+    pub fn adapt<E: Effects>(&mut self, auto: &mut Auto, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>, stop: f64) {
         let (t, y, size) = (self.time(), *self.state(), System::<N>::depended_on(rotor));
         let jacobian = rotor.jacobian(t, &y);
-        match self {
-            OfPair(method) if auto.look_at_explicit(method.next_step(), &jacobian, size) == Verdict::Change => {
-                let (h, sizes, cost) = (method.next_step(), method.sizes(), method.cost());
-                *self = OfCollocation(Stiff::start(tolerance, rotor, t, y).instead(h, sizes, cost));
+        let cost = self.cost();
+        let h = cost.next_step;
+        let (sizes, suspect) = match self {
+            OfPair(method) => (method.sizes(), SUSPECT[0] * STABLE),
+            OfSeries(method) => (method.sizes(), SUSPECT[1] * method.stable()),
+            OfCollocation(method) => {
+                if auto.look_at_stiff(t, cost.evaluations, &jacobian, size) == Verdict::Change {
+                    let start = Explicit::start(&DOP853, tolerance, rotor, t, y);
+                    *self = OfPair(start.instead(h.min(auto.stable_step()), method.sizes(), cost));
+                }
+                return;
             }
-            OfCollocation(method)
-                if auto.look_at_stiff(t, method.cost().evaluations, &jacobian, size) == Verdict::Change =>
-            {
-                let (h, sizes, cost) = (method.next_step(), method.sizes(), method.cost());
-                let start = Explicit::start(&DOP853, tolerance, rotor, t, y);
-                *self = OfPair(start.instead(h.min(auto.stable_step()), sizes, cost));
-            }
-            _ => {}
+            OfComposition(_) => return,
+        };
+        if auto.look_at_explicit([h, stop - t, suspect], &jacobian, size) == Verdict::Change {
+            *self = OfCollocation(Stiff::start(tolerance, rotor, t, y).instead(h, sizes, cost));
         }
     }
-
     /// Nothing yet: a place for what was stored.
     pub fn blank() -> Self {
         OfPair(Explicit::blank())
@@ -154,7 +160,7 @@ impl<const N: usize> Method<N> {
         let y = *self.state();
         match self {
             OfPair(method) => method.go_on_from(rotor, y),
-            OfComposition(method) => method.go_on_from(y),
+            OfComposition(method) => method.go_on_under(),
             OfCollocation(method) => method.go_on_under(rotor, y),
             OfSeries(method) => method.go_on_from(rotor, y),
         }
@@ -168,6 +174,13 @@ impl<const N: usize> Method<N> {
     /// What the run has cost so far.
     pub fn cost(&self) -> Cost {
         each!(self, method => method.cost())
+    }
+
+    /// Goes back to what it was `before`; what it has spent since is spent.
+    pub fn take_back(&mut self, before: Self) {
+        let spent = self.cost().evaluations;
+        *self = before;
+        each!(self, method => method.charge(spent));
     }
 
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
@@ -185,6 +198,21 @@ impl<const N: usize> Method<N> {
                 self.step(rotor, most, until)
             }
         }
+    }
+
+    /// Whether it is `stiff`.
+    pub fn is_stiff(&self) -> bool {
+        matches!(self, OfCollocation(_))
+    }
+
+    /// Whether a step of any length is exact.
+    pub fn is_exact(&self) -> bool {
+        matches!(self, OfComposition(method) if method.is_exact())
+    }
+
+    /// The size of its steps and the one that was given \[s], where they must be shorter.
+    pub fn shortened(&self) -> Option<[f64; 2]> {
+        if let OfComposition(method) = self { method.shortened() } else { None }
     }
 
     /// Whether it goes by series.
@@ -219,6 +247,12 @@ impl<const N: usize> Method<N> {
         if let OfPair(method) = self {
             method.prepare_dense(rotor);
         }
+    }
+
+    /// Whether the last step is too long to be read by its polynomial, so that each state within it takes steps of its own.
+    pub fn is_rough<E: Effects>(&mut self, rotor: &Rotor<'_, E>) -> bool {
+        self.prepare_dense(rotor);
+        if let OfPair(method) = self { method.is_rough() } else { false }
     }
 
     /// The state at a time `t` \[s] within the last step, of the rotor in the chart of that step.

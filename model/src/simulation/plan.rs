@@ -1,7 +1,7 @@
 //! Which method drives a rotor, and with which steps.
 
 use crate::effects::Effects;
-use crate::integrate::composition::{Composition, STRANG};
+use crate::integrate::composition::Composition;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::variables::{Solver, numbers};
 
@@ -10,18 +10,17 @@ use crate::variables::{Solver, numbers};
 pub(super) enum Plan {
     /// A pair with adaptive steps.
     Explicit(&'static Tableau),
-    /// A composition, with steps of this size \[s] where it is given.
+    /// A composition, with steps no longer than this \[s] where it is given.
     Composed(&'static Composition, Option<f64>),
+    /// Drifts, each exact.
+    Free,
     /// Radau IIA with adaptive steps.
     Stiff,
-    /// Taylor's series, and dop853 where there is none.
+    /// Taylor's series, and dop853 where there is none, or where stability holds its steps.
     Taylor,
-    /// The two adaptive methods, the one or the other.
+    /// As `Taylor`, and Radau IIA where that saves work.
     Auto,
 }
-
-/// Where nothing acts every drift is exact, so its length does not matter \[s].
-const FREE: f64 = 1.0;
 
 impl Plan {
     /// That of the parameters, which were checked, under these effects.
@@ -29,7 +28,7 @@ impl Plan {
         match solver.method_in_force() {
             // Whatever may act is followed by methods that estimate their error.
             numbers::AUTO if effects.push() => Plan::Auto,
-            numbers::AUTO => Plan::Composed(&STRANG, Some(FREE)),
+            numbers::AUTO => Plan::Free,
             numbers::DOPRI5 => Plan::Explicit(&DOPRI5),
             numbers::SYMPLECTIC => {
                 let composition =

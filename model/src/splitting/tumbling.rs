@@ -4,7 +4,7 @@ use super::Flow;
 use crate::body::{Asymmetric, Inertia, Poinsot};
 use crate::effects::Effects;
 use crate::integrate::Refusal;
-use crate::rotation::{Tilt, Turn};
+use crate::rotation::{Tilt, Turn, Turned};
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
 
@@ -18,25 +18,35 @@ const LEAST: f64 = 1e-12;
 const FARTHEST: f64 = 3.0;
 
 impl<E: Effects, const N: usize> Flow<'_, E, N> {
-    /// Follows an asymmetric body that nothing acts on for a time `h` \[s].
-    pub(super) fn tumble(&mut self, body: &Inertia, asymmetric: &Asymmetric, h: f64) {
-        let axes = self.tilt.attitude(self.at.phi) * asymmetric.principal();
+    /// Has followed an asymmetric body that nothing acts on for a time `h` \[s].
+    pub(super) fn tumbled(mut self, body: &Inertia, asymmetric: &Asymmetric, h: f64) -> Self {
+        let tilt = self.tilt();
+        let axes = tilt.attitude(self.at.phi) * asymmetric.principal();
         let along = axes.tr_mul(&self.at.k);
         let Some(tumbling) = Tumbling::new(body, asymmetric, axes, along) else {
             // eq. 72: ω stays
             let about = Vector3::new(body.spin * along.x, asymmetric.excess * along.y, 0.0);
-            return self.turn((self.at.k * body.per_jt + axes * about) * h);
+            self.take(tilt.turned(&Turn::about((self.at.k * body.per_jt + axes * about) * h)));
+            return self;
         };
-        let turned = self.tilt.turned(&tumbling.free.turn(h).seen_from(&axes));
-        let beside = tumbling.beside(self.tilt, h, turned.phi + TAU * turned.turns);
+        let turned = tilt.turned(&tumbling.free.turn(h).seen_from(&axes));
+        let beside = tumbling.beside(tilt, h, turned.phi + TAU * turned.turns);
         // Each part costs about what an evaluation does.
         self.evaluations += f64::from(beside.parts);
         if beside.parts > MOST_PARTS {
             self.refusal = Some(TOO_MANY_PARTS);
-            return;
+            return self;
         }
         self.turns += beside.turns;
         self.take(turned);
+        self
+    }
+
+    /// Goes on from a tilt that has turned.
+    fn take(&mut self, turned: Turned) {
+        self.at.phi += turned.phi;
+        self.turns += turned.turns;
+        self.axis = Tilt::new(self.rotor.frame.chart, turned.gamma).axis;
     }
 }
 

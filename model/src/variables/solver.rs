@@ -15,7 +15,7 @@ pub struct Solver {
     pub relative_tolerance: f64,
     /// The least error that is asked for, in nominals \[1].
     pub absolute_tolerance: f64,
-    /// Step of `symplectic` \[s]; 0: chosen from the scene.
+    /// Longest step of `symplectic` \[s]; 0: chosen from the scene.
     pub step_size: f64,
     /// Order of `symplectic`: 2, 4, 6 or 8.
     pub order: i32,
@@ -58,17 +58,21 @@ pub static METHODS: Enumeration = Enumeration {
         (
             numbers::AUTO,
             "auto",
-            "dop853, and stiff where stability would hold it to short steps; exact where nothing acts",
+            "taylor or dop853, and stiff where stability would hold these to short steps; exact where nothing acts",
         ),
         (numbers::DOPRI5, "dopri5", "explicit Runge-Kutta pair of Dormand and Prince, order 5(4), adaptive"),
         (numbers::DOP853, "dop853", "explicit Runge-Kutta method of Dormand and Prince, order 8(5,3), adaptive"),
         (
             numbers::SYMPLECTIC,
             "symplectic",
-            "composition of free drifts and kicks, order solver.order, steps of solver.step_size",
+            "composition of free drifts and kicks, order solver.order, steps of at most solver.step_size",
         ),
         (numbers::STIFF, "stiff", "implicit Runge-Kutta method Radau IIA, order 5, exact Jacobian, adaptive"),
-        (numbers::TAYLOR, "taylor", "power series in time, adaptive; dop853 where the motion has none"),
+        (
+            numbers::TAYLOR,
+            "taylor",
+            "power series in time, adaptive; dop853 where the motion has none, or where stability holds their steps",
+        ),
     ],
 };
 
@@ -140,7 +144,7 @@ pub(super) const ROWS: &[AlwaysRow] = &[
         &SECOND,
         Some(0.0),
         Bound::NotNegative,
-        "step of the symplectic method; 0: chosen from the scene"
+        "longest step of the symplectic method, shorter where ten relative tolerances ask for it; 0: chosen from the scene"
     ),
     Row {
         meta: Meta {

@@ -185,6 +185,6 @@ fn auto_goes_as_the_method_that_it_takes() {
             named.simulation.advance(0.3).expect("a possible motion");
             named.simulation.state().expect("started").map(f64::to_bits)
         };
-        assert_eq!(run(1.0), run(3.0), "{name}");
+        assert_eq!(run(1.0), run(6.0), "{name}");
     }
 }

@@ -6,8 +6,10 @@ use nalgebra::{Vector2, Vector3};
 use oracles::motion::FreeRotor;
 use oracles::rotation;
 use split_rotor_model::energy::Ledger;
-use split_rotor_model::integrate::composition::{Composed, Composition};
+use split_rotor_model::integrate::System;
+use split_rotor_model::integrate::composition::{Composed, Composition, Splitting};
 use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::integrate::sizes::{Sizes, largest_square};
 use split_rotor_model::rotation::chart::crossed_exactly;
 use split_rotor_model::rotation::{Angle, Chart, Tilt};
 use split_rotor_model::rotor::Rotor;
@@ -38,8 +40,8 @@ fn keep_turns(rotor: &mut Rotor<'_, Supported>, method: &mut Composed<12>) {
 
 /// Free rotors after one step of any length, in either chart: the attitude over 1 plus the angles that rotor and axis
 /// have turned [1], and φ [rad], whose turns are looked at only (the quadrature is no better):
-/// measured 5.3e-15 and 1.8e-10.
-const FREE: [f64; 2] = [1.6e-14, 1e-6];
+/// measured 6.0e-14, where the axis ends far beyond what a step may in its chart, and 1.8e-10.
+const FREE: [f64; 2] = [2e-13, 1e-6];
 
 #[test]
 fn exact_free_rotor_in_one_step_of_any_length() {
@@ -179,8 +181,11 @@ fn slope(means: &[f64]) -> (f64, f64) {
     (slope, (rest / (n - 2.0) / square).sqrt())
 }
 
-/// The energy's drift over 10⁶ steps of the paper's rotor, over its own noise [1]: measured 0.006 to 0.12.
+/// The energy's drift over 10⁶ steps of the paper's rotor, over its own noise [1]: measured 0.006 to 0.17.
 const TREND: f64 = 3.0;
+
+/// What is no trend: relative drift of the energy by rounding in 10⁶ steps [1]: measured 1.1e-13.
+const ROUNDED_AWAY: f64 = 1e-12;
 
 #[test]
 fn exact_energy_of_a_million_steps_has_no_trend() {
@@ -188,7 +193,8 @@ fn exact_energy_of_a_million_steps_has_no_trend() {
         let (means, worst) = energy_errors(&Scene::paper(), order, h, 1_000_000);
         let (slope, noise) = slope(&means);
         println!("order {order}: largest {worst:.1e}, drift {slope:.1e} ± {noise:.1e}");
-        within(&format!("order {order}: drift over noise"), slope.abs() / noise, TREND);
+        let beyond = if slope.abs() > ROUNDED_AWAY { slope.abs() } else { 0.0 };
+        within(&format!("order {order}: drift over noise"), beyond / noise, TREND);
     }
 }
 
@@ -238,6 +244,135 @@ fn exact_energy_at_very_high_spin() {
     for (order, h) in [(2, 0.7e-3), (4, 1e-3)] {
         let (_, worst) = energy_errors(&scene, order, h, 1_000_000);
         within(&format!("order {order}: energy"), worst, ROUNDING);
+    }
+}
+
+// ------------------------------------------------------------------------------------------------ steps that are given
+
+/// The paper's scene at this spin [rad/s], by this method of this order with this step [s], at this tolerance.
+fn spinning(spin: f64, [method, order, size]: [f64; 3], tolerance: f64) -> Named {
+    let mut named = Named::new("paper", Integrator::Method);
+    let settings = [
+        ("start.omega.x", spin),
+        ("solver.method", method),
+        ("solver.order", order),
+        ("solver.step_size", size),
+        ("solver.relative_tolerance", tolerance),
+    ];
+    settings.iter().for_each(|(name, value)| named.set(name, *value));
+    named
+}
+
+/// Steps in half a second at very high spin, and the axis and r_c over l on the way.
+fn at_high_spin(spin: f64, solver: [f64; 3], tolerance: f64) -> (f64, Vec<f64>) {
+    let mut named = spinning(spin, solver, tolerance);
+    named.start();
+    let at = |i: u32| {
+        named.simulation.advance(0.05 * f64::from(i)).expect("a possible motion");
+        let [r, axis] = ["r_c", "axis"].map(|of| ["x", "y", "z"].map(|c| named.get(&format!("{of}.{c}"))));
+        r.map(|r| r / 0.75).into_iter().chain(axis).collect::<Vec<_>>()
+    };
+    let shown = (1..=10).flat_map(at).collect();
+    (named.get("solver.steps"), shown)
+}
+
+/// Error of the axis [1] and of r_c over l [1] at the default tolerance of 1e-8: measured 2.6e-7. With the steps as they are given it
+/// is up to 3e-5.
+const AT_HIGH_SPIN: f64 = 1e-6;
+
+#[test]
+fn high_spin_in_given_steps_errs_little_or_shortens_them() {
+    for spin in [1e4, 1e5] {
+        let (_, exact) = at_high_spin(spin, [3.0, 6.0, 0.0], 1e-13);
+        for order in [2.0, 4.0, 6.0, 8.0] {
+            let errors = [0.5e-3, 0.7e-3, 1e-3].map(|size| {
+                let (_, found) = at_high_spin(spin, [4.0, order, size], 1e-8);
+                largest(found.iter().zip(&exact).map(|(a, b)| (a - b).abs()))
+            });
+            within(&format!("{spin:e} rad/s, order {order}"), largest(errors), AT_HIGH_SPIN);
+        }
+    }
+    // Where the tolerance allows it, the step does not shrink with the spin.
+    for size in [0.5e-3, 1e-3] {
+        let (steps, _) = at_high_spin(1e5, [4.0, 4.0, size], 1e-2);
+        assert!(steps <= 1.02 * 0.5 / size, "{steps} steps of {size} s");
+    }
+}
+
+/// What the estimates of 10 s of the paper's scene cost, by evaluations [1]: measured 0.05 to 0.09.
+const PRICE: f64 = 0.1;
+
+#[test]
+fn an_error_estimate_costs_little_and_changes_no_step() {
+    for (order, size, kicks) in [(2.0, 2e-3, 1.0), (4.0, 5e-3, 5.0), (6.0, 5e-3, 14.0), (8.0, 5e-3, 17.0)] {
+        let mut named = spinning(50.0, [4.0, order, size], 1e-1);
+        named.start();
+        named.simulation.advance(10.0).expect("a possible motion");
+        let [steps, evaluations, told] =
+            ["steps", "evaluations", "error_estimate"].map(|name| named.get(&format!("solver.{name}")));
+        // Beside next to nothing, which the rotor does at first, an error is large: some steps of order 2 are shorter there.
+        assert!((0.0..=12.0).contains(&(steps - (10.0 / size).round())), "{steps} steps");
+        within(&format!("order {order}"), evaluations / (kicks * steps) - 1.0, PRICE);
+        assert!(told > 0.0);
+    }
+}
+
+/// The error of one step over its estimate [1], of random rotors in random steps, of those whose error is not rounding: the mean, or
+/// one over it, measured 1.0 to 1.3, and the most, measured 2.1 to 4.6. Compared with halves, order 2 has up to 1200, where the nutations
+/// of a step are a multiple of four.
+const ESTIMATED: [f64; 2] = [2.0, 12.0];
+
+/// Relative to the motion's own size, what is below this is rounding [1].
+const ROUNDED: f64 = 1e-10;
+
+#[test]
+fn an_error_estimate_is_honest() {
+    let mut random = Random(11);
+    for order in [2, 4, 6, 8] {
+        let (mut ratios, mut resonant) = (Vec::new(), 0);
+        for case in 0..300 {
+            let mut within = |low: f64, high: f64| random.within(low, high);
+            let spin = libm::exp10(within(0.0, 5.0));
+            let scene = Scene {
+                r_c: Vector3::new(0.75, within(-0.05, 0.05), within(-0.05, 0.05)),
+                v_c: Vector3::new(0.0, within(-0.5, 0.5), within(-0.5, 0.5)),
+                gamma: Vector2::new(within(-0.2, 0.2), within(-0.2, 0.2)),
+                omega: Vector3::new(spin, within(-1.0, 1.0), within(-1.0, 1.0)),
+                ..Scene::paper()
+            };
+            let (rotor, y) = (scene.rotor(), scene.state());
+            let nutation = 2.0 * spin;
+            // Every third in a whole number of nutations, of up to 30.
+            let h = match case % 3 {
+                0 => TAU * within(1.0, 30.0).round() / nutation,
+                _ => libm::exp10(within(-4.0, -2.0)),
+            };
+            let h = if h > 0.02 { 0.02 * within(0.1, 1.0) } else { h };
+            let free = tolerance(1.0);
+            let mut method = Composed::start_within(composition(order), Some(h), free, &rotor, 0.0, y);
+            method.step(&rotor, f64::INFINITY, f64::INFINITY).expect("possible");
+            // An error of ten times the motion shortens it.
+            let h = method.time();
+            resonant += u32::from(nutation * h > 3.2);
+            let mut exact = Explicit::start(Method::Dop853.tableau(), tolerance(1e-13), &rotor, 0.0, y);
+            while exact.time() < h {
+                exact.step(&rotor, f64::INFINITY, h).expect("possible");
+            }
+            let end = *method.state();
+            let [first, last] = [y, end].map(|y| rotor.rates_of_all(0.0, &y));
+            let sizes = Sizes::at_start(&free, &rotor, &y, &first);
+            let weights = sizes.weights(&rotor, &free, &[0.0; 12], &sizes.seen(&rotor, &end, &last));
+            let apart = rotor.apart(&end, exact.state());
+            let error = largest_square(&rotor, &rotor.parts_of_ends(&y, &apart, h), &weights).sqrt();
+            if error > ROUNDED {
+                ratios.push(error / method.cost().error_estimate);
+            }
+        }
+        let mean = libm::exp(ratios.iter().map(|ratio| libm::log(*ratio)).sum::<f64>() / ratios.len() as f64);
+        println!("order {order}: {} of 300, {resonant} not resolved, mean {mean:.2}", ratios.len());
+        assert!(ratios.len() > 100 && resonant > 100);
+        within(&format!("order {order}: mean"), mean.max(1.0 / mean), ESTIMATED[0]);
+        within(&format!("order {order}: most"), largest(ratios), ESTIMATED[1]);
     }
 }
 
@@ -296,6 +431,121 @@ fn regress_steps_that_are_not_given_keep_the_tolerance() {
     }
 }
 
+/// Stiff damped bearings, on which a step of 10 ms lets rounding grow.
+const BEARINGS: [(&str, f64); 19] = [
+    ("effects.gravity", 1.0),
+    ("rotor.m", 13.4),
+    ("rotor.Ja", 0.335),
+    ("rotor.Jt", 0.223),
+    ("start.r_c.y", 0.002),
+    ("start.omega.x", 128.0),
+    ("start.omega.y", 0.0),
+    ("effects.bearing[1]", 1.0),
+    ("bearing[1].position", -0.118),
+    ("bearing[1].kyy", 1.99e6),
+    ("bearing[1].kzz", 1.26e6),
+    ("bearing[1].cyy", 2900.0),
+    ("bearing[1].czz", 2900.0),
+    ("effects.bearing[2]", 1.0),
+    ("bearing[2].position", 0.173),
+    ("bearing[2].kyy", 1.46e6),
+    ("bearing[2].kzz", 2.46e6),
+    ("bearing[2].cyy", 2900.0),
+    ("bearing[2].czz", 2900.0),
+];
+
+/// A fall onto a hard ring that rubs: one step is not like another.
+const FALL: [(&str, f64); 8] = [
+    ("start.v_c.z", -2.0),
+    ("start.omega.y", 0.0),
+    ("effects.rub[1]", 1.0),
+    ("rub[1].gap", 0.01),
+    ("rub[1].stiffness", 1e7),
+    ("rub[1].damping", 200.0),
+    ("rub[1].friction", 0.1),
+    ("rub[1].v0", 0.01),
+];
+
+/// Error of place [m] and of the axis over the tolerance [1], on bearings and in contact: measured 5e-3 and 0.5.
+const BETWEEN: [f64; 2] = [0.1, 2.0];
+
+#[test]
+fn regress_what_happens_between_comparisons_keeps_the_tolerance() {
+    let shown = |changes: &[(&str, f64)], solver: [f64; 3], step: f64| -> Vec<f64> {
+        let mut named = loose(changes, solver);
+        ["rotor.l", "start.r_c.x"].iter().for_each(|name| named.set(name, 0.0));
+        named.set("solver.step_size", step);
+        named.start();
+        let at = |i: u32| {
+            named.simulation.advance(0.01 * f64::from(i)).expect("a possible motion");
+            ["r_c.x", "r_c.y", "r_c.z", "axis.x", "axis.y", "axis.z"].map(|name| named.get(name))
+        };
+        (1..=100).flat_map(at).collect()
+    };
+    // Without a limit of stability 0.8, and where contacts were compared as rarely as all else 19.
+    for (changes, orders, tolerance, step, most) in [
+        (&BEARINGS[..], [4.0, 8.0], 1e-4, 0.01, BETWEEN[0]),
+        (&BEARINGS[..], [2.0, 6.0], 1e-3, 0.01, BETWEEN[0]),
+        (&FALL[..], [6.0, 8.0], 1e-6, 0.0, BETWEEN[1]),
+    ] {
+        let exact = shown(changes, [3.0, 6.0, 1e-13], 0.0);
+        for order in orders {
+            let found = shown(changes, [4.0, order, tolerance], step);
+            let error = largest(found.iter().zip(&exact).map(|(a, b)| (a - b).abs()));
+            within(&format!("{:?} by order {order} at {tolerance:e}", changes[1]), error / tolerance, most);
+        }
+    }
+}
+
+/// A small unbalance of a rotor that flies: the first steps are so short that rounding was taken for their error, and stayed so.
+#[test]
+fn regress_the_rounding_of_a_short_step_is_no_error() {
+    let changes = [
+        ("rotor.m", 3.4650567579288882),
+        ("rotor.Ja", 0.04088880320226829),
+        ("rotor.Jt", 0.026050757010845683),
+        ("rotor.l", 0.5915878320353877),
+        ("start.r_c.x", 0.5915878320353877),
+        ("start.v_c.x", 0.22304226008524553),
+        ("start.v_c.y", -0.5056964914881695),
+        ("start.omega.x", 440.7117572653869),
+        ("start.omega.y", -153.32096425553343),
+        ("effects.unbalance[1]", 1.0),
+        ("unbalance[1].mass", 2.552264009926569e-05),
+        ("unbalance[1].radius", 0.19877931614183025),
+        ("unbalance[1].angle", 3.1194969387815465),
+    ];
+    let mut named = loose(&changes, [4.0, 2.0, 1e-4]);
+    named.start();
+    named.simulation.advance(0.01).expect("a possible motion");
+    // Measured 19; it was 214 933.
+    assert!(named.get("solver.steps") < 100.0, "{}", named.get("solver.steps"));
+}
+
+/// A rotor that wobbles fast, up to 1.6 rad from e, under a law that has no limit at −e: each drift may come near it that goes round with
+/// the wobble, on the way to a communication point too.
+#[test]
+fn regress_each_communication_point_shows_numbers() {
+    let changes = [
+        ("rotor.m", 45.0),
+        ("rotor.Ja", 0.43),
+        ("rotor.Jt", 1.275),
+        ("start.omega.x", 8514.4),
+        ("start.omega.y", 2916.4),
+        ("effects.drive", 1.0),
+        ("drive.tau", 2.0),
+    ];
+    for (order, step) in [(4.0, 0.0), (4.0, 0.01), (6.0, 0.0)] {
+        let mut named = loose(&changes, [4.0, order, 1e-4]);
+        named.set("solver.step_size", step);
+        named.start();
+        for i in 1..=400 {
+            named.simulation.advance(1e-3 * f64::from(i)).expect("a possible motion");
+            assert!(named.get("axis.x").is_finite(), "order {order} after {i} ms");
+        }
+    }
+}
+
 /// How near the time at which a tumbling rotor meets the limit of 3.1 rad is told [s]: the shortest part of a step that is tried.
 const LIMIT: f64 = 1e-6;
 
@@ -322,16 +572,31 @@ fn regress_no_step_passes_the_limit() {
     }
 }
 
+/// Steps of the paper's rotor that lost its energy when they were taken as given [s].
+const UNSTABLE: [f64; 3] = [0.014, 0.02, 0.2];
+
+/// Error of r_c over l and of the axis at the default tolerance of 1e-8 [1]: measured 4.2e-7.
+const KEPT: f64 = 1.2e-6;
+
 #[test]
-fn regress_a_step_that_loses_the_energy_is_taken_back_as_a_whole() {
-    let mut named = Named::new("paper", Integrator::Method);
-    [("solver.method", 4.0), ("solver.step_size", 0.2)].iter().for_each(|(name, value)| named.set(name, *value));
-    named.start();
-    let before = named.simulation.state().expect("started");
-    let fault = named.simulation.advance(0.01).expect_err("steps that are far too long");
-    assert!(fault.to_string().contains("the energy is not kept"), "{fault}");
-    assert_eq!(named.simulation.time(), Some(0.0));
-    assert_eq!(named.simulation.state().expect("started"), before);
+fn regress_steps_that_would_lose_the_energy_are_shortened() {
+    let shown = |named: &mut Named| {
+        named.start();
+        named.simulation.advance(2.0).expect("a shorter step");
+        ["r_c.x", "r_c.y", "r_c.z", "axis.x", "axis.y", "axis.z"].map(|name| named.get(name))
+    };
+    let exact = shown(&mut spinning(50.0, [3.0, 6.0, 0.0], 1e-13));
+    for order in [2.0, 4.0, 6.0, 8.0] {
+        for size in UNSTABLE {
+            let mut named = spinning(50.0, [4.0, order, size], 1e-8);
+            let found = shown(&mut named);
+            let error = largest(found.iter().zip(&exact).map(|(a, b)| (a - b).abs()));
+            within(&format!("order {order}, {size} s"), error, KEPT);
+            assert!(named.get("solver.next_step") < 0.014, "order {order}");
+            let said = named.simulation.auto().expect("that steps are shorter than those given");
+            assert!(said.starts_with("symplectic goes on in steps of ") && said.contains("as given"), "{said}");
+        }
+    }
 }
 
 /// Energy that begins, is supplied or ends at next to nothing is not taken for energy lost: a fall from rest, a torque on a rotor

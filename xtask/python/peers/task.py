@@ -95,24 +95,35 @@ class Task:
         """The tolerances for slow peers."""
         self._rule = asked["repeats"]
         self._budget = asked["budget"]
+        self._attempts = []
+        """One for each answer, to be run again."""
 
     def steps(self):
         """Step sizes [s] that end at every point, with the number of them in a part of the span."""
         part = (self.times[-1] - self.times[0]) / self.parts[-1]
         return {part / n: n for n in (m * 10**k for k in range(5) for m in (1, 2, 5))}
 
-    def answer(self, method, parameter, values, prepare):
-        """Try each value, from loose to tight; `prepare` makes an `Attempt` of it."""
+    def answer(self, method, parameter, values, prepare, **told):
+        """Try each value, from loose to tight; `prepare` makes an `Attempt` of it. What else is `told` stands in each answer."""
         began = process_time()
         for value in values:
             if process_time() - began > self._budget:
                 break
-            line = {"version": self._version, "method": method, "parameter": parameter, "value": value}
+            line = {"version": self._version, "method": method, "parameter": parameter, "value": value, **told}
+            attempt = None
             try:
-                line |= self._measured(prepare(value))
+                attempt = prepare(value)
+                line |= self._measured(attempt)
             except Exception as failure:  # whatever a peer raises is its answer
                 line["failure"] = f"{type(failure).__name__}: {failure}"
+            self._attempts.append(attempt)
             print(json.dumps(line), file=ANSWERS, flush=True)
+
+    def answer_again(self):
+        """After an empty line, the time of one more run for each answer whose number, from 0, is read: `interleaved.rs`."""
+        print(file=ANSWERS, flush=True)
+        for number in sys.stdin:
+            print(_time(self._attempts[int(number)]), file=ANSWERS, flush=True)
 
     def _measured(self, attempt):
         attempt.reset()
@@ -141,14 +152,19 @@ class Task:
             or repeats >= rule["most"]
             or (repeats >= rule["least"] and spent >= rule["enough"])
         ):
-            attempt.reset()
-            began = process_time()
-            attempt.run()
-            time = process_time() - began
+            time = _time(attempt)
             least, spent, repeats = min(least, time), spent + time, repeats + 1
         return least, repeats
 
 
+def _time(attempt):
+    """What a run takes [s of CPU time]."""
+    attempt.reset()
+    began = process_time()
+    attempt.run()
+    return process_time() - began
+
+
 def read(package):
-    """The task on the standard input, for the package of this name."""
-    return Task(sys.stdin.read(), package)
+    """The task, a line on the standard input, for the package of this name."""
+    return Task(sys.stdin.readline(), package)

@@ -2,7 +2,7 @@
 
 use super::row::{Measured, OURS, Row};
 use super::sweep::{AUTO, TOLERANCE};
-use super::table::{about, methods, power, setting, short};
+use super::table::{about, methods, power, range, setting, short};
 
 /// Errors that a user may want, over the motion's own size \[1].
 pub const GOALS: [f64; 3] = [1e-3, 1e-6, 1e-9];
@@ -29,10 +29,7 @@ pub fn meaning(rows: &[Row], floor: f64) -> Option<String> {
         let adaptive = own.filter(|row| row.parameter == TOLERANCE && MEANT.contains(&row.value));
         let told = measured(adaptive).filter(|(_, m)| m.error() > floor);
         let factors: Vec<f64> = told.map(|(row, m)| m.error() / row.value).collect();
-        let ends = [f64::min, f64::max].map(|end| factors.iter().copied().reduce(end).map(short));
-        if let [Some(least), Some(most)] = ends {
-            parts.push(format!("{method} {least} to {most}"));
-        }
+        parts.extend(range(factors.into_iter()).map(|range| format!("{method} {range}")));
     }
     (!parts.is_empty()).then(|| format!("The error over the tolerance, from 1e-4 to 1e-12: {}.", parts.join(", ")))
 }

@@ -89,9 +89,10 @@ mod tests {
 
     #[test]
     fn what_it_said_is_what_it_took() {
-        let first = "auto takes dop853, and stiff as long as stability alone would hold dop853 to short steps";
+        let first =
+            "auto takes dop853: why; and it takes stiff as long as stability alone would hold it to short steps";
         let second = "auto goes on with stiff from t = 0.5 s: what changes at 1e4 rad/s would hold dop853";
-        let third = "auto goes on with dop853 from t = 0.7 s: stiff no longer saves work";
+        let third = "auto goes on with dop853 from t = 0.7 s: why";
         let said = [first, "the relative tolerance in force is 1e-8", second, third].map(str::to_owned);
         let expected =
             [None, Some("dop853"), Some("dop853"), Some("dop853, then stiff"), Some("dop853 and stiff by turns")];

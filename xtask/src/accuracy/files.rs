@@ -1,5 +1,6 @@
 //! What the command leaves behind in target/accuracy/SCENE/: accuracy.md, .csv, .json and .svg.
 
+use super::ratio::Ratios;
 use super::row::csv;
 use super::run::Setting;
 use super::span::POINTS;
@@ -56,6 +57,7 @@ fn json(scene: &Scene, result: &Accuracy) -> Result<Value> {
         },
         "sentences": sentences,
         "left_out": left_out,
+        "ratios": Ratios::of(rows, reference).map(|ratios| ratios.json()),
         "rows": sheets::objects(rows.iter().map(|row| row.columns(*scale))),
     }))
 }

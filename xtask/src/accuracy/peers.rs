@@ -1,19 +1,20 @@
 //! What a user would pick instead, measured in the same run: libraries from PyPI, each in an environment of its own, and
 //! two Rust crates. What cannot be installed is named and left out.
 
+use super::interleaved::PAIR;
 use super::motion::{Errors, Point};
 use super::reference::Reference;
-use super::repeats;
-use super::row::{Measured, Row};
+use super::row::{Measured, OURS, Row};
+use super::run::Subject;
 use super::span::{self, POINTS};
-use super::sweep;
-use crate::run::{cargo, fed, run};
+use super::{interleaved, repeats, sweep};
+use crate::run::{Conversation, cargo, run};
 use crate::{paths, python};
 use anyhow::{Context, Result};
 use indicatif::ProgressBar;
 use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
-use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::scene::Scene;
 use std::process::Command;
 
 /// The effects whose laws stand in the peers' equations.
@@ -73,14 +74,6 @@ impl Program {
     }
 }
 
-/// What peers measured.
-pub struct Peers {
-    /// Their rows.
-    pub rows: Vec<Row>,
-    /// Why there are none of some.
-    pub left_out: Vec<String>,
-}
-
 /// Why no peer can run this scene, if so.
 fn refusal(scene: &Scene) -> Option<String> {
     let unknown: Vec<_> =
@@ -89,35 +82,55 @@ fn refusal(scene: &Scene) -> Option<String> {
     (!unknown.is_empty()).then(|| format!("Peers are left out: they know {known}, not {unknown_names}."))
 }
 
-/// Runs them all.
-pub fn measure(scene: &Scene, experiment: &Experiment, reference: &Reference, progress: &ProgressBar) -> Result<Peers> {
-    if let Some(why) = refusal(scene) {
-        return Ok(Peers { rows: Vec::new(), left_out: vec![why] });
+/// Runs them all, and adds their rows to ours; why there are none of some.
+pub fn measure(subject: &Subject, reference: &Reference, rows: &mut Vec<Row>, progress: &ProgressBar) -> Vec<String> {
+    if let Some(why) = refusal(subject.scene) {
+        return vec![why];
     }
-    let task = task(scene, experiment, reference).to_string();
-    let (mut rows, mut left_out) = (Vec::new(), Vec::new());
+    let task = task(subject, reference).to_string();
+    let mut left_out = Vec::new();
     for (name, program) in PEERS {
         super::tell(progress, name);
-        match program.command().and_then(|mut command| fed(&mut command, &task)) {
-            Ok(lines) => {
-                let read = |line| row(name, line, reference).with_context(|| format!("{name} printed `{line}`"));
-                let its_rows = lines.lines().map(read).collect::<Result<Vec<_>>>()?;
-                if its_rows.iter().all(|row| row.outcome.is_err()) {
-                    let first = its_rows.first().and_then(|row| row.outcome.as_ref().err());
+        match answers(name, program, &task, subject, reference, rows) {
+            Ok(theirs) => {
+                if theirs.iter().all(|row| row.outcome.is_err()) {
+                    let first = theirs.first().and_then(|row| row.outcome.as_ref().err());
                     let why = first.map_or("it printed nothing", |why| why);
                     left_out.push(format!("{name} ran with no setting: {why}."));
                 }
-                rows.extend(its_rows);
+                rows.extend(theirs);
             }
             Err(error) => left_out.push(format!("{name} is left out: {error:#}.")),
         }
         progress.inc(1);
     }
-    Ok(Peers { rows, left_out })
+    left_out
+}
+
+/// The rows of a peer. The one that solves as a method of ours does is then timed in turn with that, whose rows are among `ours`.
+fn answers(
+    name: &str,
+    program: Program,
+    task: &str,
+    subject: &Subject,
+    reference: &Reference,
+    ours: &mut [Row],
+) -> Result<Vec<Row>> {
+    let mut peer = Conversation::with(&mut program.command()?)?;
+    peer.say(task);
+    let read = |line: &String| row(name, line, reference).with_context(|| format!("it printed `{line}`"));
+    let mut theirs = peer.paragraph()?.iter().map(read).collect::<Result<Vec<_>>>()?;
+    if name == PAIR.0 {
+        let of_method = ours.iter_mut().filter(|row| row.tool == OURS && row.method == PAIR.1);
+        interleaved::time(subject, of_method, &mut theirs, &mut peer)?;
+    }
+    peer.end()?;
+    Ok(theirs)
 }
 
 /// What every peer reads.
-fn task(scene: &Scene, experiment: &Experiment, reference: &Reference) -> Value {
+fn task(subject: &Subject, reference: &Reference) -> Value {
+    let Subject { scene, experiment, .. } = subject;
     let named = scene.variables.iter().filter_map(|variable| {
         let start = scene.starts.get(&variable.place.value_reference())?;
         Some((variable.name.clone(), json!(start)))
@@ -145,7 +158,8 @@ fn row(tool: &str, line: &str, reference: &Reference) -> Result<Row> {
     };
     let value = line["value"].as_f64().context("it lacks value")?;
     let [version, method, parameter] = [text("version")?, text("method")?, text("parameter")?];
-    Ok(Row { tool: tool.into(), version, method, order: None, parameter, value, outcome })
+    let vector_widths = ["vector_width", "vector_width_of_processor"].map(|key| line[key].as_u64());
+    Ok(Row { tool: tool.into(), version, vector_widths, method, order: None, parameter, value, outcome })
 }
 
 fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
@@ -174,6 +188,7 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
         worst,
         cpu_time: line["cpu_time"].as_f64().context("it lacks cpu_time")?,
         repeats: line["repeats"].as_u64().context("it lacks repeats")? as usize,
+        is_interleaved: false,
         steps: line["steps"].as_f64(),
         evaluations: line["evaluations"].as_f64(),
         taken: None,
@@ -183,39 +198,21 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::motion::{Relative, Sizes};
-    use crate::accuracy::sweep::with_tolerance;
+    use crate::accuracy::reference::tests::reference;
     use crate::scenes;
-
-    fn reference() -> Reference {
-        let point = Point {
-            r_c: Vector3::x(),
-            axis: Vector3::x(),
-            turns: 1.0,
-            angle: 0.5,
-            residual: 0.0,
-            energy: 3.0,
-            kinetic: 2.0,
-        };
-        let errors = Errors { r_c: 0.0, axis: 0.0, phi: 0.0, energy: 0.0 };
-        let sizes = Sizes { place: 0.5, axis: 0.0, phi: 0.0 };
-        let floor = Relative { place: 0.0, axis: 0.0, phi: 0.0 };
-        let start = Point { r_c: Vector3::new(1.0, 0.5, 0.0), ..point };
-        let [setting, check] = ["dop853", "dopri5"].map(|method| with_tolerance(method, 1e-14));
-        Reference { setting, check, start, points: vec![point; 2], sizes, agreement: [errors; 2], floor }
-    }
 
     #[test]
     fn a_line_of_a_peer_becomes_a_row() {
         let phi = std::f64::consts::TAU + 0.5 + 1e-6;
         let line = json!({
             "version": "1.0", "method": "RK", "parameter": "step", "value": 0.01, "cpu_time": 0.2, "repeats": 4,
-            "steps": 7, "evaluations": null,
+            "vector_width": 1, "steps": 7, "evaluations": null,
             "r_c": [[null, null, null], [1.0, 1e-3, 0.0]], "axis": [[null, null, null], [1.0, 0.0, 1e-5]],
             "phi": [phi, phi], "energy": [3.0, 3.5],
         });
-        let row = row("peer", &line.to_string(), &reference()).unwrap();
+        let row = row("peer", &line.to_string(), &reference(0.0)).unwrap();
         assert_eq!((row.tool.as_str(), row.method.as_str(), row.value), ("peer", "RK", 0.01));
+        assert_eq!(row.vector_widths, [Some(1), None]);
         let m = row.outcome.unwrap();
         assert_eq!((m.end.r_c, m.end.energy, m.cpu_time, m.repeats), (1e-3, 0.5, 0.2, 4));
         assert!((m.end.axis - 1e-5).abs() < 1e-14 && (m.end.phi - 1e-6).abs() < 1e-14, "{m:?}");
@@ -228,8 +225,8 @@ mod tests {
     #[test]
     fn a_failure_of_a_peer_is_a_row_that_says_why() {
         let line = r#"{"version": "1.0", "method": "RK", "parameter": "step", "value": 1.0, "failure": "it fell"}"#;
-        assert_eq!(row("peer", line, &reference()).unwrap().outcome.unwrap_err(), "it fell");
-        assert!(row("peer", "{}", &reference()).is_err());
+        assert_eq!(row("peer", line, &reference(0.0)).unwrap().outcome.unwrap_err(), "it fell");
+        assert!(row("peer", "{}", &reference(0.0)).is_err());
     }
 
     #[test]

@@ -76,3 +76,28 @@ fn tightest(subject: &Subject, method: &'static str) -> (Setting, Result<Run>) {
     }
     last
 }
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    /// Of two points that are alike, with this much that cannot be told of place \[1] and axis \[rad].
+    pub fn reference(floor: f64) -> Reference {
+        let point = Point {
+            r_c: Vector3::x(),
+            axis: Vector3::x(),
+            turns: 1.0,
+            angle: 0.5,
+            residual: 0.0,
+            energy: 3.0,
+            kinetic: 2.0,
+        };
+        let errors = Errors { r_c: 0.0, axis: 0.1 * floor, phi: 0.0, energy: 0.0 };
+        let sizes = Sizes { place: 0.5, axis: 0.0, phi: 0.0 };
+        let floor = Relative { place: floor, axis: 0.0, phi: 0.0 };
+        let start = Point { r_c: Vector3::new(1.0, 0.5, 0.0), ..point };
+        let [setting, check] = METHODS.map(|method| sweep::with_tolerance(method, 1e-14));
+        Reference { setting, check, start, points: vec![point; 2], sizes, agreement: [errors; 2], floor }
+    }
+}

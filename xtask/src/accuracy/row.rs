@@ -15,6 +15,8 @@ pub struct Row {
     pub tool: String,
     /// The tool's version.
     pub version: String,
+    /// How many motions the tool integrates at once, in a vector, and for how many the processor has room, where it tells.
+    pub vector_widths: [Option<u64>; 2],
     /// The method.
     pub method: String,
     /// Its order, where that was chosen.
@@ -42,6 +44,8 @@ pub struct Measured {
     pub cpu_time: f64,
     /// How many repeats.
     pub repeats: usize,
+    /// Whether they were made in turn with those of another tool.
+    pub is_interleaved: bool,
     /// Accepted steps, where they are told.
     pub steps: Option<f64>,
     /// Evaluations of the right-hand side, where they are told.
@@ -79,6 +83,8 @@ impl Row {
         vec![
             ("tool", json!(self.tool)),
             ("version", json!(self.version)),
+            ("vector_width", json!(self.vector_widths[0])),
+            ("vector_width_of_processor", json!(self.vector_widths[1])),
             ("method", json!(self.method)),
             ("order", json!(self.order)),
             ("parameter", json!(self.parameter)),
@@ -102,6 +108,7 @@ impl Row {
             ("worst_energy_drift_J", number(&|m| m.worst.energy)),
             ("cpu_time_s", number(&|m| m.cpu_time)),
             ("repeats", json!(measured.map(|m| m.repeats))),
+            ("interleaved", json!(measured.map(|m| m.is_interleaved))),
             ("real_time_factor", number(&|m| scale.simulated / m.cpu_time)),
             ("evaluations", optional(&|m| m.evaluations)),
             ("steps", optional(&|m| m.steps)),
@@ -130,12 +137,13 @@ pub mod tests {
             worst: errors,
             cpu_time,
             repeats: 5,
+            is_interleaved: false,
             steps: Some(7.0),
             evaluations: None,
             taken: None,
         };
         let (tool, version, method, parameter) = (tool.into(), "1.0".into(), method.into(), "tolerance".into());
-        Row { tool, version, method, order: None, parameter, value, outcome: Ok(measured) }
+        Row { tool, version, vector_widths: [None; 2], method, order: None, parameter, value, outcome: Ok(measured) }
     }
 
     #[test]
@@ -145,10 +153,10 @@ pub mod tests {
         let text = csv(&[row("split-rotor", "m", 1e-3, 1e-6, 0.5), failed], scale);
         let lines: Vec<_> = text.lines().collect();
         assert_eq!(lines.len(), 3);
-        assert!(lines[0].starts_with("tool,version,method,order,parameter,value,error,error_told,place_error,"));
+        assert!(lines[0].starts_with("tool,version,vector_width,vector_width_of_processor,method,order,"));
         let ours: Vec<_> = lines[1].split(',').collect();
         assert_eq!(ours.len(), lines[0].split(',').count());
-        assert_eq!(ours[..8], ["split-rotor", "1.0", "m", "", "tolerance", "0.001", "1e-6", "true"]);
+        assert_eq!(ours[..10], ["split-rotor", "1.0", "", "", "m", "", "tolerance", "0.001", "1e-6", "true"]);
         let column = |name| ours[lines[0].split(',').position(|column| column == name).unwrap()];
         assert_eq!(["place_error", "axis_error", "phi_error"].map(column), ["1e-6", "0.0", ""]);
         assert_eq!(["simulated_s", "scene_s"].map(column), ["10.0", "60.0"]);

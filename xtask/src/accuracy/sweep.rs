@@ -40,12 +40,12 @@ const LATE: f64 = 0.5 * PATIENCE;
 /// Steps are so many halves of a halving apart, from four times what suits a tolerance of 1e-6 to a sixteenth of it.
 const STEPS: std::ops::RangeInclusive<i32> = -4..=8;
 
-/// 1e-3, 5e-4, 2e-4, 1e-4, … 1e-14: so many of them as fill the powers of ten in between.
+/// 1e-2, 5e-3, 2e-3, 1e-3, … 1e-14: so many of them as fill the powers of ten in between.
 pub fn tolerances() -> Vec<f64> {
     // Written out and read, so that each is the number that a user would type.
     let read = |text: String| text.parse().expect("a number");
     let decade = |n: u32| [format!("1e-{n}"), format!("5e-{}", n + 1), format!("2e-{}", n + 1)].map(read);
-    (3..14).flat_map(decade).chain([1e-14]).collect()
+    (2..14).flat_map(decade).chain([1e-14]).collect()
 }
 
 /// The tolerances of the sweep: tighter ones are left to the reference.
@@ -58,13 +58,21 @@ pub fn with_tolerance(method: &'static str, value: f64) -> Setting {
     Setting { method, order: None, parameter: TOLERANCE, value }
 }
 
+/// The methods that the FMU lists; `auto`, which is one of the others, comes last.
+fn methods() -> impl Iterator<Item = &'static str> {
+    METHODS.items.iter().map(|item| item.1).filter(|method| *method != AUTO).chain([AUTO])
+}
+
+/// Those whose accuracy a tolerance chooses.
+pub fn with_a_tolerance() -> impl Iterator<Item = &'static str> {
+    methods().filter(|method| *method != SYMPLECTIC)
+}
+
 /// The settings of all methods, a curve each, from loose to tight.
 pub fn curves(subject: &Subject) -> Vec<Vec<Setting>> {
     let mut curves = Vec::new();
     let mean = mean_step(subject);
-    // `auto`, which is one of the others, comes last.
-    let methods = METHODS.items.iter().map(|item| item.1).filter(|method| *method != AUTO);
-    for method in methods.chain([AUTO]) {
+    for method in methods() {
         if method == SYMPLECTIC {
             for order in ORDERS {
                 // At the start it may not see what is to come; and on the way dop853 may follow what it need not.
@@ -136,6 +144,7 @@ fn row(setting: &Setting, outcome: Result<Measured, String>) -> Row {
     Row {
         tool: OURS.into(),
         version: env!("CARGO_PKG_VERSION").into(),
+        vector_widths: [None; 2],
         method: setting.method.into(),
         order: setting.order,
         parameter: setting.parameter.into(),
@@ -156,6 +165,7 @@ fn try_measure(subject: &Subject, setting: &Setting, reference: &Reference) -> R
         worst,
         cpu_time,
         repeats,
+        is_interleaved: false,
         steps: Some(steps),
         evaluations: Some(evaluations),
         taken: auto::taken(&said),
@@ -181,7 +191,7 @@ mod tests {
     #[test]
     fn tolerances_are_those_that_a_user_types() {
         let all = tolerances();
-        assert_eq!(all[..4], [1e-3, 5e-4, 2e-4, 1e-4]);
+        assert_eq!(all[..4], [1e-2, 5e-3, 2e-3, 1e-3]);
         assert_eq!(all[all.len() - 4..], [1e-13, 5e-14, 2e-14, 1e-14]);
         assert!(all.is_sorted_by(|looser, tighter| looser > tighter));
     }
@@ -212,9 +222,9 @@ mod tests {
             || (),
         );
         // Down to 1e-5, and the first below it.
-        assert_eq!((tried.len(), tried.last()), (8, Some(&5e-6)));
+        assert_eq!((tried.len(), tried.last()), (11, Some(&5e-6)));
         // Then one in a decade is named.
-        assert_eq!(refused.len(), 8 + 8);
+        assert_eq!(refused.len(), 11 + 8);
         let last = refused.last().unwrap();
         assert_eq!((last.value, last.outcome.as_ref().unwrap_err().as_str()), (1e-13, "left out: 5e-6 takes too long"));
     }

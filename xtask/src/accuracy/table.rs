@@ -1,21 +1,24 @@
 //! The result in words and Markdown tables: what the terminal shows, and what the documents quote.
 
 use super::Accuracy;
-use super::advice::{self, GOALS, at_least};
-use super::row::{OURS, Row, Scale};
+use super::advice;
+use super::ratio::Ratios;
+use super::row::{Measured, OURS, Row};
 use super::run::Setting;
-use super::sweep::STEP;
-use std::fmt::Write;
+use super::span::POINTS;
+use super::sweep::AUTO;
 
-/// Everything, for people.
+/// The errors of the table.
+const DECADES: [f64; 10] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
+
+/// For people: tables first, then sentences, then what they rest on.
 pub fn report(result: &Accuracy) -> String {
     let Accuracy { reference, rows, scale, .. } = result;
     let (agreed, sizes) = (&reference.floor, &reference.sizes);
     let name = |setting: &Setting| format!("{} at {}", setting.method, power(setting.value));
-    let mut text = format!(
+    let found_on = format!(
         "The place moves by {} m across e, the axis by {} rad, φ by {} rad: errors are relative to that. The reference is {}, \
-         checked by {}: at worst they differ by {} in place, {} in axis and {} in φ. No smaller error can be told: it is given \
-         as `<`.\n",
+         checked by {}: at worst they differ by {} in place, {} in axis and {} in φ. No smaller error can be told.",
         short(sizes.place),
         short(sizes.axis),
         short(sizes.phi),
@@ -27,26 +30,45 @@ pub fn report(result: &Accuracy) -> String {
     );
     // In Markdown, each sentence is an item.
     let sentences = result.sentences.iter().chain(&result.left_out).map(|sentence| format!("- {sentence}\n"));
-    for part in [overview(rows, *scale), sentences.collect(), decades(result)] {
-        write!(text, "\n{}\n", part.trim_end()).expect("a String can be written to");
-    }
-    text
+    let parts = [
+        Some(decades(rows, scale.floor)),
+        Ratios::of(rows, reference).map(|ratios| ratios.table()),
+        Some(sentences.collect()),
+        Some(found_on),
+    ];
+    parts.into_iter().flatten().map(|part| part.trim_end().to_owned() + "\n").collect::<Vec<_>>().join("\n")
 }
 
-/// What each method needs for each goal.
-fn overview(rows: &[Row], scale: Scale) -> String {
-    let mut text = "| CPU time [ms] for an error of at most".to_owned();
-    text += &GOALS.map(|goal| format!(" | {}", power(goal))).concat();
-    text += " |\n|---|--:|--:|--:|\n";
-    for (tool, method) in methods(rows) {
-        let own = || rows.iter().filter(|row| row.tool == tool && row.method == method);
-        let cell = |goal: f64| match advice::cheapest(own(), goal) {
-            Some((row, m)) if goal > scale.floor => format!(" | {} ({})", short(1e3 * m.cpu_time), shown(row)),
-            _ => " | -".into(),
-        };
-        writeln!(text, "| {tool} {method}{} |", GOALS.map(cell).concat()).expect("a String can be written to");
+/// What each power of ten costs that can be told: with the two cheapest of our methods, with `auto`, which is one of them, and with
+/// the cheapest of all others that show the whole motion.
+fn decades(rows: &[Row], floor: f64) -> String {
+    let peers: Vec<_> =
+        rows.iter().filter(|row| row.tool != OURS && row.outcome.as_ref().is_ok_and(|m| m.told == POINTS)).collect();
+    let ours: Vec<_> = methods(rows).into_iter().filter(|(tool, _)| *tool == OURS).map(|(_, method)| method).collect();
+    let mut text = "| error of at most | cheapest method | next method | `auto` |".to_owned();
+    text += if peers.is_empty() { "\n|--:|---|---|---|\n" } else { " cheapest peer |\n|--:|---|---|---|---|\n" };
+    let cell = |name: &str, found: Option<(&Row, &Measured)>| match found {
+        Some((row, m)) => format!(" {} ms, {name}{} |", short(1e3 * m.cpu_time), shown(row)),
+        None => " - |".into(),
+    };
+    for goal in DECADES.into_iter().filter(|goal| *goal > floor) {
+        let with =
+            |name: &str| advice::cheapest(rows.iter().filter(|row| row.tool == OURS && row.method == name), goal);
+        let mut best: Vec<_> = ours.iter().filter(|name| **name != AUTO).filter_map(|name| with(name)).collect();
+        best.sort_by(|(_, a), (_, b)| a.cpu_time.total_cmp(&b.cpu_time));
+        let [cheapest, next] = [0, 1].map(|n| best.get(n).copied());
+        let mut line = format!("| {} |", power(goal));
+        for found in [cheapest, next] {
+            line += &cell(&found.map_or(String::new(), |(row, _)| format!("{} ", row.method)), found);
+        }
+        line += &cell("", with(AUTO));
+        if !peers.is_empty() {
+            let found = advice::cheapest(peers.iter().copied(), goal);
+            line += &cell(&found.map_or(String::new(), |(row, _)| format!("{} {} ", row.tool, row.method)), found);
+        }
+        text += &(line + "\n");
     }
-    text + "\nIn brackets the setting: a tolerance, or a step [s] where a method has a fixed one, after the order.\n"
+    text
 }
 
 /// Tools and methods in the order of the rows.
@@ -54,46 +76,6 @@ pub fn methods(rows: &[Row]) -> Vec<(&str, &str)> {
     let mut found: Vec<(&str, &str)> = rows.iter().map(|row| (row.tool.as_str(), row.method.as_str())).collect();
     found.dedup();
     found
-}
-
-/// Our rows at powers of ten, and what went wrong.
-fn decades(result: &Accuracy) -> String {
-    let Accuracy { rows, scale, reference, .. } = result;
-    let floor = &reference.floor;
-    let mut text =
-        "| method | setting | error | place | axis | φ | energy | evaluations | CPU time [ms] | × real time |\n\
-                    |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
-            .to_owned();
-    let is_shown = |row: &&Row| match row.parameter.as_str() {
-        STEP => is_best(row, rows),
-        _ => power(row.value).starts_with("1e"),
-    };
-    for row in rows.iter().filter(|row| row.tool == OURS).filter(is_shown) {
-        let cells = match &row.outcome {
-            Ok(m) => [
-                at_least(m.error(), scale.floor),
-                at_least(m.relative.place, floor.place),
-                at_least(m.relative.axis, floor.axis),
-                at_least(m.relative.phi, floor.phi),
-                short(m.worst.energy / scale.energy),
-                m.evaluations.map_or("-".into(), count),
-                short(1e3 * m.cpu_time),
-                about(scale.simulated / m.cpu_time),
-            ]
-            .join(" | "),
-            Err(why) => why.replace('|', "\\|"),
-        };
-        writeln!(text, "| {} | {} | {cells} |", row.method, shown(row)).expect("a String can be written to");
-    }
-    text
-}
-
-/// Whether no other row of the same method is better in both error and time.
-fn is_best(row: &Row, rows: &[Row]) -> bool {
-    let told = |row: &Row| row.outcome.as_ref().ok().map(|m| (m.cpu_time, m.error()));
-    let Some((time, error)) = told(row) else { return false };
-    let better = |other: &&Row| told(other).is_some_and(|(t, e)| t < time && e <= error);
-    !rows.iter().filter(|other| other.tool == row.tool && other.method == row.method).any(|other| better(&other))
 }
 
 /// How the setting of a row stands in a table: `1e-7`, or `order 4, 2e-3`.
@@ -120,6 +102,13 @@ pub fn short(value: f64) -> String {
         _ if value < 10.0 => format!("{value:.1}"),
         _ => format!("{value:.0}"),
     }
+}
+
+/// From the least of these numbers to the most.
+pub fn range(values: impl Iterator<Item = f64> + Clone) -> Option<String> {
+    let [least, most] = [f64::min, f64::max].map(|end| values.clone().reduce(end).map(short));
+    let (least, most) = (least?, most?);
+    Some(if least == most { least } else { format!("{least} to {most}") })
 }
 
 /// A setting as a user types it: `1e-7`, `2e-8`, `0.001`.
@@ -150,6 +139,39 @@ mod tests {
     fn a_setting_is_shown_as_short_as_it_is() {
         let at = |value| shown(&row(OURS, "m", value, 1.0, 1.0));
         assert_eq!([1e-7, 2e-13, 10.0 / 997.0].map(at), ["1e-7", "2e-13", "1.0e-2"]);
+    }
+
+    #[test]
+    fn each_decade_has_the_cheapest_methods() {
+        let end_only = |mut row: Row| {
+            row.outcome.as_mut().unwrap().told = 1;
+            row
+        };
+        let mut rows = vec![
+            row(OURS, "a", 1e-2, 5e-3, 1e-3),
+            row(OURS, "a", 1e-4, 5e-4, 3e-3),
+            row(OURS, "b", 1e-3, 1e-3, 2e-3),
+            row(OURS, "c", 1e-3, 1e-3, 9e-3),
+            row(OURS, AUTO, 1e-3, 1e-3, 5e-3),
+        ];
+        let lines = |rows: &[Row]| decades(rows, 1e-5).lines().map(str::to_owned).collect::<Vec<_>>();
+        let own = lines(&rows);
+        assert_eq!(
+            own[2..],
+            [
+                "| 1e-2 | 1.0 ms, a 1e-2 | 2.0 ms, b 1e-3 | 5.0 ms, 1e-3 |",
+                "| 1e-3 | 2.0 ms, b 1e-3 | 3.0 ms, a 1e-4 | 5.0 ms, 1e-3 |",
+                "| 1e-4 | - | - | - |",
+            ]
+        );
+        rows.extend([row("peer", "d", 1e-6, 1e-3, 4e-3), end_only(row("peer", "e", 1e-6, 1e-9, 1e-6))]);
+        assert_eq!(
+            lines(&rows)[3..],
+            [
+                "| 1e-3 | 2.0 ms, b 1e-3 | 3.0 ms, a 1e-4 | 5.0 ms, 1e-3 | 4.0 ms, peer d 1e-6 |",
+                "| 1e-4 | - | - | - | - |"
+            ]
+        );
     }
 
     #[test]

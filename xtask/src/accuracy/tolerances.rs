@@ -1,10 +1,11 @@
 //! `accuracy --tolerances`: the error over the tolerance of all scenes, as docs/accuracy/tolerances.csv and as a table in
 //! docs/accuracy.md.
 
+use super::advice::at_least;
 use super::motion::Relative;
 use super::reference::Reference;
 use super::run::Subject;
-use super::table::{power, short};
+use super::table::{power, range};
 use super::{bar, span, sweep, tell};
 use crate::unpacked::unpack;
 use crate::{package, paths, scenes, sheets};
@@ -13,9 +14,6 @@ use serde_json::{Value, json};
 use split_rotor_model::scene::Scene;
 use std::fmt::Write;
 use std::fs;
-
-/// The methods that have a tolerance.
-const METHODS: [&str; 4] = [sweep::DOPRI5, "dop853", "stiff", sweep::AUTO];
 
 /// The tolerances at which they run.
 const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
@@ -80,7 +78,8 @@ fn measure(name: &str) -> Result<Measured> {
         let relative = run.map(|run| (reference.relative(&run.points), run.costs[2]));
         Found { method, tolerance, outcome: relative.map_err(|error| format!("{error:#}")) }
     };
-    let found = METHODS.iter().flat_map(|method| TOLERANCES.map(|tolerance| run(*method, tolerance))).collect();
+    let found =
+        sweep::with_a_tolerance().flat_map(|method| TOLERANCES.map(|tolerance| run(method, tolerance))).collect();
     let spans = [subject.experiment, scene.experiment].map(|experiment| experiment.stop - experiment.start);
     Ok(Measured { scene: name.into(), spans, floor: reference.floor, found })
 }
@@ -107,30 +106,36 @@ impl Measured {
         })
     }
 
-    /// The error over the tolerance, `<` where it cannot be told, `none` where the run failed or took too long.
-    fn cell(&self, found: &Found) -> String {
-        let Ok((errors, _)) = &found.outcome else { return "none".into() };
+    /// The least and the most error over the tolerance where it can be told, the loosest bound on it where it nowhere can, and at
+    /// which tolerances the run did not end.
+    fn cell(&self, of_method: &[Found]) -> String {
         let floor = self.floor.worst();
-        let sign = if errors.worst() <= floor && floor > 0.0 { "< " } else { "" };
-        sign.to_owned() + &short(errors.worst().max(floor) / found.tolerance)
+        let ended =
+            of_method.iter().filter_map(|found| Some((found.outcome.as_ref().ok()?.0.worst(), found.tolerance)));
+        let told = ended.clone().filter(|(error, _)| *error > floor).map(|(error, tolerance)| error / tolerance);
+        let errors = range(told).or_else(|| Some(at_least(0.0, floor / ended.clone().next()?.1)));
+        let failed = of_method.iter().filter(|found| found.outcome.is_err());
+        let none = failed.map(|found| format!("none at {}", power(found.tolerance)));
+        errors.into_iter().chain(none).collect::<Vec<_>>().join(", ")
     }
 }
 
-/// A row a scene, a column a method; a cell has the errors from the loosest to the tightest tolerance.
+/// A row a scene, a column a method.
 fn table(all: &[Measured]) -> String {
     let tolerances = TOLERANCES.map(power).join(", ");
     let mut text = format!(
-        "The error over the tolerance, at {tolerances} (`none`: the run did not end; why is in the CSV):\n\n| scene | s run | of s |"
+        "The error over the tolerance, least to most of {tolerances} (`<`: it cannot be told, so much at {}; `none`: the run did \
+         not end, why is in the CSV):\n\n| scene | s run | of s |",
+        power(TOLERANCES[0]),
     );
-    text += &METHODS.map(|method| format!(" {method} |")).concat();
+    text += &sweep::with_a_tolerance().map(|method| format!(" {method} |")).collect::<String>();
     text += "\n|---|--:|--:|";
-    text += &"---|".repeat(METHODS.len());
+    text += &"---|".repeat(sweep::with_a_tolerance().count());
     for measured in all {
         let [some, all] = measured.spans;
         write!(text, "\n| `{}` | {some} | {all} |", measured.scene).expect("a String can be written to");
         for of_method in measured.found.chunks(TOLERANCES.len()) {
-            let cells: Vec<_> = of_method.iter().map(|found| measured.cell(found)).collect();
-            write!(text, " {} |", cells.join(", ")).expect("a String can be written to");
+            write!(text, " {} |", measured.cell(of_method)).expect("a String can be written to");
         }
     }
     text + "\n"
@@ -150,9 +155,9 @@ mod tests {
 
     fn measured() -> Measured {
         let errors = |place: f64| Relative { place, axis: 1e-9, phi: 0.0 };
-        let found = METHODS.iter().flat_map(|method| {
+        let found = sweep::with_a_tolerance().flat_map(|method| {
             TOLERANCES.map(|tolerance| {
-                let refused = *method == "stiff" && tolerance == 1e-4;
+                let refused = method == "stiff" && tolerance == 1e-4;
                 let outcome = if refused { Err("no".into()) } else { Ok((errors(3.0 * tolerance), 7.0)) };
                 Found { method, tolerance, outcome }
             })
@@ -164,7 +169,7 @@ mod tests {
     #[test]
     fn a_row_has_the_worst_error_over_each_tolerance() {
         let rows: Vec<_> = measured().rows().collect();
-        assert_eq!(rows.len(), 16);
+        assert_eq!(rows.len(), 20);
         let csv = sheets::csv(&rows);
         let line = |n: usize| csv.lines().nth(n).unwrap();
         assert!(line(0).starts_with("scene,simulated_s,scene_s,method,tolerance,error_over_tolerance,"), "{csv}");
@@ -175,8 +180,26 @@ mod tests {
         assert!((number(3, "error_over_tolerance").unwrap() - 10.0).abs() < 1e-12);
         assert_eq!(number(8, "error_over_tolerance"), None);
         let table = table(&[measured()]);
-        let cells = "| `some` | 2 | 6 | 3.0, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 | none, 3.0, 3.0, < 10 | 3.0, 3.0, 3.0, < 10 |";
+        assert!(table.contains("| scene | s run | of s | dopri5 | dop853 | stiff | taylor | auto |"), "{table}");
+        let cells = "| `some` | 2 | 6 | 3.0 | 3.0 | 3.0, none at 1e-4 | 3.0 | 3.0 |";
         assert_eq!(table.lines().last(), Some(cells));
+    }
+
+    #[test]
+    fn a_cell_has_what_can_be_told() {
+        let found = |outcomes: [Option<f64>; 4]| {
+            let errors = |place| (Relative { place, axis: 0.0, phi: 0.0 }, 7.0);
+            let of = |(outcome, tolerance): (Option<f64>, f64)| Found {
+                method: "some",
+                tolerance,
+                outcome: outcome.map(errors).ok_or("no".into()),
+            };
+            outcomes.into_iter().zip(TOLERANCES).map(of).collect::<Vec<_>>()
+        };
+        let cell = |outcomes| measured().cell(&found(outcomes));
+        assert_eq!(cell([Some(2e-4), Some(5e-6), Some(4e-8), Some(1e-10)]), "2.0 to 5.0");
+        assert_eq!(cell([Some(2e-4), Some(0.0), None, None]), "2.0, none at 1e-8, none at 1e-10");
+        assert_eq!(cell([Some(1e-9), Some(0.0), Some(0.0), Some(0.0)]), "< 1.0e-5");
     }
 
     #[test]

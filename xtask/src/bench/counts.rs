@@ -1,7 +1,7 @@
 //! Instructions of the right-hand side, of the methods' steps and of fmi2DoStep, counted by gungraun
 //! (`benches/instructions.rs`).
 
-use super::operations::{Operations, own_multiply_adds};
+use super::operations::{Operations, of_recurrences, own_multiply_adds};
 use super::{cargo_bench, head, scenes, target};
 use crate::run::{cargo, output, run};
 use crate::{c, paths};
@@ -80,10 +80,30 @@ pub fn print() -> Result<Vec<String>> {
                 broken.push(format!("{scene}, {}: {} instructions", count.what(), count.instructions));
             }
         }
+        series(&scene, &counts)?;
     }
     // The same with every scene.
     arithmetic(&counts, &mut broken)?;
     Ok(broken)
+}
+
+/// A step by power series, and the scene in which it has no sums but those of the axis and of θ/sin θ.
+const BY_SERIES: (&str, &str) = ("step_by_series", "paper");
+
+/// Prints the arithmetic of steps by power series beside that of the axis's recurrences.
+fn series(scene: &str, counts: &[Count]) -> Result<()> {
+    let mut steps = counts.iter().filter(|count| count.function == BY_SERIES.0 && scene == BY_SERIES.1).peekable();
+    if steps.peek().is_some() {
+        let columns = ["executed", "of the recurrences of the axis", "ratio", "instructions", "instructions each"];
+        println!("{}", head(&[&["multiply-adds of a step by series"], columns.as_slice()].concat()));
+    }
+    for Count { with, instructions, program, account, .. } in steps {
+        let order = with.trim_start_matches("order_").parse().with_context(|| format!("{with} is no order"))?;
+        let (executed, own) = (Operations::read(program, account)?.multiply_adds(), of_recurrences(order));
+        let (ratio, each) = (executed / own, instructions / executed);
+        println!("| order {order} | {executed} | {own} | {ratio:.2} | {instructions} | {each:.2} |");
+    }
+    Ok(())
 }
 
 /// Prints the methods' own arithmetic beside that of their tableaux.

@@ -74,6 +74,17 @@ fn executed<'a>(account: &'a str, program: &'a Path) -> impl Iterator<Item = (u6
     })
 }
 
+/// The multiply-adds of the recurrences of the axis up to this order, where the spin is constant and nothing follows the tilt: eqs. 104
+/// to 106 of docs/theory.md.
+pub fn of_recurrences(order: usize) -> f64 {
+    let of_power = |n: usize| {
+        // Of λ t and q e·t, n; of each pair of powers that n + 2 is made of, t_a×t_b (weighed) and t_a·t_b.
+        let pairs = n.div_ceil(2);
+        4 * n + 12 * pairs
+    };
+    (0..order).map(of_power).sum::<usize>() as f64
+}
+
 /// The multiply-adds of a step's stages: each coefficient that is not zero, in each equation.
 pub fn own_multiply_adds(method: &str) -> Result<f64> {
     let tableaux = [("dopri5", &DOPRI5), ("dop853", &DOP853)];

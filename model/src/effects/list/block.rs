@@ -42,9 +42,14 @@ pub struct Kind {
 }
 
 impl Kind {
+    /// The name of its block.
+    pub fn block_name(&self) -> String {
+        block_name(self.name, self.several, self.index)
+    }
+
     /// The full name of its variable that has this name within its block.
     pub fn full_name(&self, name: &str) -> String {
-        full_name(&block_name(self.name, self.several, self.index), name)
+        full_name(&self.block_name(), name)
     }
 
     /// The full name of its switch.

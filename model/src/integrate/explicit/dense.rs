@@ -59,6 +59,11 @@ impl<const N: usize> Explicit<N> {
         self.segment.rough = self.roughness(system) > ROUGH;
     }
 
+    /// Whether the last step, prepared, is of no use between its ends.
+    pub fn is_rough(&self) -> bool {
+        self.segment.rough
+    }
+
     /// The last term of the polynomial in the middle of the step, in units of the tolerance \[1].
     fn roughness(&self, system: &impl System<N>) -> f64 {
         let Segment { h, y, r, .. } = &self.segment;

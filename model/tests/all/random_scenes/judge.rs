@@ -6,6 +6,7 @@ use super::truth::{Measures, Truth, over};
 use crate::harness::largest;
 use std::f64::consts::TAU;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
 
 /// The tolerances that are tried.
 pub const TOLERANCES: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
@@ -31,7 +32,7 @@ pub struct Verdict {
     pub evaluations: f64,
     /// What the ledger of the energy leaves over at the end [1].
     pub residual: f64,
-    /// What it took [s].
+    /// What it took after its start [s].
     pub seconds: f64,
 }
 
@@ -43,11 +44,12 @@ impl Verdict {
 
     /// Of a method of ours at a relative and an absolute tolerance.
     pub fn within(trial: &Trial, truth: &Truth, method: Method, tolerances: [f64; 2]) -> Self {
-        let began = std::time::Instant::now();
-        let (mut name, mut evaluations, mut residual) = (method.name(), 0.0, 0.0);
+        let (mut name, mut evaluations, mut residual, mut seconds) = (method.name(), 0.0, 0.0, 0.0);
         let run = || {
             let mut ours = Ours::start(trial, method, tolerances)?;
+            let began = Instant::now();
             let shown = play(trial, &mut ours);
+            seconds = began.elapsed().as_secs_f64();
             name = ours.auto().unwrap_or(name.clone());
             evaluations = ours.evaluations();
             residual = ours.residual();
@@ -60,7 +62,6 @@ impl Verdict {
         let allowed = ALLOWED * tolerance * truth.growth.max(1.0).max(nutations / NUTATIONS);
         let errors = shown.map(|shown| over(truth.differences(trial, &shown), truth.sizes));
         let worst = errors.as_ref().map_or(f64::INFINITY, |errors| largest(*errors) / allowed);
-        let seconds = began.elapsed().as_secs_f64();
         Self { tolerance, method: name, errors, worst, evaluations, residual, seconds }
     }
 

@@ -4,6 +4,7 @@
 //! scene, whose number the table has: three digits that count it within its seed, before them the seed. Seed 0 are those that
 //! are always among them. `UPDATE_GOLDEN=1` writes the table of `docs/random-scenes.md`.
 
+mod cost;
 mod dice;
 mod draw;
 mod fixed;
@@ -86,8 +87,8 @@ fn judge(numbers: impl Iterator<Item = u64>, method: Method) {
     let spent = pairs().map(|(_, verdict)| verdict.seconds).sum::<f64>();
     println!("{} scenes in {:.1} s, {spent:.1} s of them ours", rows.len(), began.elapsed().as_secs_f64());
     println!("\n{}\n", report::worst(&rows));
-    if std::env::var_os("UPDATE_GOLDEN").is_some_and(|value| value == "1") && method == Method::Auto {
-        report::write(&rows);
+    if report::is_to_write() && method == Method::Auto {
+        report::write("random-scenes.md", "<!-- worst -->", &report::worst(&rows));
     }
     let (mut wrong, mut refused) = (Vec::new(), 0);
     for (row, verdict) in pairs() {
@@ -132,6 +133,27 @@ fn exact_auto_keeps_its_tolerance_in_the_scenes_of_the_day() {
     let seed = asked("SPLIT_ROTOR_SEED").unwrap_or_else(day);
     println!("SPLIT_ROTOR_SEED={seed}");
     judge((0..OF_A_DAY).map(|n| number(seed, n)), Method::Auto);
+}
+
+/// Scenes whose cost is measured.
+const COSTED: u64 = 200;
+
+#[test]
+#[ignore = "it measures times"]
+fn what_auto_costs_beside_the_best_method() {
+    let count = asked("SPLIT_ROTOR_COUNT").unwrap_or(COSTED);
+    let numbers = (0..count).map(|n| number(SEEDS[1], n * OF_A_SEED / count));
+    let mut costs: Vec<_> = numbers
+        .flat_map(|number| {
+            let (trial, truth) = fit(number);
+            cost::of(number, &trial, &truth)
+        })
+        .collect();
+    let table = cost::table(&mut costs);
+    println!("{table}");
+    if report::is_to_write() {
+        report::write("accuracy.md", "<!-- auto -->", &table);
+    }
 }
 
 /// Where what acts alone made `auto` and `symplectic` drift on: so many of the scenes that are always there.

@@ -139,7 +139,7 @@ impl Ours {
         let named = |name: &&str| {
             said.starts_with(&format!("auto takes {name}")) || said.starts_with(&format!("auto goes on with {name}"))
         };
-        let method = ["symplectic", "stiff", "dop853"].into_iter().find(named)?;
+        let method = ["symplectic", "stiff", "dop853", "taylor"].into_iter().find(named)?;
         Some(format!("{method}, {} changes", self.named.simulation.changes_of_method()))
     }
 

@@ -62,13 +62,17 @@ pub fn whole(row: &Row) -> String {
     )
 }
 
-/// The page's table begins after this line.
-const TABLE: &str = "<!-- worst -->";
+/// Writes what stands on a page of the documentation after this line, up to the next comment.
+pub fn write(page: &str, mark: &str, text: &str) {
+    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs").join(page);
+    let whole = std::fs::read_to_string(&page).expect("the page");
+    let (before, after) = whole.split_once(mark).expect("a place for it");
+    let after = after.find("<!--").map_or("", |n| &after[n..]);
+    let end = if after.is_empty() { "" } else { "\n" };
+    std::fs::write(&page, format!("{before}{mark}\n\n{text}\n{end}{after}")).expect("the page is written");
+}
 
-/// Writes the worst scenes into the page of the documentation.
-pub fn write(rows: &[Row]) {
-    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/random-scenes.md");
-    let text = std::fs::read_to_string(&page).expect("the page");
-    let (before, _) = text.split_once(TABLE).expect("a place for the table");
-    std::fs::write(&page, format!("{before}{TABLE}\n\n{}\n", worst(rows))).expect("the page is written");
+/// Whether pages are to be written.
+pub fn is_to_write() -> bool {
+    std::env::var_os("UPDATE_GOLDEN").is_some_and(|value| value == "1")
 }
