@@ -184,7 +184,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// What the method goes on with and why, such as another one that `auto` takes; None where it is what the parameters say.
     pub fn auto(&self) -> Option<String> {
         match self.run.as_ref()? {
-            Run::Method(integration) => integration.goes_on(&self.parameters.effects),
+            Run::Method(integration) => integration.goes_on(&self.parameters),
             Run::Exchange(_) => None,
         }
     }

@@ -23,10 +23,12 @@ use std::f64::consts::{PI, TAU};
 #[derive(Clone)]
 pub struct Flow<'r, E, const N: usize> {
     rotor: &'r Rotor<'r, E>,
-    /// γ is that of the start: meanwhile the axis tells the tilt.
+    /// Of a symmetric body γ and φ are those of the start: meanwhile the axis tells the tilt.
     at: Coordinates<f64>,
     /// The axis t \[1].
     axis: Vector3<f64>,
+    /// How far it has spun about it \[rad], summed up by itself, so that it is not rounded as φ would be.
+    spun: f64,
     /// What φ of a symmetric body has gained in the chart and in the other one.
     windings: [Winding; 2],
     /// Whole turns of φ from e since the step began, besides φ in the chart.
@@ -65,6 +67,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
             rotor: self,
             at,
             axis: Tilt::new(self.frame.chart, at.gamma).axis,
+            spun: 0.0,
             windings: [Winding::none(); 2],
             turns: 0.0,
             work: work(y),
@@ -144,7 +147,12 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     /// The tilt of the axis.
     #[inline(always)]
     fn tilt(&self) -> Tilt<f64> {
-        Tilt::<f64>::along(self.rotor.frame.chart, self.axis)
+        let chart = self.rotor.frame.chart;
+        // The attitude of an asymmetric body matters, and the axis tells γ the worse the nearer it is to where the chart is singular.
+        if self.rotor.inertia().asymmetric.is_some() {
+            return Tilt::new(chart, self.at.gamma);
+        }
+        Tilt::<f64>::along(chart, self.axis)
     }
 
     /// Turns the axis by the Euler vector ρ \[rad].
@@ -275,7 +283,7 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
             *self = self.clone().tumbled(&body, asymmetric, h);
             return;
         }
-        self.at.phi += self.at.k.dot(&self.axis) * (h * body.spin);
+        self.spun += self.at.k.dot(&self.axis) * (h * body.spin);
         self.turn(self.at.k * (h * body.per_jt));
     }
 
@@ -304,7 +312,7 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         if self.rotor.inertia().asymmetric.is_none() {
             let [own, other] = &self.windings;
             let gained = own.advances(other, self.rotor.frame.chart, [self.at.gamma, gamma]);
-            (phi, turns) = (phi + gained.0, turns + gained.1);
+            (phi, turns) = (phi + (gained.0 + self.spun), turns + gained.1);
         }
         // φ has all the turns that φ from e has gained.
         let phi = Angle { turns, remainder: phi }.radians();

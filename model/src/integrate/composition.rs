@@ -187,6 +187,9 @@ const MOST_GROWTH: f64 = 6.0;
 /// A drift and a kick round about so many sums one after another, at most.
 const SUMS: f64 = 4.0;
 
+/// Where every step is exact, its length does not matter \[s].
+const FREE: f64 = 1.0;
+
 /// The first step that is tried is no longer than this \[s].
 const LONGEST_FIRST: f64 = 1e-2;
 
@@ -212,6 +215,11 @@ impl<const N: usize> Composed<N> {
             last: 0.0,
             answer: Answer::none(),
         }
+    }
+
+    /// The same with steps of any size, since each is exact.
+    pub fn start_free(composition: &'static Composition, t: f64, y: [f64; N]) -> Self {
+        Self { longest: f64::INFINITY, ..Self::start(composition, FREE, t, y) }
     }
 
     /// The same with steps that keep the tolerance, none longer than `longest` \[s], where that is given.
@@ -286,9 +294,9 @@ impl<const N: usize> Composed<N> {
         self.every = 0;
     }
 
-    /// Whether every step is exact.
-    pub fn is_exact(&self) -> bool {
-        self.tolerance.is_none()
+    /// Whether steps of any size are exact, and none is given.
+    pub fn is_free(&self) -> bool {
+        self.tolerance.is_none() && !self.is_given()
     }
 
     /// The size of its steps and the longest that they may have \[s], where they are shorter than that.

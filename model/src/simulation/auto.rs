@@ -89,11 +89,6 @@ impl Auto {
         Self { may_be_stiff: true, ..Self::default() }
     }
 
-    /// Whether `stiff` may be taken.
-    pub fn may_be_stiff(&self) -> bool {
-        self.may_be_stiff
-    }
-
     /// The fastest rate of the linear equations, when it was last looked at [rad/s].
     pub fn fastest(&self) -> f64 {
         self.fastest

@@ -16,7 +16,7 @@ use crate::rotation::{Angle, Chart};
 use crate::rotor::{self, Frame, Rotor};
 use crate::state::{Coordinates, GAMMA, Kinematics, PHI, SUPPLIED, own, rigid, rigid_mut, work};
 use crate::stored::{Damaged, Stored, Walk, stored, whole};
-use crate::variables::{Instant, Parameters, Setup};
+use crate::variables::{Instant, Parameters, Setup, numbers};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
@@ -283,7 +283,8 @@ impl<const N: usize> Integration<N> {
     }
 
     /// What the run goes on with and why; None where that is what was asked for.
-    pub(super) fn goes_on<E: Effects>(&self, effects: &E) -> Option<String> {
+    pub(super) fn goes_on<E: Effects>(&self, parameters: &Parameters<E>) -> Option<String> {
+        let is_auto = parameters.setup.solver.method_in_force() == numbers::AUTO;
         let t = self.method.start_time();
         if let Some([size, given]) = self.method.shortened() {
             return Some(format!(
@@ -300,9 +301,8 @@ impl<const N: usize> Integration<N> {
         }
         let Some(series) = self.series else {
             const FREE: &str = "auto takes symplectic: nothing acts on the rotor, so a step of any length is exact";
-            return self.method.is_exact().then(|| FREE.into());
+            return (is_auto && self.method.is_free()).then(|| FREE.into());
         };
-        let is_auto = self.auto.is_some_and(|auto| auto.may_be_stiff());
         let (who, also) = if is_auto { ("auto", AND_STIFF) } else { ("taylor", "") };
         let is_series = self.method.is_series();
         let what = match (is_series, who) {
@@ -310,7 +310,7 @@ impl<const N: usize> Integration<N> {
             (true, _) => "power series",
             (false, _) => "dop853",
         };
-        let why = series.words(is_series, &self.frame.under(effects));
+        let why = series.words(is_series, &self.frame.under(&parameters.effects));
         Some(match self.changes() {
             0 => format!("{who} takes {what}: {why}{also}"),
             _ => format!("{who} goes on with {what} from t = {t:?} s: {why}"),
@@ -321,7 +321,7 @@ impl<const N: usize> Integration<N> {
     /// came to.
     fn run_to<E: Effects>(&mut self, effects: &mut E, t: f64, until: f64) -> Result<(), Fault> {
         let most = self.method.cost().evaluations + self.most;
-        let ahead = if self.method.is_exact() { EXACT_AHEAD } else { AHEAD };
+        let ahead = if self.method.is_free() { EXACT_AHEAD } else { AHEAD };
         self.method.limit_step(ahead * (t - self.t));
         let mut switched = 0;
         while self.method.time() < t {

@@ -3,7 +3,7 @@
 use super::auto::{Auto, STABLE, SUSPECT, Verdict};
 use super::plan::Plan;
 use crate::effects::Effects;
-use crate::integrate::composition::{Composed, STRANG};
+use crate::integrate::composition::Composed;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::stiff::{Differentiable, Stiff};
 use crate::integrate::tableau::DOP853;
@@ -12,9 +12,6 @@ use crate::integrate::{Cost, Fault, System, Tolerance};
 use crate::rotor::Rotor;
 use crate::stored::{Damaged, Stored, Walk};
 use std::ops::Range;
-
-/// Where nothing acts every drift is exact, so its length does not matter \[s].
-const FREE: f64 = 1.0;
 
 /// A method at work.
 #[derive(Clone)]
@@ -48,7 +45,8 @@ impl<const N: usize> Method<N> {
             Plan::Composed(composition, longest) => {
                 OfComposition(Composed::start_within(composition, longest, tolerance, rotor, t, y))
             }
-            Plan::Free => OfComposition(Composed::start(&STRANG, FREE, t, y)),
+            Plan::Free(composition, Some(size)) => OfComposition(Composed::start(composition, size, t, y)),
+            Plan::Free(composition, None) => OfComposition(Composed::start_free(composition, t, y)),
             Plan::Stiff => OfCollocation(Stiff::start(tolerance, rotor, t, y)),
             Plan::Auto | Plan::Taylor if rotor.has_series() => OfSeries(Taylor::start(tolerance, rotor, t, y)),
             Plan::Auto | Plan::Taylor => OfPair(Explicit::start(&DOP853, tolerance, rotor, t, y)),
@@ -205,9 +203,9 @@ impl<const N: usize> Method<N> {
         matches!(self, OfCollocation(_))
     }
 
-    /// Whether a step of any length is exact.
-    pub fn is_exact(&self) -> bool {
-        matches!(self, OfComposition(method) if method.is_exact())
+    /// Whether steps of any size are exact, and none is given.
+    pub fn is_free(&self) -> bool {
+        matches!(self, OfComposition(method) if method.is_free())
     }
 
     /// The size of its steps and the one that was given \[s], where they must be shorter.

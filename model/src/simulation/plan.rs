@@ -1,7 +1,7 @@
 //! Which method drives a rotor, and with which steps.
 
 use crate::effects::Effects;
-use crate::integrate::composition::Composition;
+use crate::integrate::composition::{Composition, STRANG};
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::variables::{Solver, numbers};
 
@@ -12,8 +12,8 @@ pub(super) enum Plan {
     Explicit(&'static Tableau),
     /// A composition, with steps no longer than this \[s] where it is given.
     Composed(&'static Composition, Option<f64>),
-    /// Drifts, each exact.
-    Free,
+    /// The same where nothing acts, so that every step is exact.
+    Free(&'static Composition, Option<f64>),
     /// Radau IIA with adaptive steps.
     Stiff,
     /// Taylor's series, and dop853 where there is none, or where stability holds its steps.
@@ -28,12 +28,14 @@ impl Plan {
         match solver.method_in_force() {
             // Whatever may act is followed by methods that estimate their error.
             numbers::AUTO if effects.push() => Plan::Auto,
-            numbers::AUTO => Plan::Free,
+            numbers::AUTO => Plan::Free(&STRANG, None),
             numbers::DOPRI5 => Plan::Explicit(&DOPRI5),
             numbers::SYMPLECTIC => {
                 let composition =
                     Composition::of_order(solver.order.unsigned_abs()).expect("an order that was checked");
-                Plan::Composed(composition, Some(solver.step_size).filter(|size| *size > 0.0))
+                let longest = Some(solver.step_size).filter(|size| *size > 0.0);
+                let plan = if effects.push() { Plan::Composed } else { Plan::Free };
+                plan(composition, longest)
             }
             numbers::STIFF => Plan::Stiff,
             numbers::TAYLOR => Plan::Taylor,

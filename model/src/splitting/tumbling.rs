@@ -46,6 +46,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     fn take(&mut self, turned: Turned) {
         self.at.phi += turned.phi;
         self.turns += turned.turns;
+        self.at.gamma = turned.gamma;
         self.axis = Tilt::new(self.rotor.frame.chart, turned.gamma).axis;
     }
 }

@@ -74,7 +74,7 @@ fn past_the_limit() -> Case {
         scene: "paper",
         methods: with(4e-14),
         mutant: ("support.c2", 0.0),
-        task: discarded(settings, |t| (t - 0.31).abs(), "3.1 rad"),
+        task: discarded(settings, |t| (t - 0.31).abs(), &["3.1 rad"]),
     }
 }
 
@@ -89,7 +89,8 @@ fn absurd_springs() -> Case {
         scene: "paper",
         methods: with(1e-6),
         mutant: ("support.c1", 1e-297),
-        task: discarded(settings, |t| t, "no step"),
+        // Where springs alone move it, steps that are stable are possible, but too many.
+        task: discarded(settings, |t| t, &["no step", "too fast to be followed"]),
     }
 }
 
@@ -133,7 +134,7 @@ fn late_fast_motion() -> Case {
 fn too_long_steps() -> Case {
     let mut settings = support(1e9, 0.0, Vector3::zeros());
     settings.extend(tilted());
-    settings.push(("solver.max_evaluations", 1e3));
+    settings.extend([("solver.max_evaluations", 1e3), ("solver.relative_tolerance", 1e-3)]);
     Case {
         name: "symplectic steps too long for a support of 10⁹ N/m".into(),
         hard: "shorter ones cost more than a host allows",
@@ -141,7 +142,7 @@ fn too_long_steps() -> Case {
         scene: "paper",
         methods: [2, 4, 6, 8].map(|order| (symplectic(order, 1e-3), 0.01)).into(),
         mutant: ("support.c1", 1e-6),
-        task: discarded(settings, |t| t, "solver.max_evaluations"),
+        task: discarded(settings, |t| t, &["solver.max_evaluations", "the energy is not kept"]),
     }
 }
 
@@ -154,18 +155,20 @@ fn too_short_steps() -> Case {
         scene: "paper",
         methods: vec![(Method { name: "symplectic", settings: vec![] }, 1e-6)],
         mutant: ("solver.step_size", 1e12),
-        task: discarded([tilted(), vec![("solver.step_size", 1e-15)]].concat(), |t| t, "a longer solver.step_size"),
+        task: discarded([tilted(), vec![("solver.step_size", 1e-15)]].concat(), |t| t, &["a longer solver.step_size"]),
     }
 }
 
 /// Runs for a second, in steps of a hundredth, and must be discarded with this reason; the time reached decides.
-fn discarded(settings: Vec<Setting>, off: impl Fn(f64) -> f64 + 'static, reason: &'static str) -> Task {
+fn discarded(settings: Vec<Setting>, off: impl Fn(f64) -> f64 + 'static, reasons: &'static [&'static str]) -> Task {
     Box::new(move |bench| {
         let mut rotor = bench.rotor(&settings)?;
         rotor.start(0.0, 1.0)?;
         for n in 1..=100 {
             let Err(error) = rotor.advance(f64::from(n) / 100.0) else { continue };
-            refused(Err(error), DISCARD, &[reason])?;
+            let said = error.to_string();
+            ensure!(reasons.iter().any(|reason| said.contains(reason)), "{said} has none of {reasons:?}");
+            refused(Err(error), DISCARD, &[])?;
             // What it shows are numbers, or a refusal that says why not.
             if let Err(error) = rotor.shown() {
                 refused(Err(error), DISCARD, &["is infinite or undefined here"])?;

@@ -8,7 +8,7 @@ use oracles::numerics::root;
 /// Spin [rad/s]; bounds of dop853, stiff, symplectic and auto where the axis precesses, and of dop853 and symplectic where
 /// it nutates, and there of auto.
 const SPINS: [(f64, [f64; 4], [f64; 3]); 3] = [
-    (1e4, [8e-12, 6e-12, 6e-6, 8e-12], [5e-13, 7e-4, 2e-8]),
+    (1e4, [8e-12, 6e-12, 6e-6, 3e-10], [5e-13, 7e-4, 2e-8]),
     (1e5, [6e-11, 5e-11, 8e-8, 6e-11], [8e-12, 3e-4, 5e-7]),
     (1e6, [2e-9, 1e-9, 7e-10, 2e-9], [5e-10, 4e-5, 1.5e-4]),
 ];
