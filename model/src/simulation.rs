@@ -210,11 +210,31 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let Some(Run::Method(integration)) = &mut self.run else {
             panic!("no run of a method was started");
         };
-        integration.advance(&mut self.parameters.effects, t)?;
+        if !integration.advance_within_step(t) {
+            integration.advance(&mut self.parameters.effects, t)?;
+        }
         if E::FACTS.imposes && self.parameters.effects.imposed::<f64>(t).is_some() {
             self.tell_of_step();
         }
         Ok(())
+    }
+
+    /// [`Simulation::advance`], if the last step of the method reaches so far and no effect minds communication steps: then nothing
+    /// but the time changes.
+    ///
+    /// # Panics
+    /// Where `t` lies before the communication point or is not a number.
+    #[inline(always)]
+    pub fn advance_within_step(&mut self, t: f64) -> bool {
+        if E::FACTS.imposes || self.parameters.effects.extrapolates() {
+            return false;
+        }
+        let Some(Run::Method(integration)) = &mut self.run else { return false };
+        let reaches = integration.advance_within_step(t);
+        if reaches {
+            self.instant = None;
+        }
+        reaches
     }
 
     /// Effects hear where a communication step ended.

@@ -312,7 +312,7 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         if self.rotor.inertia().asymmetric.is_none() {
             let [own, other] = &self.windings;
             let gained = own.advances(other, self.rotor.frame.chart, [self.at.gamma, gamma]);
-            (phi, turns) = (phi + (gained.0 + self.spun), turns + gained.1);
+            (phi, turns) = (phi + gained.0 + self.spun, turns + gained.1);
         }
         // φ has all the turns that φ from e has gained.
         let phi = Angle { turns, remainder: phi }.radians();

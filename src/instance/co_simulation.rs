@@ -14,6 +14,16 @@ impl Instance {
     /// Moves the communication point from `from` by `step` \[s].
     pub fn do_step(&mut self, from: f64, step: f64) -> Reply {
         let to = self.end_of_step(from, step)?;
+        // There is news of the run only where the method has gone on.
+        let outcome = if self.memory.simulation.advance_within_step(to) { Ok(()) } else { self.run_to(to) };
+        self.memory.step_failed = outcome.is_err();
+        self.memory.state = if outcome.is_ok() { State::StepComplete } else { State::StepFailed };
+        outcome
+    }
+
+    /// Moves the communication point to time `to` \[s], and tells what is new.
+    #[inline(never)]
+    fn run_to(&mut self, to: f64) -> Reply {
         self.warn_of_zeros();
         let changes = self.memory.simulation.changes_of_method();
         let outcome = self.memory.simulation.advance(to);
@@ -22,25 +32,14 @@ impl Instance {
             self.tell_auto(changed);
         }
         self.warn();
-        match outcome {
-            Ok(()) => {
-                self.memory.state = State::StepComplete;
-                self.memory.step_failed = false;
-                Ok(())
-            }
-            Err(fault) => {
-                self.memory.state = State::StepFailed;
-                self.memory.step_failed = true;
-                Err(Failure::Discard(fault.to_string()))
-            }
-        }
+        outcome.map_err(|fault| Failure::Discard(fault.to_string()))
     }
 
     /// Where a step ends, if it is a right one.
     fn end_of_step(&self, from: f64, step: f64) -> Result<f64, Failure> {
         let now = self.now();
         let to = from + step;
-        if !(step > 0.0 && step.is_finite()) {
+        if !(step > 0.0 && step < f64::INFINITY) {
             return Err(Failure::Error(format!("communicationStepSize = {step:?} must be a finite number > 0")));
         }
         if !same_time(from, now, step) {

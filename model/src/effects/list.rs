@@ -44,6 +44,8 @@ pub struct Facts {
     pub follows_phi: bool,
     /// Whether any of them can impose a speed.
     pub imposes: bool,
+    /// Whether any of them can extrapolate inputs.
+    pub extrapolates: bool,
     /// How many inputs they have that may be extrapolated.
     pub extrapolated: usize,
     /// How many can be.
@@ -140,8 +142,9 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     }
 
     /// Whether any of them extrapolates inputs.
+    #[inline(always)]
     fn extrapolates(&self) -> bool {
-        self.active().any(|block| block.kind().extrapolates)
+        Self::FACTS.extrapolates && self.active().any(|block| block.kind().extrapolates)
     }
 
     /// The first parameter whose value is not possible.
@@ -307,6 +310,7 @@ impl Effects for () {
         shapes: false,
         follows_phi: false,
         imposes: false,
+        extrapolates: false,
         extrapolated: 0,
         most_extrapolated: usize::MAX,
     };
@@ -374,6 +378,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             shapes: H::Effect::SHAPES || rest.shapes,
             follows_phi: H::Effect::FOLLOWS_PHI || rest.follows_phi,
             imposes: H::Effect::IMPOSES || rest.imposes,
+            extrapolates: H::Effect::EXTRAPOLATES || rest.extrapolates,
             extrapolated: inputs_extrapolated::<H::Effect>() + rest.extrapolated,
             most_extrapolated: if most < rest.most_extrapolated { most } else { rest.most_extrapolated },
         }

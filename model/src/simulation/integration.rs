@@ -229,20 +229,20 @@ impl<const N: usize> Integration<N> {
         }
     }
 
-    /// Moves the communication point to time `t` \[s]. On a fault it stands at the last time reached.
-    #[inline]
-    pub(super) fn advance<E: Effects>(&mut self, effects: &mut E, t: f64) -> Result<(), Fault> {
+    /// Moves the communication point to time `t` \[s], if the last step reaches so far.
+    #[inline(always)]
+    pub(super) fn advance_within_step(&mut self, t: f64) -> bool {
         assert!(t >= self.t, "the time moves on from {:?}, not to {t:?}", self.t);
-        if self.held.is_none() && t <= self.method.time() && !self.method.counts_turns() {
+        let reaches = self.held.is_none() && t <= self.method.time() && !self.method.counts_turns();
+        if reaches {
             self.t = t;
-            return Ok(());
         }
-        self.go_to(effects, t)
+        reaches
     }
 
-    /// Moves the communication point to where the solver may not have been.
+    /// Moves the communication point to time `t` \[s], where the solver may not have been. On a fault it stands at the last time reached.
     #[inline(never)]
-    fn go_to<E: Effects>(&mut self, effects: &mut E, t: f64) -> Result<(), Fault> {
+    pub(super) fn advance<E: Effects>(&mut self, effects: &mut E, t: f64) -> Result<(), Fault> {
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
         let until = if self.held.is_some() { t } else { self.stop.max(t) };
         self.go_back(effects)?;

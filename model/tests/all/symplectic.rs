@@ -81,7 +81,7 @@ fn exact_free_rotor_in_one_step_of_any_length() {
     within("phi", worst[1], FREE[1]);
 }
 
-/// Error of φ's remainder [rad] in the course of 10⁶ turns, in long steps and in short ones: measured 1.1e-10 and 3.2e-10, 5e-17 of the
+/// Error of φ's remainder [rad] in the course of 10⁶ turns, in long steps and in short ones: measured 6.5e-13 and 7.8e-10, 1.3e-16 of the
 /// whole angle.
 const REMAINDER: f64 = 1e-9;
 
