@@ -87,21 +87,29 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
         !self.effects.follows_speed() && !self.frame.works() && !self.spreads(&Coordinates::from_slice(rigid(y)), h)
     }
 
-    /// From the linear equations of place and speed: what turns K about the axis is followed exactly, as is what dampens.
-    fn fastest(&self, t: f64, y: &[f64; N], h: f64) -> f64 {
+    /// From the linear equations of place and speed: what turns K about the axis is followed exactly, as is what dampens. But where the
+    /// nutation is not resolved, the axis turns about K between a kick that dampens and one backwards, which do not make up for one
+    /// another then.
+    fn fastest(&self, t: f64, y: &[f64; N], h: f64) -> [f64; 2] {
         const SPEEDS: std::ops::Range<usize> = 3..9;
-        // eq. 112: the block A B of the square of these equations
-        let numbers = if self.spreads(&Coordinates::from_slice(rigid(y)), h) { 6 } else { PHI };
-        let mut jacobian = self.jacobian(t, y);
-        for (i, row) in jacobian.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                let [i, j] = [i, j].map(|place| place.wrapping_sub(own(N)));
-                if i >= numbers || j >= numbers || SPEEDS.contains(&i) == SPEEDS.contains(&j) {
-                    *entry = 0.0;
+        let spreads = self.spreads(&Coordinates::from_slice(rigid(y)), h);
+        let jacobian = self.jacobian(t, y);
+        let radius = |numbers: usize, is_asked: fn(bool, bool) -> bool| {
+            let mut part = jacobian;
+            for (i, row) in part.iter_mut().enumerate() {
+                for (j, entry) in row.iter_mut().enumerate() {
+                    let [i, j] = [i, j].map(|place| place.wrapping_sub(own(N)));
+                    if i >= numbers || j >= numbers || !is_asked(SPEEDS.contains(&i), SPEEDS.contains(&j)) {
+                        *entry = 0.0;
+                    }
                 }
             }
-        }
-        spectral_radius(&jacobian, own(N) + numbers)
+            spectral_radius(&part, own(N) + numbers)
+        };
+        // eq. 112: the block A B of the square of these equations
+        let swings = radius(if spreads { 6 } else { PHI }, |of, by| of != by);
+        let dies = if spreads && self.effects.follows_speed() { radius(PHI, |of, by| of && by) } else { 0.0 };
+        [swings, dies]
     }
 
     fn is_steady(&self) -> bool {

@@ -43,9 +43,10 @@ pub trait Splitting<const N: usize>: System<N> {
         false
     }
 
-    /// How fast what kicks pull back swings at `y` at time `t` \[s] where nothing dampens it, in a step of size `h` \[s] \[rad/s].
-    fn fastest(&self, _t: f64, _y: &[f64; N], _h: f64) -> f64 {
-        0.0
+    /// How fast what kicks pull back swings at `y` at time `t` \[s] where nothing dampens it, in a step of size `h` \[s] \[rad/s], and how
+    /// fast dies out what kicks dampen \[1/s], where that must not be in a step: 0 elsewhere.
+    fn fastest(&self, _t: f64, _y: &[f64; N], _h: f64) -> [f64; 2] {
+        [0.0; 2]
     }
 
     /// Whether one step is like another, as long as they end in places like these.
@@ -165,18 +166,23 @@ stored!(Composed<const N: usize> {
 /// Comparisons are no further apart than so many steps.
 const EVERY: u32 = 40;
 
-/// The error of a step whose size is found may be this part of the tolerance, since errors add up \[1].
+/// The error of a step whose size is found may be this part of the tolerance, since errors add up, and that of a step whose size is given
+/// all of it, since whoever gives it wants it \[1]; of a step in which the motion goes less than its own size, so much less.
 const SHARE: f64 = 0.1;
+const GIVEN: f64 = 1.0;
 
-/// That of a step whose size is given may be so many tolerances, since whoever gives it wants it \[1].
-const GIVEN: f64 = 10.0;
+/// But not less than this \[1]: what hardly moves in a step mostly errs to and fro.
+const LEAST: f64 = 0.03;
 
 /// A step is compared with two, of which the first is this part of it, a golden section \[1]: halves of a step of four nutations would
 /// err by their resonance as the whole does.
 const PART: f64 = 0.381_966_011_250_105_15;
 
-/// A step that goes farther than any that was compared, by this factor squared, is compared \[1].
+/// A step that goes farther than those that were compared, by this factor squared, is compared \[1].
 const FARTHER: f64 = 4.0;
+
+/// What they went counts less with each that comes after, by this factor squared, or what has died out could grow anew unseen \[1].
+const FORGOTTEN: f64 = 0.8;
 
 /// A step is chosen this much smaller than the error would allow, and grows only where it can grow by this; at most by
 /// [`MOST_GROWTH`] at once \[1].
@@ -299,9 +305,9 @@ impl<const N: usize> Composed<N> {
         self.tolerance.is_none() && !self.is_given()
     }
 
-    /// The size of its steps and the longest that they may have \[s], where they are shorter than that.
-    pub fn shortened(&self) -> Option<[f64; 2]> {
-        (self.is_given() && self.size < self.longest).then_some([self.size, self.longest])
+    /// The size of its steps and the longest that they may have \[s], where that is given and they keep a tolerance.
+    pub fn given(&self) -> Option<[f64; 2]> {
+        (self.is_given() && self.tolerance.is_some()).then_some([self.size, self.longest])
     }
 
     /// Whether the size of steps is given.
@@ -387,8 +393,9 @@ impl<const N: usize> Composed<N> {
             return;
         }
         let composition = self.composition.of_kicks(system.kicks_by_place(&self.y, self.size));
-        // eq. 112: h = φ_max/ω_max
-        let longest = composition.stable / system.fastest(self.t, &self.y, self.size);
+        let [swings, dies] = system.fastest(self.t, &self.y, self.size);
+        // eq. 112: h = φ_max/ω_max, and h = 1/λ_max
+        let longest = (composition.stable / swings).min(1.0 / dies);
         if self.size > longest {
             self.size = longest;
             self.limit_step(longest);
@@ -417,7 +424,11 @@ impl<const N: usize> Composed<N> {
         // The two parts together round twice as often.
         let noise = noise(&rounded.map(|square| 4.0 * square));
         let rounded = rounded.map(|square| square * SUMS * SUMS);
-        let weights = self.sizes.weights(system, &tolerance, &rounded, &seen);
+        let weights = |tolerance| self.sizes.weights(system, tolerance, &rounded, &seen);
+        let speed = largest_square(system, &system.parts(y, &rate), &weights(&tolerance)).sqrt();
+        // eq. 45: b = min(1, max(0.03, ν h)), since errors of short steps add up as those of long ones do
+        let budget = (tolerance.relative * speed * h).clamp(LEAST, 1.0);
+        let weights = weights(&tolerance.times(budget));
         // eq. 45
         let apart = system.apart(y, &in_parts);
         let parts = system.parts_of_ends(&self.y, &apart, h);
@@ -425,13 +436,15 @@ impl<const N: usize> Composed<N> {
         if !error.is_finite() {
             return Some(0.5);
         }
-        let factor = |error| SAFETY * power(error, -1.0 / f64::from(self.composition.order + 1));
+        // What a step of another size may err changes with it.
+        let order = f64::from(self.composition.order + u32::from(budget >= 1.0));
+        let factor = |error| SAFETY * power(error, -1.0 / order);
         if error > 1.0 {
             return Some(factor(error).max(0.1));
         }
         self.sizes.take(system, &seen, 1.0);
-        self.reach = larger_of(&self.reach, &way);
-        self.estimate = error * if self.is_given() { GIVEN } else { SHARE };
+        self.reach = larger_of(&self.reach.map(|square| FORGOTTEN * square), &way);
+        self.estimate = error * budget * if self.is_given() { GIVEN } else { SHARE };
         // What rounding alone may do says nothing of the step.
         let told = std::array::from_fn(|group| if parts[group] > noise[group] { parts[group] } else { 0.0 });
         Some(factor(largest_square(system, &told, &weights).sqrt()).clamp(1.0, MOST_GROWTH))

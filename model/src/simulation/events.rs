@@ -22,11 +22,8 @@ pub(crate) struct Events {
 
 stored!(Events { positive, due });
 
-/// A step is looked at in so many places.
-const PLACES: u32 = 16;
-
-/// A contact shorter than the way between two of them is looked for where an indicator comes as near to zero as this part of what it
-/// is there \[1].
+/// A contact shorter than the way between two places of a step is looked for where a parabola through three of them comes as near to zero
+/// as this part of the least of them \[1].
 const NEAR: f64 = 0.5;
 
 impl Events {
@@ -109,20 +106,20 @@ impl Events {
         }
     }
 
-    /// When \[s] the first of these indicators changes its sign between the times `from` and `to` \[s], and its number; `at` tells the
-    /// values of all.
+    /// When \[s] the first of these indicators changes its sign between the times `from` and `to` \[s], looked at in so many `places`, and
+    /// its number; `at` tells the values of all.
     pub(super) fn first(
         &self,
         watched: impl Iterator<Item = usize> + Clone,
-        from: f64,
-        to: f64,
+        [from, to]: [f64; 2],
+        places: u32,
         mut at: impl FnMut(f64) -> Indicators,
     ) -> Option<(f64, u32)> {
-        let place = |n: u32| if n == PLACES { to } else { from + (to - from) * f64::from(n) / f64::from(PLACES) };
+        let place = |n: u32| if n == places { to } else { from + (to - from) * f64::from(n) / f64::from(places) };
         // What is positive is on its side.
         let sided = |z: Indicators, n: usize| if self.positive[n] { z[n] } else { -z[n] };
         let mut before = [(from, at(from)); 2];
-        for n in 1..=PLACES {
+        for n in 1..=places {
             let now = (place(n), at(place(n)));
             let mut found: Option<(f64, u32)> = None;
             for number in watched.clone() {
@@ -130,10 +127,7 @@ impl Events {
                 let mut side = |t: f64| sided(at(t), number);
                 let crossed = if last.1 < 0.0 {
                     Some((middle.0, last.0))
-                } else if first.0 < middle.0
-                    && middle.1 <= first.1
-                    && (middle.1 < NEAR * last.1 || middle.1 < NEAR * first.1)
-                {
+                } else if first.0 < middle.0 && may_dip([first.1, middle.1, last.1]) {
                     lowest(first.0, last.0, &mut side).map(|low| (first.0, low))
                 } else {
                     None
@@ -152,6 +146,14 @@ impl Events {
         }
         None
     }
+}
+
+/// Whether what is positive in these three places, equally far apart, may be negative between them.
+fn may_dip([first, middle, last]: [f64; 3]) -> bool {
+    // The parabola m + s x + c x², x from −1 to 1, is lowest at x = −s/2c.
+    let (slope, bend) = (0.5 * (last - first), 0.5 * (first + last) - middle);
+    let is_within = bend > 0.0 && slope.abs() <= 2.0 * bend;
+    is_within && middle - slope * slope / (4.0 * bend) < NEAR * first.min(middle).min(last)
 }
 
 /// The values of all indicators, 1 of those that are switched off.
@@ -212,6 +214,23 @@ fn zero(mut good: f64, mut bad: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_a_dip_at_either_end_of_a_step_is_seen() {
+        let mut all = Events::default();
+        all.positive[0] = true;
+        for middle in [0.004, 0.03, 0.4, 0.5, 0.97, 0.996] {
+            for depth in [1e-3, 1e-6, 1e-9] {
+                let at = |t: f64| {
+                    let mut indicators = [1.0; MOST_INDICATORS];
+                    indicators[0] = (t - middle) * (t - middle) - depth * depth;
+                    indicators
+                };
+                let (t, _) = all.first(0..1, [0.0, 1.0], 16, at).expect("it is below zero");
+                assert!((t - (middle - depth)).abs() < 1e-6 * depth, "{t} is not {middle} less {depth}");
+            }
+        }
+    }
 
     #[test]
     fn exact_the_lowest_place_is_found_on_either_side() {

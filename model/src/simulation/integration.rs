@@ -278,7 +278,7 @@ impl<const N: usize> Integration<N> {
     /// How often the run has gone on otherwise: with another method, or in shorter steps than those given, or in these again.
     pub(super) fn changes(&self) -> u32 {
         let [auto, series] = [self.auto.map(|auto| auto.changes()), self.series.map(|series| series.changes())];
-        let shortened = u32::from(self.method.shortened().is_some());
+        let shortened = u32::from(self.method.given().is_some_and(|[size, given]| size < given));
         auto.unwrap_or(0).saturating_add(series.unwrap_or(0)).saturating_add(shortened)
     }
 
@@ -286,11 +286,16 @@ impl<const N: usize> Integration<N> {
     pub(super) fn goes_on<E: Effects>(&self, parameters: &Parameters<E>) -> Option<String> {
         let is_auto = parameters.setup.solver.method_in_force() == numbers::AUTO;
         let t = self.method.start_time();
-        if let Some([size, given]) = self.method.shortened() {
-            return Some(format!(
-                "symplectic goes on in steps of {size:.3e} s from t = {t:?} s: steps of {given:?} s, as given, would err too much for \
-                 solver.relative_tolerance or grow from rounding"
-            ));
+        if let Some([size, given]) = self.method.given() {
+            let words = if size < given {
+                format!(
+                    "{size:.3e} s from t = {t:?} s: steps of {given:?} s, as given, would err too much for solver.relative_tolerance or grow from rounding"
+                )
+            } else {
+                format!("{given:?} s, as given, from t = {t:?} s")
+            };
+            // They are so from the start where nothing was said.
+            return (self.method.cost().steps > 0.0).then(|| format!("symplectic goes on in steps of {words}"));
         }
         if let (Some(auto), true) = (&self.auto, self.method.is_stiff()) {
             return Some(format!(
@@ -479,7 +484,8 @@ impl<const N: usize> Integration<N> {
         let (from, to) = (self.method.start_time(), self.method.time());
         let (method_now, frame) = (&mut self.method, &self.frame);
         let watched = (0..E::FACTS.indicators).filter(|number| frame.watches(*number));
-        let found = self.events.first(watched, from, to, |t| {
+        let places = method_now.places();
+        let found = self.events.first(watched, [from, to], places, |t| {
             let y = if t == to { *method_now.state() } else { method_now.dense(&rotor, t) };
             indicators(effects, &rotor.motion(t, &y), &y)
         });

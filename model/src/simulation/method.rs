@@ -13,6 +13,9 @@ use crate::rotor::Rotor;
 use crate::stored::{Damaged, Stored, Walk};
 use std::ops::Range;
 
+/// A step of others is looked at in so many places.
+const PLACES: u32 = 16;
+
 /// A method at work.
 #[derive(Clone)]
 #[allow(clippy::large_enum_variant, reason = "a method is kept in place, so that it needs no allocation")]
@@ -208,9 +211,14 @@ impl<const N: usize> Method<N> {
         matches!(self, OfComposition(method) if method.is_free())
     }
 
-    /// The size of its steps and the one that was given \[s], where they must be shorter.
-    pub fn shortened(&self) -> Option<[f64; 2]> {
-        if let OfComposition(method) = self { method.shortened() } else { None }
+    /// The size of its steps and the one that was given \[s], where they are to keep a tolerance.
+    pub fn given(&self) -> Option<[f64; 2]> {
+        if let OfComposition(method) = self { method.given() } else { None }
+    }
+
+    /// In so many places a step is looked at for events: a series spans as much as three steps of other methods.
+    pub fn places(&self) -> u32 {
+        if self.is_series() { 3 * PLACES } else { PLACES }
     }
 
     /// Whether it goes by series.

@@ -144,7 +144,7 @@ pub(super) const ROWS: &[AlwaysRow] = &[
         &SECOND,
         Some(0.0),
         Bound::NotNegative,
-        "longest step of the symplectic method, shorter where ten relative tolerances ask for it; 0: chosen from the scene"
+        "longest step of the symplectic method, shorter where the relative tolerance asks for it; 0: chosen from the scene"
     ),
     Row {
         meta: Meta {
