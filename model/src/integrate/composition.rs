@@ -166,13 +166,12 @@ stored!(Composed<const N: usize> {
 /// Comparisons are no further apart than so many steps.
 const EVERY: u32 = 40;
 
-/// The error of a step whose size is found may be this part of the tolerance, since errors add up, and that of a step whose size is given
-/// all of it, since whoever gives it wants it \[1]; of a step in which the motion goes less than its own size, so much less.
+/// The error of a step may be this part of the tolerance, since errors add up \[1]; where the motion goes less than its own size in a step,
+/// so much less.
 const SHARE: f64 = 0.1;
-const GIVEN: f64 = 1.0;
 
 /// But not less than this \[1]: what hardly moves in a step mostly errs to and fro.
-const LEAST: f64 = 0.03;
+const LEAST: f64 = 0.01;
 
 /// A step is compared with two, of which the first is this part of it, a golden section \[1]: halves of a step of four nutations would
 /// err by their resonance as the whole does.
@@ -237,7 +236,7 @@ impl<const N: usize> Composed<N> {
         t: f64,
         y: [f64; N],
     ) -> Self {
-        let tolerance = tolerance.times(if longest.is_some() { GIVEN } else { SHARE });
+        let tolerance = tolerance.times(SHARE);
         let rate = system.rates_of_all(t, &y);
         let sizes = Sizes::at_start(&tolerance, system, &y, &rate);
         let size = longest.unwrap_or_else(|| {
@@ -426,7 +425,7 @@ impl<const N: usize> Composed<N> {
         let rounded = rounded.map(|square| square * SUMS * SUMS);
         let weights = |tolerance| self.sizes.weights(system, tolerance, &rounded, &seen);
         let speed = largest_square(system, &system.parts(y, &rate), &weights(&tolerance)).sqrt();
-        // eq. 45: b = min(1, max(0.03, ν h)), since errors of short steps add up as those of long ones do
+        // eq. 45: b = min(1, max(0.01, ν h)), since errors of short steps add up as those of long ones do
         let budget = (tolerance.relative * speed * h).clamp(LEAST, 1.0);
         let weights = weights(&tolerance.times(budget));
         // eq. 45
@@ -444,7 +443,7 @@ impl<const N: usize> Composed<N> {
         }
         self.sizes.take(system, &seen, 1.0);
         self.reach = larger_of(&self.reach.map(|square| FORGOTTEN * square), &way);
-        self.estimate = error * budget * if self.is_given() { GIVEN } else { SHARE };
+        self.estimate = error * budget * SHARE;
         // What rounding alone may do says nothing of the step.
         let told = std::array::from_fn(|group| if parts[group] > noise[group] { parts[group] } else { 0.0 });
         Some(factor(largest_square(system, &told, &weights).sqrt()).clamp(1.0, MOST_GROWTH))

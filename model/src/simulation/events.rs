@@ -22,9 +22,9 @@ pub(crate) struct Events {
 
 stored!(Events { positive, due });
 
-/// A contact shorter than the way between two places of a step is looked for where a parabola through three of them comes as near to zero
-/// as this part of the least of them \[1].
-const NEAR: f64 = 0.5;
+/// A contact shorter than the way between two places of a step is looked for where a parabola through three of them is lowest by less than
+/// this part of what they differ by: it is as good as that, as long as what swings is seen in ten places \[1].
+const NEAR: f64 = 0.1;
 
 impl Events {
     /// Of a motion that begins, of whose sides the effects hear.
@@ -118,15 +118,16 @@ impl Events {
         let place = |n: u32| if n == places { to } else { from + (to - from) * f64::from(n) / f64::from(places) };
         // What is positive is on its side.
         let sided = |z: Indicators, n: usize| if self.positive[n] { z[n] } else { -z[n] };
-        let mut before = [(from, at(from)); 2];
+        let (mut before, mut found) = ([(from, at(from)); 2], None::<(f64, u32)>);
         for n in 1..=places {
             let now = (place(n), at(place(n)));
-            let mut found: Option<(f64, u32)> = None;
+            // One place beyond, for what may dip before the first that was found.
+            let is_beyond = found.is_some();
             for number in watched.clone() {
                 let [first, middle, last] = [before[0], before[1], now].map(|(t, z)| (t, sided(z, number)));
                 let mut side = |t: f64| sided(at(t), number);
                 let crossed = if last.1 < 0.0 {
-                    Some((middle.0, last.0))
+                    (!is_beyond).then_some((middle.0, last.0))
                 } else if first.0 < middle.0 && may_dip([first.1, middle.1, last.1]) {
                     lowest(first.0, last.0, &mut side).map(|low| (first.0, low))
                 } else {
@@ -139,12 +140,12 @@ impl Events {
                     }
                 }
             }
-            if found.is_some() {
-                return found;
+            if is_beyond {
+                break;
             }
             before = [before[1], now];
         }
-        None
+        found
     }
 }
 
@@ -153,7 +154,8 @@ fn may_dip([first, middle, last]: [f64; 3]) -> bool {
     // The parabola m + s x + c x², x from −1 to 1, is lowest at x = −s/2c.
     let (slope, bend) = (0.5 * (last - first), 0.5 * (first + last) - middle);
     let is_within = bend > 0.0 && slope.abs() <= 2.0 * bend;
-    is_within && middle - slope * slope / (4.0 * bend) < NEAR * first.min(middle).min(last)
+    let apart = first.max(middle).max(last) - first.min(middle).min(last);
+    is_within && middle - slope * slope / (4.0 * bend) < NEAR * apart
 }
 
 /// The values of all indicators, 1 of those that are switched off.

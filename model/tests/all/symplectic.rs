@@ -310,8 +310,8 @@ fn an_error_estimate_costs_little_and_changes_no_step() {
         named.simulation.advance(10.0).expect("a possible motion");
         let [steps, evaluations, told] =
             ["steps", "evaluations", "error_estimate"].map(|name| named.get(&format!("solver.{name}")));
-        // Beside next to nothing, which the rotor does at first, an error is large: some steps of order 2 are shorter there.
-        assert!((0.0..=12.0).contains(&(steps - (10.0 / size).round())), "{steps} steps");
+        // Beside next to nothing, which the rotor does at first, an error is large: some 25 steps of order 2 are shorter there.
+        assert!((0.0..=40.0).contains(&(steps - (10.0 / size).round())), "{steps} steps");
         within(&format!("order {order}"), evaluations / (kicks * steps) - 1.0, PRICE);
         assert!(told > 0.0);
     }
@@ -466,8 +466,52 @@ const FALL: [(&str, f64); 8] = [
     ("rub[1].v0", 0.01),
 ];
 
-/// Error of place [m] and of the axis over the tolerance [1], on bearings and in contact: measured 5e-3 and 0.5.
-const BETWEEN: [f64; 2] = [0.1, 2.0];
+/// Damped bearings under a spin whose nutation is not resolved: what had died out grew from rounding to all of its size.
+const SPINNING: [(&str, f64); 21] = [
+    ("rotor.m", 1.35),
+    ("rotor.Ja", 0.00105),
+    ("rotor.Jt", 0.0015),
+    ("start.v_c.y", 0.08),
+    ("start.omega.x", 1e4),
+    ("start.omega.y", 24.0),
+    ("effects.bearing[1]", 1.0),
+    ("bearing[1].position", -0.1),
+    ("bearing[1].kyy", 5e6),
+    ("bearing[1].kzz", 5e6),
+    ("bearing[1].kxx", 5e6),
+    ("bearing[1].cyy", 1500.0),
+    ("bearing[1].czz", 1500.0),
+    ("bearing[1].cxx", 1500.0),
+    ("effects.bearing[2]", 1.0),
+    ("bearing[2].position", 0.2),
+    ("bearing[2].kyy", 5e6),
+    ("bearing[2].kzz", 5e6),
+    ("bearing[2].kxx", 5e6),
+    ("bearing[2].cyy", 1500.0),
+    ("bearing[2].czz", 1500.0),
+];
+
+/// Bearings without dampers: errors of 3000 swings add up.
+const UNDAMPED: [(&str, f64); 14] = [
+    ("rotor.m", 10.0),
+    ("rotor.Ja", 0.03),
+    ("rotor.Jt", 0.05),
+    ("start.r_c.y", 5e-5),
+    ("start.omega.x", 300.0),
+    ("start.omega.y", 0.0),
+    ("effects.bearing[1]", 1.0),
+    ("bearing[1].position", -0.15),
+    ("bearing[1].kyy", 2e7),
+    ("bearing[1].kzz", 3e7),
+    ("effects.bearing[2]", 1.0),
+    ("bearing[2].position", 0.12),
+    ("bearing[2].kyy", 2e7),
+    ("bearing[2].kzz", 3e7),
+];
+
+/// Error of place [m] and of the axis over the tolerance [1], on bearings and in contact: measured 5e-3 and 0.5; spinning, whose excursion
+/// is 2e-3, and undamped, of some 5e-5: 300 tolerances of these.
+const BETWEEN: [f64; 4] = [0.1, 2.0, 0.6, 0.015];
 
 #[test]
 fn regress_what_happens_between_comparisons_keeps_the_tolerance() {
@@ -482,11 +526,15 @@ fn regress_what_happens_between_comparisons_keeps_the_tolerance() {
         };
         (1..=100).flat_map(at).collect()
     };
-    // Without a limit of stability 0.8, and where contacts were compared as rarely as all else 19.
+    // Without a limit of stability 0.8, where contacts were compared as rarely as all else 19; spinning 15, undamped 2.6.
     for (changes, orders, tolerance, step, most) in [
         (&BEARINGS[..], [4.0, 8.0], 1e-4, 0.01, BETWEEN[0]),
         (&BEARINGS[..], [2.0, 6.0], 1e-3, 0.01, BETWEEN[0]),
         (&FALL[..], [6.0, 8.0], 1e-6, 0.0, BETWEEN[1]),
+        (&SPINNING[..], [6.0, 8.0], 1e-6, 0.0, BETWEEN[2]),
+        (&SPINNING[..], [4.0, 6.0], 1e-4, 0.01, BETWEEN[2]),
+        (&UNDAMPED[..], [2.0, 8.0], 1e-6, 0.002, BETWEEN[3]),
+        (&UNDAMPED[..], [4.0, 6.0], 1e-4, 0.002, BETWEEN[3]),
     ] {
         let exact = shown(changes, [3.0, 6.0, 1e-13], 0.0);
         for order in orders {
