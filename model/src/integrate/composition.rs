@@ -164,7 +164,7 @@ stored!(Composed<const N: usize> {
 });
 
 /// Comparisons are no further apart than so many steps.
-const EVERY: u32 = 40;
+const EVERY: u32 = 48;
 
 /// The error of a step may be this part of the tolerance, since errors add up \[1]; where the motion goes less than its own size in a step,
 /// so much less.
