@@ -220,7 +220,9 @@ fn long_run(part: f64) {
     println!("{turns} turns in {time:.1} s, drift {slope:.1e} ± {noise:.1e} of the energy");
     assert!((turns / (part * 1e6) - 1.0).abs() < 1e-3);
     within("energy", largest(errors.iter().map(|error| error.abs())), LONG_RUN);
-    within("drift over noise", slope.abs() / noise, TREND);
+    // In 1.6·10⁷ steps: measured 8.8e-13.
+    let beyond = if slope.abs() > ROUNDED_AWAY { slope.abs() } else { 0.0 };
+    within("drift over noise", beyond / noise, TREND);
 }
 
 #[test]
