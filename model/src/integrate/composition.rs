@@ -145,7 +145,7 @@ pub struct Composed<const N: usize> {
     every: u32,
     /// Error of the last that was, over the tolerance of the run \[1].
     estimate: f64,
-    /// How far a compared step went at most, group by group.
+    /// How far compared steps went, group by group, those of long ago less.
     reach: Squares<N>,
     cost: Cost,
     /// The time reached \[s], and the state there.
