@@ -147,13 +147,15 @@ impl Effect for Rub {
     }
 
     fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64 {
-        let (_, depth, rate) = self.approach(motion);
+        let (outward, depth, rate) = self.approach(motion);
+        // eq. 113: smooth where a shaft goes past the stator line, or its way through the gap could be too short to be seen
+        let distance = outward.dot(&motion.station(self.position));
         match n {
-            0 => depth,
+            0 => depth * (distance + self.gap),
             // Without damping both would change at once.
             _ if self.damping == 0.0 => 1.0,
-            // eq. 97: the ring lets go as N = 0; it goes on below that where δ < 0, or its way through 0 could be too short to be seen
-            _ => self.pressure(depth, rate),
+            // The ring lets go as N = 0; it goes on below that where δ < 0, or its way through 0 could be too short to be seen.
+            _ => self.pressure(depth, rate) * distance,
         }
     }
 

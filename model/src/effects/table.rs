@@ -234,15 +234,17 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
         EDGE * end.max(self.speed[usize::from(self.begins_at_rest() && NODES > 1)])
     }
 
-    /// Goes on in the stretch of a speed [rad/s]; at the edge of two, in that where [`within`](Self::within) is `positive`. Its
-    /// number.
+    /// Goes on in the stretch of a speed [rad/s]; where [`within`](Self::within) of that is not as `positive` says, in the nearer of its
+    /// neighbours: an event is found to what the tolerance allows, not to rounding. Its number.
     pub fn follow(&mut self, speed: f64, positive: Option<bool>) -> f64 {
         let here = self.stretch_of(speed);
-        let is_near =
-            |number: &f64| self.exists(*number) && self.within(*number, speed).abs() <= 4.0 * self.edge(speed.abs());
-        let is_right = |number: &f64| positive.is_none_or(|positive| (number % 2.0 == 0.0) == positive);
-        let others = [here - 1.0, here + 1.0].into_iter().filter(is_near);
-        let number = std::iter::once(here).chain(others).find(is_right).unwrap_or(here);
+        let is_right = |number: f64| positive.is_none_or(|positive| (number % 2.0 == 0.0) == positive);
+        let lacks = |number: f64| if self.exists(number) { self.within(number, speed).abs() } else { f64::INFINITY };
+        let number = match [here - 1.0, here + 1.0] {
+            _ if is_right(here) => here,
+            [below, above] if lacks(below) < lacks(above) => below,
+            [_, above] => above,
+        };
         self.enter(number);
         number
     }

@@ -26,14 +26,18 @@ pub struct Explicit<const N: usize> {
     /// The time reached \[s], and the state there.
     t: f64,
     y: [f64; N],
-    /// Size of the next step \[s].
+    /// Size of the next step \[s], and of the longest of late.
     h: f64,
+    longest: f64,
     /// The stages k_i of the last step; `k[tableau.last]` is the rate at its end.
     k: [[f64; N]; MOST_STAGES],
     segment: Segment<N>,
 }
 
-stored!(Explicit<const N: usize> { tableau, tolerance, sizes, controller, cost, t, y, h, k, segment });
+stored!(Explicit<const N: usize> { tableau, tolerance, sizes, controller, cost, t, y, h, longest, k, segment });
+
+/// After a step the longest of late counts for this part of it, at least as that step \[1].
+const SHORTENED: f64 = 0.98;
 
 /// A refused step is tried again with this part of it.
 const REFUSED: f64 = 0.6;
@@ -79,6 +83,7 @@ impl<const N: usize> Explicit<N> {
             t: 0.0,
             y: [0.0; N],
             h: 0.0,
+            longest: 0.0,
             k: [[0.0; N]; MOST_STAGES],
             segment: Segment::blank(),
         }
@@ -243,6 +248,7 @@ impl<const N: usize> Explicit<N> {
         (segment.t, segment.h, segment.y, segment.dense) = (self.t, self.h, self.y, false);
         segment.sizes.copy(system, &self.sizes);
         self.sizes.take(system, seen, share);
+        self.longest = self.h.max(SHORTENED * self.longest);
         if segment.rough {
             // Only such a step is read by what an answer keeps.
             (segment.rough, segment.answer) = (false, Answer::none());

@@ -125,11 +125,14 @@ stored!(Taylor<const N: usize> {
 struct Wish {
     /// It itself \[s].
     size: f64,
-    /// So long \[s] that the last term would be the tolerance.
+    /// So long \[s] that the last term would be what it may be.
     last: f64,
     /// By so much terms fall from one power to the next, in a step of 1 s \[1/s].
     fall: f64,
 }
+
+/// The last terms may be this part s of the tolerance: long steps err in the same direction, one after the other \[1].
+const SAFETY: f64 = 0.1;
 
 /// A refused step is tried again with this part of it.
 const REFUSED: f64 = 0.6;
@@ -376,9 +379,10 @@ impl<const N: usize> Taylor<N> {
         if last == 0 || h >= self.h {
             return most;
         }
-        // eq. 109: terms as those of an exponential function, ‖y_n‖ = (v h)ⁿ/(n! rtol), of which the last one was 1
-        let reach = power(FACTORIALS[last] * self.tolerance.relative, 1.0 / last as f64) * (h / self.h);
-        let mut term = MARGIN / self.tolerance.relative;
+        // eq. 109: terms as those of an exponential function, ‖y_n‖ = (v h)ⁿ/(n! s rtol), of which the last one was 1
+        let tolerance = SAFETY * self.tolerance.relative;
+        let reach = power(FACTORIALS[last] * tolerance, 1.0 / last as f64) * (h / self.h);
+        let mut term = MARGIN / tolerance;
         for n in 1..most {
             term *= reach / n as f64;
             if term <= 1.0 {
@@ -388,12 +392,12 @@ impl<const N: usize> Taylor<N> {
         most
     }
 
-    /// So long that neither of the last two terms is beyond the tolerance, and that terms fall.
+    /// So long that neither of the last two terms is beyond its part of the tolerance, and that terms fall.
     fn longest_step(&self, system: &impl Analytic<N>, order: usize) -> Wish {
         let seen = self.sizes.seen(system, &self.y, &self.rate);
         let weights = self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, self.h), &seen);
-        let square = |n: usize| system.term(&self.y, &self.terms, n, &weights);
-        // eq. 107: h = min (1/‖y_n‖)^(1/n), n = p − 1, p
+        let square = |n: usize| system.term(&self.y, &self.terms, n, &weights) / (SAFETY * SAFETY);
+        // eq. 107: h = min (s/‖y_n‖)^(1/n), n = p − 1, p
         let [a, b] = [order - 1, order].map(|n| power(square(n), -0.5 / n as f64));
         // Not `min`, which passes over what is not a number.
         let size = if a < b { a } else { b };
@@ -415,7 +419,7 @@ impl<const N: usize> Taylor<N> {
         self.cost.steps += 1.0;
         // eq. 111: the terms that are left out as a geometric series
         let ratio = (wish.fall * step).min(FALL);
-        self.cost.error_estimate += Scalar::powi(step / wish.last, self.order as i32) * ratio / (1.0 - ratio);
+        self.cost.error_estimate += SAFETY * Scalar::powi(step / wish.last, self.order as i32) * ratio / (1.0 - ratio);
     }
 }
 

@@ -26,6 +26,9 @@ stored!(Events { positive, due });
 /// this part of what they differ by: it is as good as that, as long as what swings is seen in ten places \[1].
 const NEAR: f64 = 0.1;
 
+/// A jump changes the sides of indicators at most so often until all laws hold where it ends.
+const MOST_JUMPED: u32 = 8;
+
 impl Events {
     /// Of a motion that begins, of whose sides the effects hear.
     pub(super) fn begin<E: Effects, const N: usize>(
@@ -51,6 +54,21 @@ impl Events {
         let before = std::mem::replace(&mut self.positive, indicators(effects, motion, state).map(|z| z > 0.0));
         self.tell(effects, motion, state);
         before != self.positive
+    }
+
+    /// The motion has jumped, and with it the indicators, some of them past more than one switch.
+    pub(super) fn jump<E: Effects, const N: usize>(
+        &mut self,
+        effects: &mut E,
+        motion: &Kinematics<f64>,
+        state: &[f64; N],
+    ) {
+        for _ in 0..MOST_JUMPED {
+            if !self.take_sides(effects, motion, state) {
+                return;
+            }
+            self.forget();
+        }
     }
 
     /// Whether an indicator is now on another side.
@@ -117,8 +135,11 @@ impl Events {
     ) -> Option<(f64, u32)> {
         let place = |n: u32| if n == places { to } else { from + (to - from) * f64::from(n) / f64::from(places) };
         // What is positive is on its side.
-        let sided = |z: Indicators, n: usize| if self.positive[n] { z[n] } else { -z[n] };
-        let (mut before, mut found) = ([(from, at(from)); 2], None::<(f64, u32)>);
+        let side_of = |z: &Indicators, n: usize| if self.positive[n] { z[n] } else { -z[n] };
+        let start = at(from);
+        // What has just switched may still be on the other side by as much as the tolerance allows: it counts from there.
+        let sided = |z: Indicators, n: usize| side_of(&z, n) - side_of(&start, n).min(0.0);
+        let (mut before, mut found) = ([(from, start); 2], None::<(f64, u32)>);
         for n in 1..=places {
             let now = (place(n), at(place(n)));
             // One place beyond, for what may dip before the first that was found.
@@ -192,13 +213,15 @@ fn lowest(mut low: f64, mut high: f64, at: &mut impl FnMut(f64) -> f64) -> Optio
 /// not, to rounding (regula falsi, Illinois's variant: Dowell and Jarratt 1971).
 fn zero(mut good: f64, mut bad: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
     const TRIES: u32 = 200;
+    const NEAREST: f64 = 1.0 / 16.0;
     let positive = |z: f64| if z > 0.0 { z } else { 0.0 };
     let (mut above, mut below) = (positive(at(good)), -positive(-at(bad)));
     for n in 0..TRIES {
         if (bad - good).abs() <= 2.0 * ulp(bad) {
             break;
         }
-        let part = above / (above - below);
+        // What has just switched is hardly on its side: the chord would end in what rounding leaves of that.
+        let part = (above / (above - below)).max(NEAREST);
         // Where the chord does not help, halves do.
         let part = if n % 4 == 3 || !(part > 0.0 && part < 1.0) { 0.5 } else { part };
         let t = good + part * (bad - good);

@@ -393,12 +393,16 @@ impl<const N: usize> Integration<N> {
     }
 
     /// Where inputs were set, goes on from the communication point under these effects.
-    fn go_back<E: Effects>(&mut self, effects: &E) -> Result<(), Fault> {
+    fn go_back<E: Effects>(&mut self, effects: &mut E) -> Result<(), Fault> {
         let Some(held) = self.held.take() else { return Ok(()) };
         if self.t < self.method.time() {
             self.events.forget();
         }
         let y = self.jumped(effects, &held);
+        if E::FACTS.imposes {
+            let motion = self.motion_in(effects, held.chart, &y);
+            self.events.jump(effects, &motion, &y);
+        }
         (self.frame.chart, self.frame.turns) = (held.chart, held.turns);
         self.method.go_back(&self.frame.under(effects), self.t, y);
         self.watch_tilt(effects, gamma(&y));

@@ -153,7 +153,7 @@ fn a_touch_is_heard_anywhere_in_a_step() {
     /// Angle of the swing [rad] that the touch takes: steps of dop853 take some 2 rad, those of taylor some 10.
     const TOUCHES: [(&str, f64, f64); 3] = [("dop853", 1e-6, 0.01), ("taylor", 1e-6, 0.05), ("taylor", 1e-12, 0.05)];
     let (rate, amplitude) = (20.0, 0.01);
-    let mut unheard = [const { Vec::new() }; 2];
+    let mut unheard = Vec::new();
     for ((method, tolerance, touch), n) in TOUCHES.into_iter().flat_map(|of| (0..PHASES).map(move |n| (of, n))) {
         let gap = amplitude * libm::cos(0.5 * touch);
         let phase = 1.0 + 2.5 * f64::from(n) / f64::from(PHASES);
@@ -168,12 +168,10 @@ fn a_touch_is_heard_anywhere_in_a_step() {
         rotor.start();
         at(&mut rotor.simulation, (phase + 1.0) / rate);
         if rotor.get("energy.dissipated") == 0.0 {
-            unheard[usize::from(method == "taylor")].push(phase);
+            unheard.push((method, tolerance, phase));
         }
     }
-    println!("{unheard:?} rad before the touch");
-    // Of the long steps of taylor, where another indicator changes within the same place and back: measured 11 of 3000, before 2473.
-    assert!(unheard[0].is_empty() && unheard[1].len() <= 30, "{unheard:?} rad before the touch");
+    assert!(unheard.is_empty(), "{unheard:?} rad before the touch");
 }
 
 /// A machine that is run up by a motor and touches its ring by 30 nm, for 0.2 ms.

@@ -18,12 +18,18 @@ impl Rub {
         depth.min(depth + self.damping / self.stiffness * rate)
     }
 
+    /// Speed at which the shaft slides on the ring [m/s], at this ω_φ [rad/s].
+    pub fn sliding(&self, station: &[Vector3<f64>; 2], speed: f64) -> f64 {
+        let (outward, ..) = self.approach(station);
+        Vector3::x().cross(&outward).dot(&station[1]) + self.radius * speed
+    }
+
     /// Force on the rotor of a ring that presses \[N], and its torque about n [N·m], at this ω_φ [rad/s].
     pub fn load(&self, station: &[Vector3<f64>; 2], speed: f64) -> (Vector3<f64>, f64) {
         let (outward, depth, rate) = self.approach(station);
         let along = Vector3::x().cross(&outward);
         let normal = self.stiffness * depth + self.damping * rate;
-        let sliding = along.dot(&station[1]) + self.radius * speed;
+        let sliding = self.sliding(station, speed);
         let friction = self.friction * normal * libm::tanh(sliding / self.v0);
         (-outward * normal - along * friction, -friction * self.radius)
     }

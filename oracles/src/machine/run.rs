@@ -157,6 +157,7 @@ impl Run {
             let Self { laws, inputs, t, y, sizes, .. } = self;
             let mut rates = |t: f64, y: &State| laws.rates(t, y, inputs);
             let first = rates(*t, y);
+            let h = laws.within_sliding(y, &first, h);
             let (mut accepted, mut best) = (None, (f64::INFINITY, 0.1 * h, 0));
             let gained = change(&mut rates, *t, y, &first, h, |column, gained, difference| {
                 let error = error(y, sizes, &first.map(|rate| h * rate), gained, difference, tolerance);

@@ -21,6 +21,10 @@ pub(super) struct Switch {
 /// A rate of a margin is seen over this part of a step \[1].
 const ASIDE: f64 = 1e-6;
 
+/// A margin that is less than so many times what its rate makes of it in a step is looked at in so many places.
+const NEAR: f64 = 1.0;
+const LOOKS: u32 = 12;
+
 /// A way is halved so often at most.
 const HALVES: u32 = 60;
 
@@ -43,6 +47,20 @@ impl Laws {
         };
         let of_tables = self.tables.iter().flat_map(|table| table.within(motion.speed()));
         self.rubs.iter().map(of_ring).chain(of_tables).collect()
+    }
+
+    /// So much of a step of `h` \[s] from `y`, where the rates are these, that no shaft that slides on a ring turns back in it: friction would
+    /// drive the points of the midpoint rule to and fro, the same in all columns, and stay out of sight.
+    pub fn within_sliding(&self, y: &State, rates: &State, h: f64) -> f64 {
+        let pressed = self.rubs.iter().filter(|(rub, presses)| *presses && rub.friction > 0.0);
+        let longest = pressed.map(|(rub, _)| {
+            let [now, next] = [0.0, ASIDE * h].map(|ahead| {
+                let motion = self.motion(&plus(y, rates, ahead));
+                rub.sliding(&motion.station(rub.position), motion.speed())
+            });
+            (0.5 * now.abs()).max(rub.v0) / ((next - now) / (ASIDE * h)).abs()
+        });
+        longest.fold(h, f64::min)
     }
 
     /// Takes the branches of a state.
@@ -89,7 +107,13 @@ impl Laws {
             let [before, after] = [margins[number], margins_after[number]];
             let [falls, rises] = [slopes_first[number], slopes_last[number]];
             let mut margin = |h: f64| self.margins(&plus(y, &part(h), 1.0))[number];
-            let beyond = if after < 0.0 {
+            // What is near its end may turn more than once in a step.
+            let near = before.min(after) < NEAR * h * falls.abs().max(rises.abs());
+            let looks = if near { LOOKS } else { 0 };
+            let negative = (1..looks).map(|n| h * f64::from(n) / f64::from(LOOKS)).find(|t| margin(*t) < 0.0);
+            let beyond = if let Some(t) = negative {
+                t
+            } else if after < 0.0 {
                 h
             } else if falls < 0.0 && rises > 0.0 && {
                 // Where the tangents at both ends meet.
