@@ -138,7 +138,10 @@ impl Events {
         let side_of = |z: &Indicators, n: usize| if self.positive[n] { z[n] } else { -z[n] };
         let start = at(from);
         // What has just switched may still be on the other side by as much as the tolerance allows: it counts from there.
-        let sided = |z: Indicators, n: usize| side_of(&z, n) - side_of(&start, n).min(0.0);
+        let sided = |z: Indicators, n: usize| {
+            let from = side_of(&start, n);
+            if from < 0.0 { side_of(&z, n) - from } else { side_of(&z, n) }
+        };
         let (mut before, mut found) = ([(from, start); 2], None::<(f64, u32)>);
         for n in 1..=places {
             let now = (place(n), at(place(n)));
@@ -221,7 +224,8 @@ fn zero(mut good: f64, mut bad: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
             break;
         }
         // What has just switched is hardly on its side: the chord would end in what rounding leaves of that.
-        let part = (above / (above - below)).max(NEAREST);
+        let chord = above / (above - below);
+        let part = if chord < NEAREST { NEAREST } else { chord };
         // Where the chord does not help, halves do.
         let part = if n % 4 == 3 || !(part > 0.0 && part < 1.0) { 0.5 } else { part };
         let t = good + part * (bad - good);
