@@ -21,12 +21,12 @@ const STEPS: u32 = 128;
 const METHODS: [(i32, &str); 6] = [AUTO, (2, "dopri5"), (3, "dop853"), (4, "symplectic"), (5, "stiff"), (6, "taylor")];
 const AUTO: (i32, &str) = (1, "auto");
 
-/// The methods that a scene is run with: one that leaves the choice to `auto` is one where the others take too long.
+/// The methods that a scene is run with: one of effects of its own that leaves the choice to `auto` is one where the others take too long.
 fn methods(name: &str) -> Vec<(i32, &'static str)> {
     let scene = Scene::find(name, &scenes()).unwrap_or_else(|error| panic!("{error}"));
     let choice = scene.variables.iter().find(|variable| variable.name == "solver.method").expect("it is always there");
     let is_auto = scene.starts[&choice.place.value_reference()] == f64::from(AUTO.0);
-    if is_auto { vec![AUTO] } else { METHODS.to_vec() }
+    if is_auto && !scene.general { vec![AUTO] } else { METHODS.to_vec() }
 }
 
 const HEADER: &str = "\
