@@ -139,8 +139,8 @@ impl Events {
         let start = at(from);
         // What has just switched may still be on the other side by as much as the tolerance allows: it counts from there.
         let sided = |z: Indicators, n: usize| {
-            let from = side_of(&start, n);
-            if from < 0.0 { side_of(&z, n) - from } else { side_of(&z, n) }
+            let at_start = side_of(&start, n);
+            if at_start < 0.0 { side_of(&z, n) - at_start } else { side_of(&z, n) }
         };
         let (mut before, mut found) = ([(from, start); 2], None::<(f64, u32)>);
         for n in 1..=places {
@@ -216,6 +216,7 @@ fn lowest(mut low: f64, mut high: f64, at: &mut impl FnMut(f64) -> f64) -> Optio
 /// not, to rounding (regula falsi, Illinois's variant: Dowell and Jarratt 1971).
 fn zero(mut good: f64, mut bad: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
     const TRIES: u32 = 200;
+    /// The least part of the way that a chord goes: 12 of them reach rounding \[1].
     const NEAREST: f64 = 1.0 / 16.0;
     let positive = |z: f64| if z > 0.0 { z } else { 0.0 };
     let (mut above, mut below) = (positive(at(good)), -positive(-at(bad)));
