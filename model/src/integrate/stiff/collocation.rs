@@ -1,20 +1,23 @@
 //! The linear equations of a step of Radau IIA: one real and one complex system of N instead of one of 3N.
 
 use super::lu::Lu;
-use super::radau::{GAMMA, PAIR, STAGES, T_INVERSE, combined};
+use super::radau::{GAMMA, PAIR, STAGES, T, T_INVERSE, combined};
 use nalgebra::Complex;
 
 /// Both systems of a step of one size.
-pub struct Collocation<const N: usize> {
+pub struct Collocation<'a, const N: usize> {
+    jacobian: &'a [[f64; N]; N],
+    /// On so many components the system depends.
+    size: usize,
     /// Size of the step \[s].
     pub h: f64,
     real: Lu<f64, N>,
     complex: Lu<Complex<f64>, N>,
 }
 
-impl<const N: usize> Collocation<N> {
+impl<'a, const N: usize> Collocation<'a, N> {
     /// For a step of size `h` \[s] of a system that depends on the first `size` components.
-    pub fn new(jacobian: &[[f64; N]; N], h: f64, size: usize) -> Self {
+    pub fn new(jacobian: &'a [[f64; N]; N], h: f64, size: usize) -> Self {
         let (gamma, pair) = (GAMMA / h, PAIR / h);
         let real = std::array::from_fn(|i| {
             std::array::from_fn(|j| if i == j { gamma - jacobian[i][j] } else { -jacobian[i][j] })
@@ -25,7 +28,7 @@ impl<const N: usize> Collocation<N> {
                 if i == j { pair - derivative } else { -derivative }
             })
         });
-        Self { h, real: Lu::new(real, size), complex: Lu::new(complex, size) }
+        Self { jacobian, size, h, real: Lu::new(real, size), complex: Lu::new(complex, size) }
     }
 
     /// w = (T⁻¹ ⊗ I) z.
@@ -48,5 +51,19 @@ impl<const N: usize> Collocation<N> {
     /// x where (γ/h I − J) x is b.
     pub fn filtered(&self, b: &[f64; N]) -> [f64; N] {
         self.real.solve(b)
+    }
+
+    /// hJ (γ I − hJ)⁻¹ x: little of what is slow, and −x of what is stiff.
+    pub fn unresolved(&self, x: &[f64; N]) -> [f64; N] {
+        let filtered = self.filtered(x);
+        std::array::from_fn(|n| GAMMA / self.h * filtered[n] - x[n])
+    }
+
+    /// R(hJ) x: what a difference x between two states becomes in the step.
+    pub fn advanced(&self, x: &[f64; N]) -> [f64; N] {
+        let rate = std::array::from_fn(|i| (0..self.size).map(|j| self.jacobian[i][j] * x[j]).sum());
+        let gained = self.newton(&[rate; STAGES], &[[0.0; N]; STAGES]);
+        let gained = combined(&T[STAGES - 1], &gained);
+        std::array::from_fn(|n| x[n] + gained[n])
     }
 }
