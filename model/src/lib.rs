@@ -37,7 +37,11 @@ pub mod variables;
 // Floor 5: a whole run.
 pub mod simulation;
 
-// Floor 6: scenes and their modelDescription.xml, for build.rs and xtask.
+// Floor 6: what engineers ask before a run, over the list of all effects.
+#[cfg(feature = "scenes")]
+pub mod linear;
+
+// Floor 7: scenes and their modelDescription.xml, for build.rs and xtask.
 #[cfg(feature = "scenes")]
 pub mod dependencies;
 #[cfg(feature = "scenes")]

@@ -4,6 +4,7 @@ mod accuracy;
 mod bench;
 mod c;
 mod c_host;
+mod campbell;
 mod copies;
 mod demo;
 mod fmu;
@@ -104,6 +105,22 @@ enum Command {
         #[arg(long)]
         seed: Option<u64>,
     },
+    /// Whirl frequencies and damping against the spin, critical speeds and the threshold of stability: table, SVG, CSV and JSON in
+    /// target/campbell/SCENE
+    Campbell {
+        /// The scene
+        #[arg(default_value = "paper")]
+        scene: String,
+        /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
+        speeds: Option<Vec<f64>>,
+        /// How many speeds
+        #[arg(long, default_value_t = 201)]
+        steps: u32,
+        /// Lines of the speed's multiples, whose crossings are critical speeds
+        #[arg(long, num_args = 1.., value_name = "X", default_values_t = [1.0, 2.0])]
+        orders: Vec<f64>,
+    },
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print a scene's modelDescription.xml
@@ -136,6 +153,9 @@ fn dispatch(command: Command) -> Result<()> {
             if packaged { hard_cases::run(&extent) } else { hard_cases::hard_cases(&extent) }
         }
         Command::Bench { part, seed } => bench::bench(&part, seed),
+        Command::Campbell { scene, speeds, steps, orders } => {
+            campbell::campbell(&scene, speeds.as_deref(), steps, &orders)
+        }
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),
     }

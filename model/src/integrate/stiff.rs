@@ -446,7 +446,7 @@ impl<const N: usize> Stiff<N> {
             error = collocation.filtered(&std::array::from_fn(|n| rate[n] + estimate[n]));
             size = norm(&error, &weights);
         }
-        if !(size <= 1.0) {
+        if size > 1.0 || size.is_nan() {
             return size;
         }
         // eq. 114: local = K R(hJ)⁴ (hJ (γ I − hJ)⁻¹)² err

@@ -26,6 +26,7 @@ mod honest_tolerance;
 mod imposed_speed;
 mod invariants;
 mod ledger;
+mod linear;
 mod motion;
 mod motor;
 mod order;

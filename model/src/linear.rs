@@ -1,0 +1,12 @@
+//! The machine as rotor engineers look at it first: where it runs steadily, and how it whirls about that.
+//!
+//! Balanced, with its drives off, its spin held, and whatever else acts on it as in a run: the equations are those of the
+//! simulation, and their derivatives those of `stiff`.
+
+mod campbell;
+mod machine;
+mod modes;
+
+pub use campbell::{Branch, Campbell, Crossing, Point};
+pub use machine::{Machine, Obstacle, STATES, Steady};
+pub use modes::{Direction, Mode, Shape};

@@ -1,0 +1,205 @@
+//! Modes followed through a range of speeds, and where they cross the lines of the speed's multiples, or begin to grow.
+
+use super::modes::GROWS;
+use super::{Machine, Mode, Obstacle, Steady};
+use nalgebra::ComplexField;
+
+/// A mode at a speed.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// [rad/s].
+    pub speed: f64,
+    /// The mode.
+    pub mode: Mode,
+}
+
+/// A mode through the speeds, as long as it can be followed.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// By speed.
+    pub points: Vec<Point>,
+}
+
+/// Where something happens to a branch.
+#[derive(Clone, Debug)]
+pub struct Crossing {
+    /// The branch's number, from 0.
+    pub branch: usize,
+    /// [rad/s].
+    pub speed: f64,
+    /// The mode there.
+    pub mode: Mode,
+}
+
+/// The modes of a machine from one speed to another.
+pub struct Campbell<'m> {
+    machine: &'m Machine,
+    /// Where it runs steadily, by speed.
+    pub steady: Vec<Steady>,
+    /// Its modes.
+    pub branches: Vec<Branch>,
+}
+
+/// Two modes are one where they are more alike than this \[1], or there is no speed left between them.
+const ALIKE: f64 = 0.9;
+
+/// An interval is halved so often to follow a mode.
+const HALVINGS: u32 = 10;
+
+/// A crossing is found to this part of its speed \[1].
+const FOUND: f64 = 1e-13;
+
+impl<'m> Campbell<'m> {
+    /// Of these speeds [rad/s], which ascend.
+    ///
+    /// # Errors
+    /// Where there is no steady state at one of them.
+    pub fn of(machine: &'m Machine, speeds: &[f64]) -> Result<Self, Obstacle> {
+        let mut all = Self { machine, steady: Vec::new(), branches: Vec::new() };
+        let mut open: Vec<usize> = Vec::new();
+        for speed in speeds {
+            let (steady, modes) = machine.modes(*speed, all.steady.last())?;
+            let last: Vec<_> = open.iter().map(|branch| all.last(*branch).clone()).collect();
+            let follows = match all.steady.last() {
+                Some(before) => machine.follow((before, &last), (&steady, &modes), HALVINGS)?,
+                None => Vec::new(),
+            };
+            let mut next = Vec::new();
+            for (n, mode) in modes.into_iter().enumerate() {
+                let branch = follows.iter().position(|to| *to == Some(n)).map_or(all.branches.len(), |from| open[from]);
+                if branch == all.branches.len() {
+                    all.branches.push(Branch { points: Vec::new() });
+                }
+                all.branches[branch].points.push(Point { speed: *speed, mode });
+                next.push(branch);
+            }
+            open = next;
+            all.steady.push(steady);
+        }
+        Ok(all)
+    }
+
+    fn last(&self, branch: usize) -> &Mode {
+        &self.branches[branch].points.last().expect("a branch begins with a mode").mode
+    }
+
+    /// Where the frequencies are `order` times the speed.
+    ///
+    /// # Errors
+    /// Where there is no steady state on the way.
+    pub fn critical_speeds(&self, order: f64) -> Result<Vec<Crossing>, Obstacle> {
+        self.crossings(|mode, speed| (mode.eigenvalue.im > 0.0).then(|| mode.eigenvalue.im - order * speed.abs()))
+    }
+
+    /// Where modes begin or cease to grow.
+    ///
+    /// # Errors
+    /// Where there is no steady state on the way.
+    pub fn thresholds(&self) -> Result<Vec<Crossing>, Obstacle> {
+        self.crossings(|mode, _| Some(mode.eigenvalue.re))
+    }
+
+    /// Whether any mode grows at one of the speeds.
+    pub fn grows(&self) -> bool {
+        self.branches.iter().flat_map(|branch| &branch.points).any(|point| point.mode.grows())
+    }
+
+    /// Where this changes its sign along the branches.
+    fn crossings(&self, of: impl Fn(&Mode, f64) -> Option<f64>) -> Result<Vec<Crossing>, Obstacle> {
+        let mut found = Vec::new();
+        for (branch, Branch { points }) in self.branches.iter().enumerate() {
+            for pair in points.windows(2) {
+                let [from, to] = [&pair[0], &pair[1]];
+                if let (Some(a), Some(b)) = (of(&from.mode, from.speed), of(&to.mode, to.speed))
+                    && is_above(a, &from.mode) != is_above(b, &to.mode)
+                    && let Some(point) = self.root([(from, a), (to, b)], &of)?
+                {
+                    found.push(Crossing { branch, speed: point.speed, mode: point.mode });
+                }
+            }
+        }
+        found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        Ok(found)
+    }
+
+    /// By Illinois' rule, along the mode; None where it cannot be followed.
+    fn root(
+        &self,
+        ends: [(&Point, f64); 2],
+        of: &impl Fn(&Mode, f64) -> Option<f64>,
+    ) -> Result<Option<Point>, Obstacle> {
+        let [(from, mut at_a), (to, mut at_b)] = ends;
+        let (mut a, mut b) = (from.speed, to.clone());
+        for _ in 0..100 {
+            if (b.speed - a).abs() <= FOUND * b.speed.abs() || at_b == 0.0 {
+                break;
+            }
+            let speed = b.speed - at_b * (b.speed - a) / (at_b - at_a);
+            let Some(mode) = self.machine.followed(&b, speed)? else { return Ok(None) };
+            let Some(value) = of(&mode, speed) else { return Ok(None) };
+            let is_still = speed == b.speed;
+            let (last, at_last) =
+                (std::mem::replace(&mut b, Point { speed, mode }), std::mem::replace(&mut at_b, value));
+            if (value > 0.0) != (at_last > 0.0) {
+                (a, at_a) = (last.speed, at_last);
+            } else {
+                at_a *= 0.5;
+            }
+            if is_still {
+                break;
+            }
+        }
+        Ok(Some(b))
+    }
+}
+
+/// What is 0 but for rounding is not above.
+fn is_above(value: f64, mode: &Mode) -> bool {
+    value > GROWS * mode.eigenvalue.modulus()
+}
+
+impl Machine {
+    /// Which mode at the second place each of the first ones becomes.
+    fn follow(
+        &self,
+        (from, ours): (&Steady, &[Mode]),
+        (to, theirs): (&Steady, &[Mode]),
+        halvings: u32,
+    ) -> Result<Vec<Option<usize>>, Obstacle> {
+        let pairs = matched(ours, theirs);
+        let is_sure = pairs.iter().all(|pair| pair.is_some_and(|(_, likeness)| likeness > ALIKE));
+        if is_sure || halvings == 0 {
+            return Ok(pairs.into_iter().map(|pair| pair.map(|(to, _)| to)).collect());
+        }
+        let (between, modes) = self.modes(0.5 * (from.speed + to.speed), Some(from))?;
+        let there = self.follow((from, ours), (&between, &modes), halvings - 1)?;
+        let on = self.follow((&between, &modes), (to, theirs), halvings - 1)?;
+        Ok(there.into_iter().map(|between| between.and_then(|between| on[between])).collect())
+    }
+
+    /// The mode at `speed` [rad/s] that this one becomes.
+    fn followed(&self, from: &Point, speed: f64) -> Result<Option<Mode>, Obstacle> {
+        let (start, ours) = self.modes(from.speed, None)?;
+        let (end, mut theirs) = self.modes(speed, Some(&start))?;
+        let is_it = |n: &usize| from.mode.likeness(&ours[*n]);
+        let nearest = (0..ours.len()).max_by(|a, b| is_it(a).total_cmp(&is_it(b)));
+        let follows = self.follow((&start, &ours), (&end, &theirs), HALVINGS)?;
+        Ok(nearest.and_then(|nearest| follows[nearest]).map(|to| theirs.swap_remove(to)))
+    }
+}
+
+/// Each of ours with the one of theirs that is most like it, and how like; each of theirs once.
+fn matched(ours: &[Mode], theirs: &[Mode]) -> Vec<Option<(usize, f64)>> {
+    let mut all: Vec<_> = (0..ours.len())
+        .flat_map(|a| (0..theirs.len()).map(move |b| (a, b)))
+        .map(|(a, b)| (a, b, ours[a].likeness(&theirs[b])))
+        .collect();
+    all.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let (mut pairs, mut taken) = (vec![None; ours.len()], vec![false; theirs.len()]);
+    for (a, b, likeness) in all {
+        if pairs[a].is_none() && !taken[b] {
+            (pairs[a], taken[b]) = (Some((b, likeness)), true);
+        }
+    }
+    pairs
+}

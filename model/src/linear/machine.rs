@@ -1,0 +1,319 @@
+//! Where a balanced machine runs steadily, and its linear equations about that.
+
+use crate::body::Asymmetric;
+use crate::dual::Dual;
+use crate::effects::{All, Effects, MOST_INDICATORS};
+use crate::integrate::System;
+use crate::integrate::stiff::Differentiable;
+use crate::rotation::Tilt;
+use crate::rotor::Rotor;
+use crate::simulation::numbers_of_state;
+use crate::simulation::start::Motion;
+use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
+use crate::variables::Parameters;
+use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
+use std::fmt;
+
+/// Numbers of the linear state: place, its rate, tilt, and the part of K across the axis, divided by their sizes.
+pub const STATES: usize = 10;
+
+/// Place (3) and tilt (2), which a steady state is sought in.
+const UNKNOWNS: usize = 5;
+
+/// Rates of v (3) and K (3), which must vanish there.
+const BALANCES: usize = 6;
+
+/// How many numbers the state of the nonlinear equations has.
+const N: usize = numbers_of_state::<All>();
+
+/// What a drive is: it is off, for the spin is held.
+const DRIVES: [&str; 3] = ["drive", "motor", "imposed_speed"];
+
+/// What is out of balance goes onto the axis.
+const UNBALANCE: (&str, &str) = ("unbalance", "radius");
+
+/// Principal moments that differ by less than this are one \[1].
+const ROUNDING: f64 = 1e-12;
+
+/// Newton's method takes so many steps at most, each with a turn of the axis of at most so much \[rad].
+const MOST_STEPS: u32 = 60;
+const LONGEST: f64 = 0.3;
+
+/// Singular values below this part of the largest are those of directions in which nothing holds the rotor \[1].
+const UNHELD: f64 = 1e-12;
+
+/// What is left of the loads where they balance, over what they were \[1].
+const BALANCED: f64 = 1e-9;
+
+/// A machine without its unbalance and its drives.
+#[derive(Clone)]
+pub struct Machine {
+    parameters: Parameters<All>,
+    /// Moments of inertia about the axis and across it, about the mass centre [kg·m²].
+    about_axis: f64,
+    across: f64,
+    /// √(Jt/m) \[m].
+    length: f64,
+}
+
+/// Where it stands while it spins steadily.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// ω_φ [rad/s].
+    pub speed: f64,
+    /// Place of the mass centre G \[m].
+    pub r: Vector3<f64>,
+    /// γ \[rad].
+    pub gamma: Vector2<f64>,
+    /// The axis t \[1].
+    pub axis: Vector3<f64>,
+    /// ∂t/∂γ \[1].
+    pub turning: Matrix3x2<f64>,
+    /// The torque about the axis that holds the spin [N·m].
+    pub torque: f64,
+    /// Of the linear equations about it: a rate [1/s], for numbers of the size 1.
+    pub rate: f64,
+    /// The matrix of the linear equations over `rate` \[1].
+    pub matrix: SMatrix<f64, STATES, STATES>,
+}
+
+/// Why there is no answer.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Obstacle {
+    /// The body is not symmetric about its axis: no linear equations with constant coefficients.
+    Asymmetric,
+    /// A parameter is not possible.
+    Invalid(String),
+    /// Nothing balances what acts on the rotor at this speed [rad/s], or Newton's method does not get there.
+    NoSteadyState {
+        /// [rad/s].
+        speed: f64,
+    },
+    /// The effect of this name switches its law between the start and the steady state at this speed [rad/s].
+    Switches {
+        /// [rad/s].
+        speed: f64,
+    },
+}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Asymmetric => {
+                write!(
+                    f,
+                    "the body is not symmetric about its axis (effects.asymmetry), so its modes are not those of constant coefficients"
+                )
+            }
+            Self::Invalid(reason) => write!(f, "{reason}"),
+            Self::NoSteadyState { speed } => {
+                write!(f, "at {speed} rad/s nothing balances what acts on the rotor: no steady state was found")
+            }
+            Self::Switches { speed } => {
+                write!(
+                    f,
+                    "at {speed} rad/s the steady state touches a ring (effects.rub), which has no linear law there"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for Obstacle {}
+
+/// The equations at a state of rest but for the spin.
+struct Equations {
+    /// Rates of v over `length`, and of K over Jt but for its part along the axis [1/s²].
+    left: SVector<f64, BALANCES>,
+    /// Their derivatives by place over `length` and by tilt.
+    slopes: SMatrix<f64, BALANCES, UNKNOWNS>,
+    /// ∂f/∂y of all numbers of the state.
+    jacobian: [[f64; N]; N],
+    axis: Vector3<f64>,
+    /// ∂t/∂γ.
+    turning: Matrix3x2<f64>,
+    /// Moment about the axis [N·m].
+    moment: f64,
+}
+
+impl Machine {
+    /// Of these parameters; why not.
+    pub fn of(parameters: &Parameters<All>) -> Result<Self, Obstacle> {
+        parameters.check().map_err(|invalid| Obstacle::Invalid(invalid.to_string()))?;
+        let mut parameters = parameters.clone();
+        parameters.effects.for_each(|block| {
+            let kind = block.kind();
+            if DRIVES.contains(&kind.name) {
+                block.switch(false);
+            } else if kind.name == UNBALANCE.0 {
+                let is_radius = |row: &usize| (kind.meta)(*row).is_some_and(|meta| meta.name == UNBALANCE.1);
+                let row = (0..).find(is_radius).expect("it has one");
+                block.set_parameter(row, 0.0);
+            }
+        });
+        let start = &mut parameters.setup.start;
+        (start.gamma, start.v_c, start.phi) = (Vector2::zeros(), Vector3::zeros(), 0.0);
+        let body = parameters.shape().inertia();
+        let lies_off = |asymmetric: &Asymmetric| {
+            asymmetric.centre.yz() != Vector2::zeros() || asymmetric.excess.abs() > ROUNDING * body.per_jt
+        };
+        if body.asymmetric.as_ref().is_some_and(lies_off) {
+            return Err(Obstacle::Asymmetric);
+        }
+        let [about_axis, across] = [body.spin + body.per_jt, body.per_jt].map(|per| 1.0 / per);
+        Ok(Self { parameters, about_axis, across, length: (across * body.per_m).sqrt() })
+    }
+
+    /// Where it runs steadily at `speed` [rad/s], sought from `near`, and its linear equations there.
+    ///
+    /// # Errors
+    /// Where nothing balances what acts, or a law switches on the way from the start.
+    pub fn steady(&self, speed: f64, near: Option<&Steady>) -> Result<Steady, Obstacle> {
+        let mut parameters = self.parameters.clone();
+        parameters.setup.start.omega = Vector3::x() * speed;
+        // Tables take their stretch from the speed, and axial springs their length from the place at the start.
+        let start = Motion::<N>::at_start(&mut parameters, 0.0);
+        let rotor = start.frame.under(&parameters.effects);
+        let mut r = near.map_or(Coordinates::from_slice(rigid(&start.state)).r, |near| near.r);
+        let mut gamma = near.map_or(Vector2::zeros(), |near| near.gamma);
+        let (mut before, mut at_first) = (f64::INFINITY, None);
+        for _ in 0..MOST_STEPS {
+            let now = self.equations(&rotor, speed, r, gamma);
+            let all = now.slopes.svd(true, true);
+            let largest = all.singular_values[0];
+            let first = *at_first.get_or_insert(now.left.norm());
+            let Ok(step) = all.solve(&now.left, UNHELD * largest) else { break };
+            let size = step.norm();
+            // What rounding leaves shrinks no more.
+            if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) || size < 1e-15 {
+                let rounded = 1e-13 * largest * (1.0 + r.norm() / self.length);
+                if now.left.norm() > BALANCED * first + rounded {
+                    break;
+                }
+                return self.found(&rotor, speed, r, gamma, &start.state);
+            }
+            let share = if size > LONGEST { LONGEST / size } else { 1.0 };
+            r -= step.fixed_rows::<3>(0) * (share * self.length);
+            gamma -= step.fixed_rows::<2>(3) * share;
+            before = size;
+        }
+        Err(Obstacle::NoSteadyState { speed })
+    }
+
+    fn found(
+        &self,
+        rotor: &Rotor<'_, All>,
+        speed: f64,
+        r: Vector3<f64>,
+        gamma: Vector2<f64>,
+        start: &[f64; N],
+    ) -> Result<Steady, Obstacle> {
+        let signs = |state: &[f64; N]| {
+            let mut all = [1.0; MOST_INDICATORS];
+            rotor.effects.indicators(&rotor.motion(0.0, state), &state[..own(N)], &mut all);
+            all.map(|indicator| indicator > 0.0)
+        };
+        if signs(&self.state(rotor, speed, r, gamma)) != signs(start) {
+            return Err(Obstacle::Switches { speed });
+        }
+        let at = self.equations(rotor, speed, r, gamma);
+        let (rate, matrix) = self.linear(&at);
+        Ok(Steady { speed, r, gamma, axis: at.axis, turning: at.turning, torque: -at.moment, rate, matrix })
+    }
+
+    /// The state of a rotor that spins about an axis at rest.
+    fn state(&self, rotor: &Rotor<'_, All>, speed: f64, r: Vector3<f64>, gamma: Vector2<f64>) -> [f64; N] {
+        let mut state = [0.0; N];
+        let axis = Tilt::new(rotor.frame.chart, gamma).axis;
+        let k = axis * (self.about_axis * speed);
+        Coordinates { r, v: Vector3::zeros(), k, gamma, phi: 0.0 }.write(rigid_mut(&mut state));
+        state
+    }
+
+    fn equations(&self, rotor: &Rotor<'_, All>, speed: f64, r: Vector3<f64>, gamma: Vector2<f64>) -> Equations {
+        let state = self.state(rotor, speed, r, gamma);
+        let rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(0.0, &state)));
+        let jacobian = rotor.jacobian(0.0, &state);
+        let moving = Vector2::new(Dual::<2>::variable(gamma.x, 0), Dual::variable(gamma.y, 1));
+        let tilted = Tilt::new(rotor.frame.chart, moving).axis;
+        let (axis, turning) = (tilted.map(|t| t.re), Matrix3x2::from_fn(|row, column| tilted[row].eps[column]));
+        let (moment, inertia) = (rates.k.dot(&axis), self.across);
+        let across = rates.k - axis * moment;
+        let [by_place, by_tilt, by_k] = [0..3, GAMMA, 6..9].map(|of| Block { jacobian: &jacobian, of });
+        // K = Ja ω_φ t
+        let v_by_tilt = by_tilt.rates_of::<2>(3) + by_k.rates_of::<3>(3) * turning * (self.about_axis * speed);
+        let k_by_tilt = by_tilt.rates_of::<2>(6) + by_k.rates_of::<3>(6) * turning * (self.about_axis * speed);
+        let project = Matrix3::identity() - axis * axis.transpose();
+        // eq. 115: d(M − (M·t) t)
+        let turned = project * k_by_tilt - axis * (rates.k.transpose() * turning) - turning * moment;
+        let mut slopes = SMatrix::<f64, BALANCES, UNKNOWNS>::zeros();
+        slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&by_place.rates_of::<3>(3));
+        slopes.fixed_view_mut::<3, 2>(0, 3).copy_from(&(v_by_tilt / self.length));
+        slopes.fixed_view_mut::<3, 3>(3, 0).copy_from(&(project * by_place.rates_of::<3>(6) * (self.length / inertia)));
+        slopes.fixed_view_mut::<3, 2>(3, 3).copy_from(&(turned / inertia));
+        let (v, k) = (rates.v / self.length, across / inertia);
+        let left = SVector::from([v.x, v.y, v.z, k.x, k.y, k.z]);
+        Equations { left, slopes, jacobian, axis, turning, moment }
+    }
+
+    /// The matrix of the linear equations over the rate, and that.
+    fn linear(&self, at: &Equations) -> (f64, SMatrix<f64, STATES, STATES>) {
+        let across = across(&at.axis);
+        // What the linear numbers are of the coordinates: r, v, K and γ.
+        let mut all = SMatrix::<f64, 11, STATES>::zeros();
+        all.fixed_view_mut::<6, 6>(0, 0).fill_with_identity();
+        all.fixed_view_mut::<2, 2>(9, 6).fill_with_identity();
+        // eq. 116: δK·t = 0 where K·t is held
+        all.fixed_view_mut::<3, 2>(6, 8).copy_from(&across);
+        let first = own(N);
+        let slopes = SMatrix::<f64, 11, 11>::from_fn(|row, column| at.jacobian[first + row][first + column]);
+        let rates = slopes * all;
+        let mut matrix = SMatrix::<f64, STATES, STATES>::zeros();
+        matrix.fixed_rows_mut::<6>(0).copy_from(&rates.fixed_rows::<6>(0));
+        matrix.fixed_rows_mut::<2>(6).copy_from(&rates.fixed_rows::<2>(9));
+        matrix.fixed_rows_mut::<2>(8).copy_from(&(across.transpose() * rates.fixed_rows::<3>(6)));
+        // eq. 115: the torque that holds the spin turns with the axis
+        let turned = across.transpose() * at.turning * at.moment;
+        let mut by_tilt = matrix.fixed_view_mut::<2, 2>(8, 6);
+        by_tilt -= turned;
+        let (length, inertia) = (self.length, self.across);
+        // The fastest of what springs, dampers and spin make of mass and inertia.
+        let springs =
+            matrix.fixed_view::<3, 3>(3, 0).amax().max(matrix.fixed_view::<2, 2>(8, 6).amax() / inertia).sqrt();
+        let rate = springs.max(matrix.fixed_view::<2, 2>(6, 6).amax());
+        let rate = if rate > 0.0 { rate } else { 1.0 };
+        let sizes = [
+            length,
+            length,
+            length,
+            length * rate,
+            length * rate,
+            length * rate,
+            1.0,
+            1.0,
+            inertia * rate,
+            inertia * rate,
+        ];
+        (rate, SMatrix::from_fn(|row, column| matrix[(row, column)] * sizes[column] / (sizes[row] * rate)))
+    }
+}
+
+/// The derivatives along some coordinates.
+struct Block<'a> {
+    jacobian: &'a [[f64; N]; N],
+    of: std::ops::Range<usize>,
+}
+
+impl Block<'_> {
+    /// Of three rates from the coordinate `first` on.
+    fn rates_of<const D: usize>(&self, first: usize) -> SMatrix<f64, 3, D> {
+        SMatrix::from_fn(|row, column| self.jacobian[own(N) + first + row][own(N) + self.of.start + column])
+    }
+}
+
+/// Two directions that are with the axis t a right-handed system: y and z, where that is e.
+pub(super) fn across(axis: &Vector3<f64>) -> Matrix3x2<f64> {
+    let beside = if axis.z.abs() < 0.9 { Vector3::z() } else { -Vector3::x() };
+    let first = beside.cross(axis).normalize();
+    Matrix3x2::from_columns(&[first, axis.cross(&first)])
+}

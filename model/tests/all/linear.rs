@@ -1,0 +1,173 @@
+//! The linear view: modes, critical speeds and thresholds against closed forms, and against other formulations.
+
+use crate::harness::named::{Named, ROTOR};
+use crate::harness::{largest, within};
+use nalgebra::{ComplexField, DMatrix, Vector3};
+use oracles::numerics::derivative;
+use split_rotor_model::linear::{Campbell, Direction, Machine, Mode, Obstacle};
+
+/// The machine of a scene.
+fn machine(text: &str) -> Machine {
+    Machine::of(Named::written(text).simulation.parameters()).unwrap_or_else(|obstacle| panic!("{obstacle}"))
+}
+
+fn modes(machine: &Machine, speed: f64) -> Vec<Mode> {
+    machine.modes(speed, None).unwrap_or_else(|obstacle| panic!("{obstacle}")).1
+}
+
+/// Their frequencies [rad/s], negative where they whirl backward, ascending.
+fn frequencies(modes: &[Mode]) -> Vec<f64> {
+    let mut all: Vec<_> = modes.iter().map(Mode::frequency).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn compare(what: &str, got: &[f64], expected: &[f64], bound: f64) {
+    assert_eq!(got.len(), expected.len(), "{what}: {got:?}");
+    within(what, largest(got.iter().zip(expected).map(|(a, b)| (a / b - 1.0).abs())), bound);
+}
+
+const SUPPORT: &str = "[effects.support]\nc1 = 2000.0\nc2 = 500.0\n";
+const GRAVITY: &str = "[effects.gravity]\ng = { z = -9.81 }\n";
+
+/// Frequencies against closed forms [1]: measured 7.3e-13.
+const CLOSED: f64 = 3e-12;
+
+#[test]
+fn exact_whirl_of_the_papers_rotor() {
+    let paper = machine(&format!("{ROTOR}[start]\nr_c = {{ x = 0.75 }}\n{SUPPORT}"));
+    // The roots of (C1 − mΩ²)(C2 + l²C1 + JaωΩ − JtΩ²) = (C1 l)², and √(C1/m) along the axis.
+    for speed in [0.5, 50.0, 3000.0] {
+        let defect = |whirl: f64| {
+            let (place, tilt) = (2000.0 - 5.0 * whirl * whirl, 500.0 + 0.75 * 0.75 * 2000.0);
+            let turning = tilt + 0.15625 * speed * whirl - 0.078125 * whirl * whirl;
+            let pull = 2000.0 * 0.75;
+            (place * turning - pull * pull) / (place.abs() * (tilt + turning.abs()) + 1.0)
+        };
+        let all = modes(&paper, speed);
+        let [axial, across]: [Vec<_>; 2] = [true, false]
+            .map(|is_axial| all.iter().filter(|mode| (mode.direction == Direction::Axial) == is_axial).collect());
+        assert_eq!((axial.len(), across.len()), (1, 4), "at {speed} rad/s");
+        within("axial", (axial[0].frequency() / 20.0 - 1.0).abs(), CLOSED);
+        let defects = across.iter().map(|mode| defect(mode.frequency()).abs());
+        within("whirl", largest(defects), CLOSED);
+    }
+    let known = [-104.428_91, -10.344_007, 11.668_386, 20.0, 203.104_535];
+    compare("at 50 rad/s", &frequencies(&modes(&paper, 50.0)), &known, 1e-7);
+}
+
+/// The paper's rotor in gravity as a spherical pendulum: rates of (r, v, t, dt/dt), K·t being S.
+fn pendulum(y: &[f64; 12], s: f64) -> [f64; 12] {
+    let vector = |first: usize| Vector3::new(y[first], y[first + 1], y[first + 2]);
+    let [r, v, t, t_rate] = [0, 3, 6, 9].map(vector);
+    let (m, jt, l, [c1, c2]) = (5.0, 0.078125, 0.75, [2000.0, 500.0]);
+    let at_a = -c1 * (r - l * t);
+    let across = Vector3::x().cross(&t);
+    let gamma = across * (libm::atan2(across.norm(), t.x) / across.norm());
+    let moment = -l * t.cross(&at_a) - c2 * gamma;
+    // d²t/dt² = −|dt/dt|² t + (M × t + S t × dt/dt)/Jt
+    let bent = -t_rate.norm_squared() * t + (moment.cross(&t) + s * t.cross(&t_rate)) / jt;
+    let v_rate = at_a / m - 9.81 * Vector3::z();
+    let mut rates = [0.0; 12];
+    for (part, vector) in rates.chunks_exact_mut(3).zip([v, v_rate, t_rate, bent]) {
+        part.copy_from_slice(vector.as_slice());
+    }
+    rates
+}
+
+#[test]
+fn exact_whirl_about_the_sag() {
+    let paper = machine(&format!("{ROTOR}[start]\nr_c = {{ x = 0.75 }}\n{SUPPORT}{GRAVITY}"));
+    for speed in [5.0, 50.0, 500.0] {
+        let (steady, modes) = paper.modes(speed, None).expect("it hangs in its springs");
+        let mut at = [0.0; 12];
+        at[..3].copy_from_slice(steady.r.as_slice());
+        at[6..9].copy_from_slice(steady.axis.as_slice());
+        let s = 0.15625 * speed;
+        within("balance", largest(pendulum(&at, s).map(f64::abs)), 1e-11);
+        let column = |n: usize| {
+            derivative(|x| pendulum(&std::array::from_fn(|k| if k == n { x } else { at[k] }), s), at[n], 1e-2)
+        };
+        let columns: Vec<_> = (0..12).map(column).collect();
+        let values = DMatrix::from_fn(12, 12, |row, column| columns[column][row]).complex_eigenvalues();
+        for mode in &modes {
+            let nearest = values.iter().map(|value| (value - mode.eigenvalue).modulus()).fold(f64::INFINITY, f64::min);
+            within("whirl", nearest / mode.eigenvalue.modulus(), 2e-12);
+        }
+        assert_eq!(modes.len(), 5, "at {speed} rad/s");
+    }
+}
+
+#[test]
+fn literature_whirl_about_the_sag() {
+    let paper = machine(&format!("{ROTOR}[start]\nr_c = {{ x = 0.75 }}\n{SUPPORT}{GRAVITY}"));
+    let (steady, modes) = paper.modes(50.0, None).expect("it hangs in its springs");
+    within("sag", (steady.gamma.norm() - 0.0734).abs(), 5e-5);
+    let sizes: Vec<_> = modes.iter().map(|mode| mode.eigenvalue.im).collect();
+    for known in [10.363, 11.684, 104.519, 203.198] {
+        within("whirl", sizes.iter().map(|size| (size - known).abs()).fold(f64::INFINITY, f64::min), 1e-3);
+    }
+}
+
+#[test]
+fn exact_critical_speed_of_jeffcotts_rotor() {
+    let text = "[rotor]\nm = 4.9\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = 2000.0\nd1 = 0.0\n\
+                [[effects.unbalance]]\nmass = 0.1\nradius = 0.1\nposition = 0.0\n[effects.imposed_speed]\nw = 20.0\n";
+    let jeffcott = machine(text);
+    let speeds: Vec<_> = (0..=10).map(|n| 5.0 * f64::from(n)).collect();
+    let all = Campbell::of(&jeffcott, &speeds).expect("it is held");
+    let critical = all.critical_speeds(1.0).expect("it is held");
+    let mut directions: Vec<_> = critical.iter().map(|crossing| crossing.mode.direction.name()).collect();
+    directions.sort_unstable();
+    assert_eq!(directions, ["axial", "backward", "forward"], "springs that are the same in all directions");
+    for crossing in critical {
+        within("critical speed", (crossing.speed / 20.0 - 1.0).abs(), 1e-10);
+    }
+}
+
+/// Unstable beyond 80 rad/s: ω_n (1 + c_ext/c_int).
+const INNER: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = 2000.0\nc2 = 500.0\n\
+                     d1 = 30.0\nd2 = 1.0\n[effects.rotating_damping]\nd = 10.0\n";
+
+#[test]
+fn exact_threshold_of_rotating_damping() {
+    let machine = machine(INNER);
+    let speeds: Vec<_> = (0..=20).map(|n| 10.0 * f64::from(n)).collect();
+    let all = Campbell::of(&machine, &speeds).expect("it is held");
+    let thresholds = all.thresholds().expect("it is held");
+    let [threshold] = &thresholds[..] else { panic!("{thresholds:?}") };
+    within("threshold", (threshold.speed / 80.0 - 1.0).abs(), 1e-12);
+    within("frequency", (threshold.mode.frequency() / 20.0 - 1.0).abs(), 1e-12);
+    assert_eq!(threshold.mode.direction, Direction::Forward);
+}
+
+#[test]
+fn exact_growth_of_a_run_on_either_side() {
+    for (part, grows) in [(0.999, false), (1.001, true)] {
+        let speed = part * 80.0;
+        let text = format!("{INNER}[start]\nr_c = {{ y = 1e-6 }}\n[effects.imposed_speed]\nw = {speed}\n");
+        let mut run = Named::written(&text);
+        run.set("solver.relative_tolerance", 1e-12);
+        run.start();
+        // What whirls backward has died out by then.
+        let mut size = |t: f64| {
+            run.simulation.advance(t).expect("a calm run");
+            run.simulation.read().expect("a motion").motion.r_c().yz().norm()
+        };
+        let [early, late] = [10.0, 110.0].map(&mut size);
+        let seen = libm::log(late / early) / 100.0;
+        let modes = modes(&machine(&text), speed);
+        let forward = |mode: &&Mode| mode.direction == Direction::Forward && (mode.frequency() - 20.0).abs() < 0.1;
+        let told = modes.iter().find(forward).expect("a forward whirl at 20 rad/s").eigenvalue.re;
+        assert_eq!((told > 0.0, late > early), (grows, grows), "at {speed} rad/s");
+        // Per second, of a mode that swings by 20 rad in it; the orbit is a circle.
+        within("growth [1/s]", (seen - told).abs(), 1e-8);
+    }
+}
+
+#[test]
+fn what_nothing_holds_has_no_steady_state() {
+    let text = format!("{ROTOR}{GRAVITY}");
+    let machine = Machine::of(Named::written(&text).simulation.parameters()).expect("a machine");
+    assert_eq!(machine.steady(10.0, None).err(), Some(Obstacle::NoSteadyState { speed: 10.0 }));
+}

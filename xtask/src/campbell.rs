@@ -1,0 +1,128 @@
+//! `campbell`: whirl frequencies and damping against the spin, critical speeds, and where the machine begins to whirl by itself.
+
+mod picture;
+mod table;
+
+use crate::{scenes, sheets};
+use anyhow::{Context, Result, ensure};
+use serde_json::{Value, json};
+use split_rotor_model::linear::{Campbell, Crossing, Machine};
+use split_rotor_model::scene::Scene;
+use split_rotor_model::simulation::Any;
+
+/// What the command found.
+struct Diagram<'m> {
+    scene: Scene,
+    campbell: Campbell<'m>,
+    /// Of each multiple of the speed, where modes cross it.
+    critical: Vec<(f64, Vec<Crossing>)>,
+    thresholds: Vec<Crossing>,
+}
+
+/// So much higher than the scene goes the diagram does [1].
+const HIGHER: f64 = 1.5;
+
+/// Draws the diagram of a scene between these speeds [rad/s], at so many of them.
+pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64]) -> Result<()> {
+    let scene = scenes::find(scene)?;
+    ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
+    ensure!(orders.iter().all(|order| *order > 0.0), "--orders: each must be more than 0");
+    let machine = Machine::of(&scene.parameters()).with_context(|| scene.file.display().to_string())?;
+    let (from, to) = match speeds {
+        Some(&[from, to]) => (from, to),
+        _ => (0.0, HIGHER * highest(&scene, &machine)?),
+    };
+    ensure!(
+        from.is_finite() && to.is_finite() && from < to,
+        "--speeds {from} {to}: the second must be more than the first"
+    );
+    let speed = |n: u32| from + (to - from) * f64::from(n) / f64::from(steps - 1);
+    let campbell = Campbell::of(&machine, &(0..steps).map(speed).collect::<Vec<_>>())
+        .with_context(|| scene.file.display().to_string())?;
+    let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order)?));
+    let critical = orders.iter().map(crossed).collect::<Result<_>>()?;
+    let thresholds = campbell.thresholds()?;
+    write(&Diagram { scene, campbell, critical, thresholds })
+}
+
+/// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.
+fn highest(scene: &Scene, machine: &Machine) -> Result<f64> {
+    let told: Any = scene.parameters().into();
+    let value = |name: &str| {
+        let variable = scene.variables.iter().find(|variable| variable.name == name);
+        variable.and_then(|variable| told.value(variable.place)).unwrap_or_default().abs()
+    };
+    let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
+    let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
+    let nodes = nodes.map(|node| value(&node.name)).fold(0.0, f64::max);
+    let highest = imposed.max(nodes).max(value("start.omega.x")).max(value("motor.w0"));
+    if highest > 0.0 {
+        return Ok(highest);
+    }
+    let (_, modes) = machine.modes(0.0, None)?;
+    let fastest = modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);
+    Ok(if fastest > 0.0 { fastest } else { 1.0 })
+}
+
+fn write(diagram: &Diagram) -> Result<()> {
+    let table = table::table(diagram);
+    let json = serde_json::to_string_pretty(&json(diagram))? + "\n";
+    let csv = sheets::csv(&rows(diagram));
+    let files = [("campbell.md", &*table), ("campbell.csv", &csv), ("campbell.json", &json)];
+    let folder = sheets::write(&format!("campbell/{}", diagram.scene.name), files)?;
+    let picture = folder.join("campbell.svg");
+    std::fs::write(&picture, picture::svg(diagram)?)?;
+    println!("{table}\n{}", picture.display());
+    Ok(())
+}
+
+/// A mode's number, as people count.
+fn number(branch: usize) -> usize {
+    branch + 1
+}
+
+/// A row for each mode at each speed.
+fn rows(diagram: &Diagram) -> Vec<sheets::Row> {
+    let branches = diagram.campbell.branches.iter().enumerate();
+    let all = branches.flat_map(|(branch, of)| of.points.iter().map(move |point| (branch, point)));
+    let row = |(branch, point): (usize, &split_rotor_model::linear::Point)| {
+        vec![
+            ("speed_rad_s", json!(point.speed)),
+            ("mode", json!(number(branch))),
+            ("frequency_rad_s", json!(point.mode.frequency())),
+            ("damping_ratio", json!(point.mode.damping_ratio())),
+            ("direction", json!(point.mode.direction.name())),
+        ]
+    };
+    all.map(row).collect()
+}
+
+fn json(diagram: &Diagram) -> Value {
+    let crossing = |crossing: &Crossing| {
+        json!({
+            "mode": number(crossing.branch),
+            "speed_rad_s": crossing.speed,
+            "frequency_rad_s": crossing.mode.frequency(),
+            "damping_ratio": crossing.mode.damping_ratio(),
+            "direction": crossing.mode.direction.name(),
+        })
+    };
+    let all = |crossings: &[Crossing]| crossings.iter().map(crossing).collect::<Vec<_>>();
+    let critical = diagram.critical.iter().map(|(order, speeds)| json!({ "order": order, "speeds": all(speeds) }));
+    let steady = diagram.campbell.steady.iter().map(|steady| {
+        json!({
+            "speed_rad_s": steady.speed,
+            "r_m": steady.r.as_slice(),
+            "gamma_rad": steady.gamma.as_slice(),
+            "torque_N_m": steady.torque,
+        })
+    });
+    json!({
+        "scene": diagram.scene.name,
+        "title": diagram.scene.title,
+        "critical_speeds": critical.collect::<Vec<_>>(),
+        "thresholds": all(&diagram.thresholds),
+        "steady_states": steady.collect::<Vec<_>>(),
+        "modes": sheets::objects(rows(diagram)),
+    })
+}

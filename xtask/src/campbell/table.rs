@@ -1,0 +1,109 @@
+//! The table: critical speeds, thresholds, and the modes at a few speeds.
+
+use super::{Diagram, number};
+use split_rotor_model::linear::{Branch, Crossing, Mode};
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+/// So many speeds are shown.
+const SHOWN: usize = 6;
+
+/// All of it, in Markdown.
+pub fn table(diagram: &Diagram) -> String {
+    let mut text = format!("{}: {}\n\n", diagram.scene.name, diagram.scene.title);
+    text += "Balanced, drives off, the spin held; about the steady state at each speed.\n\n";
+    critical_speeds(diagram, &mut text);
+    stability(diagram, &mut text);
+    modes(diagram, &mut text);
+    text
+}
+
+fn rpm(speed: f64) -> f64 {
+    speed * 60.0 / TAU
+}
+
+/// A frequency, or a speed, as people read it.
+fn rounded(value: f64) -> String {
+    if value == 0.0 {
+        return "0".into();
+    }
+    let digits = libm::floor(libm::log10(value.abs()));
+    let decimals = (5.0 - digits).clamp(0.0, 9.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+fn critical_speeds(diagram: &Diagram, text: &mut String) {
+    let all = diagram.critical.iter().flat_map(|(order, speeds)| speeds.iter().map(move |crossing| (order, crossing)));
+    let rows: Vec<_> = all.collect();
+    if rows.is_empty() {
+        *text += "No critical speed in this range.\n\n";
+        return;
+    }
+    *text +=
+        "| critical speed [rad/s] | [rpm] | line | mode | direction | damping ratio |\n|--:|--:|--:|--:|---|--:|\n";
+    for (order, Crossing { branch, speed, mode }) in rows {
+        let (number, direction, ratio) = (number(*branch), mode.direction.name(), ratio(mode, 4));
+        let (speed, rpm) = (rounded(*speed), rounded(rpm(*speed)));
+        let _ = writeln!(text, "| {speed} | {rpm} | {order}X | {number} | {direction} | {ratio:.4} |");
+    }
+    *text += "\n";
+}
+
+fn stability(diagram: &Diagram, text: &mut String) {
+    for Crossing { branch, speed, mode } in &diagram.thresholds {
+        let points = &diagram.campbell.branches[*branch].points;
+        let grows_above = points.iter().find(|point| point.speed > *speed).is_some_and(|point| point.mode.grows());
+        let _ = writeln!(
+            text,
+            "Mode {} ({}, {} rad/s) grows {} {} rad/s ({} rpm).",
+            number(*branch),
+            mode.direction.name(),
+            rounded(mode.eigenvalue.im),
+            if grows_above { "above" } else { "below" },
+            rounded(*speed),
+            rounded(rpm(*speed))
+        );
+    }
+    let grows_always = |branch: &Branch| branch.points.iter().all(|point| point.mode.grows());
+    for (branch, of) in diagram.campbell.branches.iter().enumerate().filter(|(_, branch)| grows_always(branch)) {
+        let _ = writeln!(
+            text,
+            "Mode {} ({}) grows at all these speeds.",
+            number(branch),
+            of.points[0].mode.direction.name()
+        );
+    }
+    if !diagram.campbell.grows() {
+        *text += "No mode grows in this range.\n";
+    }
+    *text += "\n";
+}
+
+fn modes(diagram: &Diagram, text: &mut String) {
+    let steady = &diagram.campbell.steady;
+    let last = steady.len() - 1;
+    let shown: Vec<_> =
+        (0..SHOWN.min(steady.len())).map(|n| steady[n * last / (SHOWN.min(steady.len()) - 1)].speed).collect();
+    *text += "| mode |";
+    shown.iter().for_each(|speed| *text += &format!(" at {} rad/s |", rounded(*speed)));
+    *text += &format!("\n|--:|{}\n", "--:|".repeat(shown.len()));
+    for (branch, of) in diagram.campbell.branches.iter().enumerate() {
+        *text += &format!("| {} |", number(branch));
+        for speed in &shown {
+            let point = of.points.iter().find(|point| point.speed == *speed);
+            *text += &format!(" {} |", point.map_or(String::new(), |point| told(&point.mode)));
+        }
+        *text += "\n";
+    }
+    *text += "\nFrequency [rad/s], negative where it whirls backward, and damping ratio in brackets.\n";
+}
+
+fn told(mode: &Mode) -> String {
+    format!("{} ({:.3})", rounded(mode.frequency()), ratio(mode, 3))
+}
+
+/// A damping ratio, which is not a zero with a minus sign where it is rounded to so many places.
+fn ratio(mode: &Mode, places: i32) -> f64 {
+    let ratio = mode.damping_ratio();
+    if ratio.abs() < 0.5 * libm::pow(10.0, f64::from(-places)) { 0.0 } else { ratio }
+}
