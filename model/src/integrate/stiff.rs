@@ -77,9 +77,9 @@ const REFUSED: f64 = 0.5;
 /// with the other methods.
 const LOOSER: f64 = 2.0;
 
-/// A step may err by this times the sixth fifth of the run's tolerance in what goes on without damping \[1]: measured, so that a nutation
-/// of any size errs as much after 1000 turns as with the other methods.
-const ADDING_UP: f64 = 3.0;
+/// A step may err by this times the sixth fifth of the run's tolerance in what goes on without damping \[1]: measured, so that 1100 periods
+/// of an oscillation of any size err by less than 300 tolerances, as with `dop853`.
+const ADDING_UP: f64 = 0.3;
 
 /// What is left of an error after so many steps more goes on without damping.
 const GO_ON: u32 = 4;
@@ -451,12 +451,20 @@ impl<const N: usize> Stiff<N> {
         }
         // eq. 114: local = K R(hJ)⁴ (hJ (γ I − hJ)⁻¹)² err
         let mut local = collocation.unresolved(&collocation.unresolved(&error)).map(|error| radau::LOCAL * error);
-        (0..GO_ON).for_each(|_| local = collocation.advanced(&local));
         let weights = self.sizes.weights(system, &self.local, &system.roundings(&y, self.h), seen);
         // It falls with the sixth power of the step, and the other one with the fourth.
-        let goes_on = power(norm(&local, &weights), 2.0 / 3.0);
+        let goes_on = |local: &[f64; N]| power(norm(local, &weights), 2.0 / 3.0);
+        let mut larger = goes_on(&local);
+        for _ in 0..GO_ON {
+            // It only gets less.
+            if larger <= size {
+                return size;
+            }
+            local = collocation.advanced(&local);
+            larger = goes_on(&local);
+        }
         // Not `max`, which passes over what is not a number.
-        if goes_on <= size { size } else { goes_on }
+        if larger <= size { size } else { larger }
     }
 
     fn ended(&self, z: &[[f64; N]; STAGES]) -> [f64; N] {

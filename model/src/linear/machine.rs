@@ -71,6 +71,8 @@ pub struct Steady {
     pub turning: Matrix3x2<f64>,
     /// The torque about the axis that holds the spin [N·m].
     pub torque: f64,
+    /// Whether springs hold it in all directions.
+    pub is_held: bool,
     /// Of the linear equations about it: a rate [1/s], for numbers of the size 1.
     pub rate: f64,
     /// The matrix of the linear equations over `rate` \[1].
@@ -217,8 +219,10 @@ impl Machine {
             return Err(Obstacle::Switches { speed });
         }
         let at = self.equations(rotor, speed, r, gamma);
+        let sizes = at.slopes.singular_values();
+        let is_held = sizes[UNKNOWNS - 1] > UNHELD * sizes[0];
         let (rate, matrix) = self.linear(&at);
-        Ok(Steady { speed, r, gamma, axis: at.axis, turning: at.turning, torque: -at.moment, rate, matrix })
+        Ok(Steady { speed, r, gamma, axis: at.axis, turning: at.turning, torque: -at.moment, is_held, rate, matrix })
     }
 
     /// The state of a rotor that spins about an axis at rest.

@@ -22,7 +22,7 @@ pub struct Mode {
 /// Which way a mode whirls, by what its own orbits do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// As the rotor spins, for a spin along e.
+    /// As the rotor spins; where it does not, about e.
     Forward,
     /// Against it.
     Backward,
@@ -53,7 +53,8 @@ const LINE: f64 = 1e-6;
 /// A mode moves along the axis where more than this part of its square does \[1].
 const ALONG: f64 = 0.5;
 
-/// An eigenvalue below this part of the fastest is that of a rotor that nothing holds \[1]: of a pair at 0, rounding shows the root.
+/// Where nothing holds the rotor in some direction, an eigenvalue below this part of the largest is that \[1]: of a pair at 0, rounding
+/// shows the root.
 const UNHELD: f64 = 1e-7;
 
 /// Eigenvalues that differ by less than this part of their size are one \[1]: of springs that are the same in all directions.
@@ -95,7 +96,7 @@ impl Steady {
         let largest = self.matrix.amax();
         let held = |value: &Complex<f64>| {
             let size = value.modulus();
-            size > UNHELD * largest && value.im >= -SWINGS * size
+            (self.is_held || size > UNHELD * largest) && value.im >= -SWINGS * size
         };
         let mut values: Vec<_> = matrix.complex_eigenvalues().iter().copied().filter(held).collect();
         values.sort_by(|a, b| a.im.total_cmp(&b.im));
@@ -165,7 +166,8 @@ impl Steady {
         if along > ALONG * (along + wide) {
             return Direction::Axial;
         }
-        match swept(&orbits, &orbits).re / wide {
+        let spin = if self.speed < 0.0 { -1.0 } else { 1.0 };
+        match spin * swept(&orbits, &orbits).re / wide {
             part if part > LINE => Direction::Forward,
             part if part < -LINE => Direction::Backward,
             _ => Direction::Plane,

@@ -64,14 +64,11 @@ fn stability(diagram: &Diagram, text: &mut String) {
             rounded(rpm(*speed))
         );
     }
-    let grows_always = |branch: &Branch| branch.points.iter().all(|point| point.mode.grows());
-    for (branch, of) in diagram.campbell.branches.iter().enumerate().filter(|(_, branch)| grows_always(branch)) {
-        let _ = writeln!(
-            text,
-            "Mode {} ({}) grows at all these speeds.",
-            number(branch),
-            of.points[0].mode.direction.name()
-        );
+    let grows_always = |(_, branch): &(usize, &Branch)| branch.points.iter().all(|point| point.mode.grows());
+    for (branch, Branch { points }) in diagram.campbell.branches.iter().enumerate().filter(grows_always) {
+        let direction = points[0].mode.direction.name();
+        let [from, to] = [0, points.len() - 1].map(|end| rounded(points[end].speed));
+        let _ = writeln!(text, "Mode {} ({direction}) grows from {from} to {to} rad/s.", number(branch));
     }
     if !diagram.campbell.grows() {
         *text += "No mode grows in this range.\n";

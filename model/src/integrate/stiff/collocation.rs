@@ -61,7 +61,7 @@ impl<'a, const N: usize> Collocation<'a, N> {
 
     /// R(hJ) x: what a difference x between two states becomes in the step.
     pub fn advanced(&self, x: &[f64; N]) -> [f64; N] {
-        let rate = std::array::from_fn(|i| (0..self.size).map(|j| self.jacobian[i][j] * x[j]).sum());
+        let rate = self.jacobian.map(|row| row[..self.size].iter().zip(x).map(|(slope, x)| slope * x).sum());
         let gained = self.newton(&[rate; STAGES], &[[0.0; N]; STAGES]);
         let gained = combined(&T[STAGES - 1], &gained);
         std::array::from_fn(|n| x[n] + gained[n])

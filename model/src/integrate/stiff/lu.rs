@@ -1,6 +1,7 @@
 //! Systems of N linear equations: Gauss's elimination with partial pivoting (Golub and Van Loan, Matrix Computations, 3.4).
 
 use nalgebra::{ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Complex};
+use std::ops::Range;
 
 /// A number that equations may be written in.
 pub trait Number: Copy + ClosedSubAssign + ClosedMulAssign + ClosedDivAssign {
@@ -59,18 +60,23 @@ impl<T: Number, const N: usize> Lu<T, N> {
     pub fn solve(&self, b: &[T; N]) -> [T; N] {
         let mut x = self.from.map(|row| b[row]);
         for n in 1..N {
-            for i in 0..n.min(self.size) {
-                let known = x[i];
-                x[n] -= self.rows[n][i] * known;
-            }
+            x[n] = self.less(x[n], n, &x, 0..n.min(self.size));
         }
         for n in (0..N).rev() {
-            for i in n + 1..self.size {
-                let known = x[i];
-                x[n] -= self.rows[n][i] * known;
-            }
+            x[n] = self.less(x[n], n, &x, n + 1..self.size);
             x[n] /= self.rows[n][n];
         }
         x
+    }
+
+    /// What is left of `b` less the part of this row over these columns.
+    #[inline(always)]
+    fn less(&self, mut b: T, row: usize, x: &[T; N], columns: Range<usize>) -> T {
+        if columns.start < columns.end {
+            for (entry, known) in self.rows[row][columns.clone()].iter().zip(&x[columns]) {
+                b -= *entry * *known;
+            }
+        }
+        b
     }
 }
