@@ -19,7 +19,7 @@ struct Diagram<'m> {
     thresholds: Vec<Crossing>,
 }
 
-/// So much higher than the scene goes the diagram does [1].
+/// So much higher than the scene goes the diagram does \[1].
 const HIGHER: f64 = 1.5;
 
 /// Draws the diagram of a scene between these speeds [rad/s], at so many of them.

@@ -6,13 +6,13 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use split_rotor_model::linear::{Branch, Direction, Point};
 
-/// Its size [px].
+/// Its size \[px].
 const SIZE: (u32, u32) = (820, 760);
 
 /// Ink that is read on white and on black.
 const INK: RGBColor = RGBColor(128, 128, 128);
 
-/// Modes further than this above the highest line are left out, and so is what is damped more than this [1].
+/// Modes further than this above the highest line are left out, and so is what is damped more than this \[1].
 const ABOVE: f64 = 1.6;
 const MOST_DAMPED: f64 = 0.5;
 
