@@ -6,7 +6,7 @@ mod table;
 use crate::{scenes, sheets};
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
-use split_rotor_model::linear::{Campbell, Crossing, Machine};
+use split_rotor_model::linear::{Campbell, Crossing, Machine, Obstacle, Point};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::simulation::Any;
 
@@ -27,26 +27,26 @@ pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64])
     let scene = scenes::find(scene)?;
     ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
     ensure!(orders.iter().all(|order| *order > 0.0), "--orders: each must be more than 0");
-    let machine = Machine::of(&scene.parameters()).with_context(|| scene.file.display().to_string())?;
+    let file = || scene.file.display().to_string();
+    let machine = Machine::of(&scene.parameters()).with_context(file)?;
     let (from, to) = match speeds {
         Some(&[from, to]) => (from, to),
-        _ => (0.0, HIGHER * highest(&scene, &machine)?),
+        _ => (0.0, HIGHER * highest(&scene, &machine).with_context(file)?),
     };
     ensure!(
         from.is_finite() && to.is_finite() && from < to,
         "--speeds {from} {to}: the second must be more than the first"
     );
     let speed = |n: u32| from + (to - from) * f64::from(n) / f64::from(steps - 1);
-    let campbell = Campbell::of(&machine, &(0..steps).map(speed).collect::<Vec<_>>())
-        .with_context(|| scene.file.display().to_string())?;
-    let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order)?));
+    let campbell = Campbell::of(&machine, &(0..steps).map(speed).collect::<Vec<_>>()).with_context(file)?;
+    let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order).with_context(file)?));
     let critical = orders.iter().map(crossed).collect::<Result<_>>()?;
-    let thresholds = campbell.thresholds()?;
+    let thresholds = campbell.thresholds().with_context(file)?;
     write(&Diagram { scene, campbell, critical, thresholds })
 }
 
 /// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.
-fn highest(scene: &Scene, machine: &Machine) -> Result<f64> {
+fn highest(scene: &Scene, machine: &Machine) -> Result<f64, Obstacle> {
     let told: Any = scene.parameters().into();
     let value = |name: &str| {
         let variable = scene.variables.iter().find(|variable| variable.name == name);
@@ -55,7 +55,7 @@ fn highest(scene: &Scene, machine: &Machine) -> Result<f64> {
     let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
     let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
     let nodes = nodes.map(|node| value(&node.name)).fold(0.0, f64::max);
-    let highest = imposed.max(nodes).max(value("start.omega.x")).max(value("motor.w0"));
+    let highest = imposed.max(nodes).max(value("start.omega.x")).max(value("motor.synchronous_speed"));
     if highest > 0.0 {
         return Ok(highest);
     }
@@ -85,7 +85,7 @@ fn number(branch: usize) -> usize {
 fn rows(diagram: &Diagram) -> Vec<sheets::Row> {
     let branches = diagram.campbell.branches.iter().enumerate();
     let all = branches.flat_map(|(branch, of)| of.points.iter().map(move |point| (branch, point)));
-    let row = |(branch, point): (usize, &split_rotor_model::linear::Point)| {
+    let row = |(branch, point): (usize, &Point)| {
         vec![
             ("speed_rad_s", json!(point.speed)),
             ("mode", json!(number(branch))),

@@ -105,8 +105,8 @@ enum Command {
         #[arg(long)]
         seed: Option<u64>,
     },
-    /// Whirl frequencies and damping against the spin, critical speeds and the threshold of stability: table, SVG, CSV and JSON in
-    /// target/campbell/SCENE
+    /// Draw whirl frequencies and damping against the spin, find critical speeds and the threshold of stability: table, SVG, CSV and
+    /// JSON in target/campbell/SCENE
     Campbell {
         /// The scene
         #[arg(default_value = "paper")]

@@ -91,7 +91,7 @@ pub enum Obstacle {
         /// [rad/s].
         speed: f64,
     },
-    /// The effect of this name switches its law between the start and the steady state at this speed [rad/s].
+    /// A law switches between the start and the steady state at this speed [rad/s].
     Switches {
         /// [rad/s].
         speed: f64,
@@ -104,7 +104,8 @@ impl fmt::Display for Obstacle {
             Self::Asymmetric => {
                 write!(
                     f,
-                    "the body is not symmetric about its axis (effects.asymmetry), so its modes are not those of constant coefficients"
+                    "the body is not symmetric about its axis (effects.asymmetry): its modes change as it turns, and only those of \
+                     symmetric bodies are found"
                 )
             }
             Self::Invalid(reason) => write!(f, "{reason}"),
@@ -192,7 +193,13 @@ impl Machine {
                 if now.left.norm() > BALANCED * first + rounded {
                     break;
                 }
-                return self.found(&rotor, speed, r, gamma, &start.state);
+                if signs(&rotor, &self.state(&rotor, speed, r, gamma)) != signs(&rotor, &start.state) {
+                    return Err(Obstacle::Switches { speed });
+                }
+                let is_held = all.singular_values[UNKNOWNS - 1] > UNHELD * largest;
+                let (rate, matrix) = self.linear(&now);
+                let Equations { axis, turning, moment, .. } = now;
+                return Ok(Steady { speed, r, gamma, axis, turning, torque: -moment, is_held, rate, matrix });
             }
             let share = if size > LONGEST { LONGEST / size } else { 1.0 };
             r -= step.fixed_rows::<3>(0) * (share * self.length);
@@ -200,29 +207,6 @@ impl Machine {
             before = size;
         }
         Err(Obstacle::NoSteadyState { speed })
-    }
-
-    fn found(
-        &self,
-        rotor: &Rotor<'_, All>,
-        speed: f64,
-        r: Vector3<f64>,
-        gamma: Vector2<f64>,
-        start: &[f64; N],
-    ) -> Result<Steady, Obstacle> {
-        let signs = |state: &[f64; N]| {
-            let mut all = [1.0; MOST_INDICATORS];
-            rotor.effects.indicators(&rotor.motion(0.0, state), &state[..own(N)], &mut all);
-            all.map(|indicator| indicator > 0.0)
-        };
-        if signs(&self.state(rotor, speed, r, gamma)) != signs(start) {
-            return Err(Obstacle::Switches { speed });
-        }
-        let at = self.equations(rotor, speed, r, gamma);
-        let sizes = at.slopes.singular_values();
-        let is_held = sizes[UNKNOWNS - 1] > UNHELD * sizes[0];
-        let (rate, matrix) = self.linear(&at);
-        Ok(Steady { speed, r, gamma, axis: at.axis, turning: at.turning, torque: -at.moment, is_held, rate, matrix })
     }
 
     /// The state of a rotor that spins about an axis at rest.
@@ -300,6 +284,13 @@ impl Machine {
         ];
         (rate, SMatrix::from_fn(|row, column| matrix[(row, column)] * sizes[column] / (sizes[row] * rate)))
     }
+}
+
+/// On which side each indicator is in this state.
+fn signs(rotor: &Rotor<'_, All>, state: &[f64; N]) -> [bool; MOST_INDICATORS] {
+    let mut all = [1.0; MOST_INDICATORS];
+    rotor.effects.indicators(&rotor.motion(0.0, state), &state[..own(N)], &mut all);
+    all.map(|indicator| indicator > 0.0)
 }
 
 /// The derivatives along some coordinates.

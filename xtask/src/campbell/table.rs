@@ -79,8 +79,8 @@ fn stability(diagram: &Diagram, text: &mut String) {
 fn modes(diagram: &Diagram, text: &mut String) {
     let steady = &diagram.campbell.steady;
     let last = steady.len() - 1;
-    let shown: Vec<_> =
-        (0..SHOWN.min(steady.len())).map(|n| steady[n * last / (SHOWN.min(steady.len()) - 1)].speed).collect();
+    let count = SHOWN.min(steady.len());
+    let shown: Vec<_> = (0..count).map(|n| steady[n * last / (count - 1)].speed).collect();
     *text += "| mode |";
     shown.iter().for_each(|speed| *text += &format!(" at {} rad/s |", rounded(*speed)));
     *text += &format!("\n|--:|{}\n", "--:|".repeat(shown.len()));

@@ -174,9 +174,8 @@ fn exact_symplectic_of_its_own_step_is_right() {
 
 #[test]
 fn exact_stiff_follows_a_small_nutation() {
-    let is_it = |n: &u64| fixed::all()[*n as usize].name == "a small nutation";
-    let n = (0..).find(is_it).expect("one of them");
-    let row = row(number(0, n), &[Method::Stiff]);
+    let n = fixed::all().iter().position(|trial| trial.name == "a small nutation").expect("one of them");
+    let row = row(number(0, n as u64), &[Method::Stiff]);
     assert!(row.verdicts.iter().all(Verdict::is_right), "{}", report::whole(&row));
 }
 
