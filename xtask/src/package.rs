@@ -1,6 +1,6 @@
 //! `package`: each scene as an FMU, a zip of its modelDescription.xml, its library, and what describes it to people.
 
-use crate::run::{cargo, run};
+use crate::run::{cargo, run, side_by_side};
 use crate::{accuracy, licences, page, paths, scenes, terminals};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
@@ -23,30 +23,30 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
     let progress = accuracy::bar(scenes.len());
-    let mut packaged = Vec::new();
-    for scene in &scenes {
+    let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
+    // A library is compiled and linked by one thread.
+    side_by_side(&scenes, |builder, scene| {
         progress.set_message(format!("building {}", scene.name));
-        let library = build(scene)?;
-        let fmu = out.join(format!("{}.fmu", scene.name));
+        let (library, fmu) = (build_in(paths::root(), scene, &target(builder))?, fmu(scene));
         archive(scene, &library, &fmu).with_context(|| format!("cannot write {}", fmu.display()))?;
         progress.inc(1);
         progress.suspend(|| println!("{}", fmu.display()));
-        packaged.push(fmu);
-    }
+        Ok(())
+    })?;
     progress.finish_and_clear();
-    Ok(packaged)
+    Ok(scenes.iter().map(fmu).collect())
+}
+
+/// Where a builder builds, one library after another: the next overwrites the last.
+fn target(builder: usize) -> PathBuf {
+    // A target directory of its own: the profile is called fmu, and target/fmu holds the packages.
+    paths::target().join("package").join(builder.to_string())
 }
 
 fn same_name(scenes: &[Scene]) -> Option<(&Scene, &Scene)> {
     let pairs =
         scenes.iter().enumerate().flat_map(|(i, first)| scenes[i + 1..].iter().map(move |second| (first, second)));
     pairs.into_iter().find(|(first, second)| first.name == second.name && first.file != second.file)
-}
-
-/// The library of a scene. The next scene's overwrites it.
-fn build(scene: &Scene) -> Result<PathBuf> {
-    // A target directory of its own: the profile is called fmu, and target/fmu holds the packages.
-    build_in(paths::root(), scene, &paths::target().join("package"))
 }
 
 /// The library of a scene, of the project in the folder `root`.

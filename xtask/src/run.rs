@@ -3,7 +3,8 @@
 use anyhow::{Context, Result, bail};
 use std::io::{BufRead, BufReader, Lines, Write};
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::thread::JoinHandle;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{self, JoinHandle};
 
 /// The cargo that runs us, in the project's folder.
 pub fn cargo() -> Command {
@@ -30,6 +31,24 @@ pub fn output(command: &mut Command) -> Result<String> {
         bail!("`{shown}` failed ({})", output.status);
     }
     Ok(String::from_utf8(output.stdout)?)
+}
+
+/// Does all of these, as many at a time as there are processors; each is told which of so many workers has it. After the first
+/// error no other is begun.
+pub fn side_by_side<T: Sync>(all: &[T], work: impl Fn(usize, &T) -> Result<()> + Sync) -> Result<()> {
+    let next = AtomicUsize::new(0);
+    let works = |worker| {
+        while let Some(one) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
+            work(worker, one).inspect_err(|_| next.store(all.len(), Ordering::Relaxed))?;
+        }
+        Ok(())
+    };
+    let workers = thread::available_parallelism()?.get().min(all.len());
+    thread::scope(|scope| {
+        let works = &works;
+        let workers: Vec<_> = (0..workers).map(|worker| scope.spawn(move || works(worker))).collect();
+        workers.into_iter().try_for_each(|worker| worker.join().expect("a worker does not panic"))
+    })
 }
 
 /// A program that is asked and answers line by line.
@@ -93,8 +112,28 @@ fn shown(command: &Command) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::Conversation;
+    use super::{Conversation, side_by_side};
+    use anyhow::ensure;
     use std::process::Command;
+    use std::sync::Mutex;
+
+    #[test]
+    fn all_are_done_once_and_the_first_error_is_told() {
+        let done = Mutex::new(Vec::new());
+        side_by_side(&[3, 1, 2], |_, one| {
+            done.lock().unwrap().push(*one);
+            Ok(())
+        })
+        .unwrap();
+        let mut done = done.into_inner().unwrap();
+        done.sort_unstable();
+        assert_eq!(done, [1, 2, 3]);
+        let refused = side_by_side(&[1, 2, 3], |_, one| {
+            ensure!(*one != 2, "not two");
+            Ok(())
+        });
+        assert_eq!(refused.unwrap_err().to_string(), "not two");
+    }
 
     #[test]
     fn a_program_is_asked_line_by_line() {

@@ -1,13 +1,13 @@
 //! The FMU and the C host with AddressSanitizer, the host with UndefinedBehaviorSanitizer too, and leaks looked for at the
 //! end.
 
-use crate::run::{cargo, run};
+use crate::run::{cargo, run, side_by_side};
 use crate::{c_host, paths, scenes, sheet, unpacked};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
 use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// GCC's runtime serves the library too: a shared library compiled by rustc leaves the sanitizer's symbols open.
@@ -25,27 +25,26 @@ pub fn sanitizers() -> Result<()> {
     let host = c_host::compile("host-sanitized", &FLAGS).context(
         "the C host cannot be compiled with sanitizers: GCC's are needed (Debian: apt-get install gcc libasan8 libubsan1)",
     )?;
-    for name in SCENES {
-        let scene = scenes::find(name)?;
-        let library = std::fs::read(library(&scene)?)?;
-        let folder = paths::target().join("sanitized").join("unpacked");
+    side_by_side(&SCENES, |worker, name| {
+        let (scene, folder) = (scenes::find(name)?, paths::target().join("sanitized").join(worker.to_string()));
+        let library = std::fs::read(library(&scene, &folder)?)?;
+        let folder = folder.join("unpacked");
         let fmu = unpacked::write(&folder, name, &sheet::sheet(&xml::model_description(&scene))?, &library)?;
         run(c_host::arguments(&mut Command::new(&host), &fmu)?
             .env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1")
-            .env("UBSAN_OPTIONS", "print_stacktrace=1"))?;
-    }
-    Ok(())
+            .env("UBSAN_OPTIONS", "print_stacktrace=1"))
+    })
 }
 
-/// The library of a scene, instrumented. The next scene's overwrites it.
-fn library(scene: &Scene) -> Result<PathBuf> {
-    let (folder, target) = (paths::target().join("sanitized"), format!("{ARCH}-unknown-linux-gnu"));
+/// The library of a scene, instrumented, built in this folder. The next scene's overwrites it.
+fn library(scene: &Scene, folder: &Path) -> Result<PathBuf> {
+    let target = format!("{ARCH}-unknown-linux-gnu");
     run(cargo()
         .args(["rustc", "--quiet", "--package", "split-rotor", "--release", "--lib", "--crate-type", "cdylib"])
         // With a target named, build scripts and macros are not instrumented.
         .args(["--target", &target])
         .arg("--target-dir")
-        .arg(&folder)
+        .arg(folder)
         .env("SPLIT_ROTOR_SCENE", std::path::absolute(&scene.file)?)
         .env("CARGO_ENCODED_RUSTFLAGS", ["-Zsanitizer=address", "-Cforce-frame-pointers=yes"].join("\x1f"))
         // The stable compiler has the sanitizer, behind a switch meant for the standard library.

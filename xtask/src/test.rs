@@ -119,7 +119,8 @@ fn clients() -> Result<()> {
 /// The Rust tests of the model that take long.
 fn long_runs() -> Result<()> {
     // It prints the seed of the day. What costs are is measured, not tested: docs/accuracy.md has the command.
-    let all = ["test", "-p", "split-rotor-model", "--test", "all", "--", "--ignored", "--nocapture"];
+    // Of the whole workspace, as its tests were built: alone, the model would be built anew.
+    let all = ["test", "--workspace", "--test", "all", "--", "--ignored", "--nocapture"];
     run(cargo().args(all).args(["--skip", "what_auto_costs"]))
 }
 

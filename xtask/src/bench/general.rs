@@ -3,8 +3,7 @@
 use super::sets::{self, Set};
 use super::spending::{packaged, spent};
 use super::{head, target};
-use crate::unpacked::{Unpacked, unpack};
-use crate::{package, paths, scenes};
+use crate::{paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects;
 use split_rotor_model::scene::Scene;
@@ -27,13 +26,15 @@ const OFF: f64 = 4.0;
 pub fn print(seed: u64) -> Result<Vec<String>> {
     let mut broken = Vec::new();
     let folder = paths::target().join("general");
-    let general = unpack(&package::package(&["rotor".into()], None)?[0])?;
+    let sets: Vec<_> = sets::drawn(seed).take(SETS).collect();
+    let written = (1..).zip(&sets).map(|(number, set)| sets::written(&folder, &format!("set{number}"), "", set));
+    let scenes = std::iter::once(Ok("rotor".into())).chain(written).collect::<Result<Vec<_>>>()?;
+    let fmus = packaged(&scenes, &folder)?;
     println!("{}", head(&["a second of", "scene", "general", "ratio", "at most"]));
-    for (number, set) in (1..).zip(sets::drawn(seed).take(SETS)) {
-        let file = sets::written(&folder, &format!("set{number}"), "", &set)?;
-        let values = values(&scenes::find("rotor")?, &scenes::find(&file.display().to_string())?)?;
-        let [own, all] = [spent(&packaged(&file)?, &[])?, spent(&general, &values)?];
-        let (words, ratio) = (sets::words(&set), all.instructions / own.instructions);
+    for ((set, scene), own) in sets.iter().zip(&scenes[1..]).zip(&fmus[1..]) {
+        let values = values(&scenes::find("rotor")?, &scenes::find(scene)?)?;
+        let [own, all] = [spent(own, &[])?, spent(&fmus[0], &values)?];
+        let (words, ratio) = (sets::words(set), all.instructions / own.instructions);
         let target = target(Some(GENERAL), ratio);
         println!("| {words} | {} | {} | {ratio:.3} | {target} |", own.instructions, all.instructions);
         ensure!(own.evaluations == all.evaluations, "{words}: other steps, {} evaluations", all.evaluations);
@@ -55,18 +56,18 @@ const ACTING: [&[&str]; 3] = [&["gravity"], &["drag"], &["support", "drag"]];
 pub fn print_off() -> Result<Vec<String>> {
     let mut broken = Vec::new();
     let folder = paths::target().join("general");
-    let [fewer, more] = [("fewer", FEWER), ("more", MORE)].map(|(name, number)| {
+    let generals = [("fewer", FEWER), ("more", MORE)].map(|(name, number)| {
         let set = set(&[("bearing", number), ("port", number)]);
-        let file = sets::written(&folder, name, "general = true\n", &set)?;
-        anyhow::Ok((scenes::find(&file.display().to_string())?, packaged(&file)?))
+        sets::written(&folder, name, "general = true\n", &set)
     });
-    let (fewer, more) = (fewer?, more?);
+    let generals = generals.into_iter().collect::<Result<Vec<_>>>()?;
+    let fmus = packaged(&generals, &folder)?;
     println!("{}", head(&["a bearing or port that is off beside", "instructions an evaluation", "at most"]));
     for names in ACTING {
         let acting = set(&names.iter().map(|name| (*name, 1)).collect::<Vec<_>>());
-        let scene = scenes::find(&sets::written(&folder, "acting", "", &acting)?.display().to_string())?;
-        let each = |(general, fmu): &(Scene, Unpacked)| Ok(spent(fmu, &values(general, &scene)?)?.each());
-        let [fewer, more]: [Result<f64>; 2] = [each(&fewer), each(&more)];
+        let scene = scenes::find(&sets::written(&folder, "acting", "", &acting)?)?;
+        let each = |of: usize| Ok(spent(&fmus[of], &values(&scenes::find(&generals[of])?, &scene)?)?.each());
+        let [fewer, more]: [Result<f64>; 2] = [0, 1].map(each);
         let each = (more? - fewer?) / (2 * (MORE - FEWER)) as f64;
         let words = sets::words(&acting);
         println!("| {words} | {each:.2} | {} |", target(Some(OFF), each));

@@ -4,7 +4,7 @@ use anyhow::Result;
 use fastrand::Rng;
 use split_rotor_model::effects::{CATALOGUE, Info};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Effects, each so many times.
 pub type Set = Vec<(&'static Info, usize)>;
@@ -38,8 +38,8 @@ pub fn words(set: &Set) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Writes the scene of a set into `folder`; `head` stands before all tables.
-pub fn written(folder: &Path, name: &str, head: &str, set: &Set) -> Result<PathBuf> {
+/// Writes the scene of a set into `folder`, and where that is; `head` stands before all tables.
+pub fn written(folder: &Path, name: &str, head: &str, set: &Set) -> Result<String> {
     let mut text = format!(
         "{head}[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n[start]\nr_c = {{ x = 0.75, y = 0.01 }}\n\
          omega = {{ x = 50.0, y = 1.0 }}\n[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-10\n"
@@ -53,7 +53,7 @@ pub fn written(folder: &Path, name: &str, head: &str, set: &Set) -> Result<PathB
     std::fs::create_dir_all(folder)?;
     let file = folder.join(format!("{name}.toml"));
     std::fs::write(&file, text)?;
-    Ok(file)
+    Ok(file.display().to_string())
 }
 
 /// Values with which an effect acts.

@@ -5,7 +5,7 @@ use super::head;
 use super::sets::{self, Set};
 use crate::unpacked::{Unpacked, unpack};
 use crate::{c, package, paths};
-use anyhow::{Context, Result};
+use anyhow::Result;
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::scene::Scene;
 use std::path::Path;
@@ -34,10 +34,9 @@ pub fn spent(fmu: &Unpacked, values: &[String]) -> Result<Spent> {
     Ok(Spent { instructions, evaluations: printed.trim().parse()? })
 }
 
-/// Packages the scene in this file, beside it.
-pub fn packaged(file: &Path) -> Result<Unpacked> {
-    let folder = file.parent().context("a file lies in a folder")?;
-    unpack(&package::package(&[file.display().to_string()], Some(folder))?[0])
+/// Packages these scenes, names or files, into `folder`.
+pub fn packaged(scenes: &[String], folder: &Path) -> Result<Vec<Unpacked>> {
+    package::package(scenes, Some(folder))?.iter().map(|fmu| unpack(fmu)).collect()
 }
 
 /// Prints what a second of each scene takes, by the method that it names.
@@ -54,10 +53,9 @@ pub fn print_effects() -> Result<()> {
     println!("{}", head(&["a second of", "instructions", "evaluations", "instructions an evaluation"]));
     let folder = paths::target().join("alone");
     let alone = CATALOGUE.iter().map(|info| (info.name, vec![(info, 1)]));
-    for (name, set) in std::iter::once(("nothing", Set::new())).chain(alone) {
-        row(&packaged(&sets::written(&folder, name, "", &set)?)?)?;
-    }
-    Ok(())
+    let sets = std::iter::once(("nothing", Set::new())).chain(alone);
+    let scenes = sets.map(|(name, set)| sets::written(&folder, name, "", &set)).collect::<Result<Vec<_>>>()?;
+    packaged(&scenes, &folder)?.iter().try_for_each(row)
 }
 
 fn row(fmu: &Unpacked) -> Result<()> {
