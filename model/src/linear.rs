@@ -6,7 +6,9 @@
 mod campbell;
 mod machine;
 mod modes;
+mod response;
 
 pub use campbell::{Branch, Campbell, Crossing, Point};
 pub use machine::{Machine, Obstacle, STATES, Steady};
 pub use modes::{Direction, Mode, Shape};
+pub use response::{Orbit, Response};

@@ -3,12 +3,11 @@
 mod picture;
 mod table;
 
-use crate::{scenes, sheets};
+use crate::{scenes, sheets, speeds};
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
-use split_rotor_model::linear::{Campbell, Crossing, Machine, Obstacle, Point};
+use split_rotor_model::linear::{Campbell, Crossing, Machine, Point};
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::Any;
 
 /// What the command found.
 struct Diagram<'m> {
@@ -19,49 +18,18 @@ struct Diagram<'m> {
     thresholds: Vec<Crossing>,
 }
 
-/// So much higher than the scene goes the diagram does \[1].
-const HIGHER: f64 = 1.5;
-
 /// Draws the diagram of a scene between these speeds [rad/s], at so many of them.
 pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64]) -> Result<()> {
     let scene = scenes::find(scene)?;
-    ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
     ensure!(orders.iter().all(|order| *order > 0.0), "--orders: each must be more than 0");
     let file = || scene.file.display().to_string();
     let machine = Machine::of(&scene.parameters()).with_context(file)?;
-    let (from, to) = match speeds {
-        Some(&[from, to]) => (from, to),
-        _ => (0.0, HIGHER * highest(&scene, &machine).with_context(file)?),
-    };
-    ensure!(
-        from.is_finite() && to.is_finite() && from < to,
-        "--speeds {from} {to}: the second must be more than the first"
-    );
-    let speed = |n: u32| from + (to - from) * f64::from(n) / f64::from(steps - 1);
-    let campbell = Campbell::of(&machine, &(0..steps).map(speed).collect::<Vec<_>>()).with_context(file)?;
+    let speeds = speeds::range(&scene, &machine, speeds, steps).with_context(file)?;
+    let campbell = Campbell::of(&machine, &speeds).with_context(file)?;
     let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order).with_context(file)?));
     let critical = orders.iter().map(crossed).collect::<Result<_>>()?;
     let thresholds = campbell.thresholds().with_context(file)?;
     write(&Diagram { scene, campbell, critical, thresholds })
-}
-
-/// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.
-fn highest(scene: &Scene, machine: &Machine) -> Result<f64, Obstacle> {
-    let told: Any = scene.parameters().into();
-    let value = |name: &str| {
-        let variable = scene.variables.iter().find(|variable| variable.name == name);
-        variable.and_then(|variable| told.value(variable.place)).unwrap_or_default().abs()
-    };
-    let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
-    let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
-    let nodes = nodes.map(|node| value(&node.name)).fold(0.0, f64::max);
-    let highest = imposed.max(nodes).max(value("start.omega.x")).max(value("motor.synchronous_speed"));
-    if highest > 0.0 {
-        return Ok(highest);
-    }
-    let (_, modes) = machine.modes(0.0, None)?;
-    let fastest = modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);
-    Ok(if fastest > 0.0 { fastest } else { 1.0 })
 }
 
 fn write(diagram: &Diagram) -> Result<()> {

@@ -5,6 +5,7 @@ mod bench;
 mod c;
 mod c_host;
 mod campbell;
+mod chart;
 mod copies;
 mod demo;
 mod fmu;
@@ -12,15 +13,18 @@ mod fuzz;
 mod hard_cases;
 mod licences;
 mod memcheck;
+mod numbers;
 mod package;
 mod page;
 mod paths;
 mod python;
+mod response;
 mod run;
 mod sanitize;
 mod scenes;
 mod sheet;
 mod sheets;
+mod speeds;
 mod templates;
 mod terminals;
 mod test;
@@ -121,6 +125,19 @@ enum Command {
         #[arg(long, num_args = 1.., value_name = "X", default_values_t = [1.0, 2.0])]
         orders: Vec<f64>,
     },
+    /// Find how an unbalance makes the machine whirl against the spin: half axes and phases of the orbits at its probes or bearings,
+    /// linear about the steady state: table, SVG, CSV and JSON in target/response/SCENE
+    Response {
+        /// The scene
+        #[arg(default_value = "jeffcott")]
+        scene: String,
+        /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
+        speeds: Option<Vec<f64>>,
+        /// How many speeds
+        #[arg(long, default_value_t = 401)]
+        steps: u32,
+    },
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print a scene's modelDescription.xml
@@ -156,6 +173,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Campbell { scene, speeds, steps, orders } => {
             campbell::campbell(&scene, speeds.as_deref(), steps, &orders)
         }
+        Command::Response { scene, speeds, steps } => response::response(&scene, speeds.as_deref(), steps),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),
     }

@@ -4,7 +4,7 @@ use super::principal::principal;
 use super::{Body, Inertia};
 use crate::error::Invalid;
 use crate::stored::stored;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// The rotor with all that effects add to it. Body axes: x along t, y and z where φ = 0 and γ = 0.
 #[derive(Clone, Copy, Debug)]
@@ -90,6 +90,15 @@ impl Shape {
     /// From c to the mass centre G of the whole, in body axes \[m].
     pub fn centre(&self) -> Vector3<f64> {
         self.moment / (self.rotor.m + self.mass)
+    }
+
+    /// Of what is added, U = Σ m_i s_i [kg·m] and W = Σ m_i (x_i − x_G) s_i [kg·m²] across the axis, along y and z of the body: what the
+    /// field calls static and couple unbalance.
+    pub fn unbalance(&self) -> [Vector2<f64>; 2] {
+        let first = self.moment.yz();
+        // −Σ m_i x_i s_i stands in the inertia tensor.
+        let about_c = -Vector2::new(self.inertia[(1, 0)], self.inertia[(2, 0)]);
+        [first, about_c - first * self.centre().x]
     }
 
     /// The inertia tensor about G, in body axes, 3×3 [kg·m²].

@@ -29,6 +29,9 @@ const N: usize = numbers_of_state::<All>();
 /// What a drive is: it is off, for the spin is held.
 const DRIVES: [&str; 3] = ["drive", "motor", "imposed_speed"];
 
+/// Its acceleration are its first three rows.
+const GRAVITY: &str = "gravity";
+
 /// What is out of balance goes onto the axis.
 const UNBALANCE: (&str, &str) = ("unbalance", "radius");
 
@@ -45,7 +48,7 @@ const UNHELD: f64 = 1e-12;
 /// What is left of the loads where they balance, over what they were \[1].
 const BALANCED: f64 = 1e-9;
 
-/// A machine without its unbalance and its drives.
+/// A machine with its drives off, and its unbalance put onto the axis.
 #[derive(Clone)]
 pub struct Machine {
     parameters: Parameters<All>,
@@ -54,6 +57,13 @@ pub struct Machine {
     across: f64,
     /// √(Jt/m) \[m].
     length: f64,
+    /// Mass \[kg], and where its centre lies from c along t \[m].
+    pub(super) mass: f64,
+    pub(super) centre: f64,
+    /// What was put onto the axis: [`Shape::unbalance`](crate::body::Shape::unbalance).
+    pub(super) unbalance: [Vector2<f64>; 2],
+    /// Acceleration of gravity [m/s²].
+    pub(super) gravity: Vector3<f64>,
 }
 
 /// Where it stands while it spins steadily.
@@ -67,6 +77,8 @@ pub struct Steady {
     pub gamma: Vector2<f64>,
     /// The axis t \[1].
     pub axis: Vector3<f64>,
+    /// The axes of the body where φ = 0, as columns, t first \[1].
+    pub attitude: Matrix3<f64>,
     /// ∂t/∂γ \[1].
     pub turning: Matrix3x2<f64>,
     /// The torque about the axis that holds the spin [N·m].
@@ -91,6 +103,11 @@ pub enum Obstacle {
         /// [rad/s].
         speed: f64,
     },
+    /// An undamped mode swings as fast as the rotor spins \[rad/s].
+    Resonant {
+        /// [rad/s].
+        speed: f64,
+    },
     /// A law switches between the start and the steady state at this speed [rad/s].
     Switches {
         /// [rad/s].
@@ -111,6 +128,9 @@ impl fmt::Display for Obstacle {
             Self::Invalid(reason) => write!(f, "{reason}"),
             Self::NoSteadyState { speed } => {
                 write!(f, "at {speed} rad/s nothing balances what acts on the rotor: no steady state was found")
+            }
+            Self::Resonant { speed } => {
+                write!(f, "at {speed} rad/s a mode that nothing damps swings with the spin: the whirl has no bound")
             }
             Self::Switches { speed } => {
                 write!(
@@ -143,9 +163,13 @@ impl Machine {
     /// Of these parameters; why not.
     pub fn of(parameters: &Parameters<All>) -> Result<Self, Obstacle> {
         parameters.check().map_err(|invalid| Obstacle::Invalid(invalid.to_string()))?;
-        let mut parameters = parameters.clone();
+        let (mut parameters, unbalance) = (parameters.clone(), parameters.shape().unbalance());
+        let mut gravity = Vector3::zeros();
         parameters.effects.for_each(|block| {
             let kind = block.kind();
+            if kind.name == GRAVITY && block.is_active() {
+                gravity = Vector3::from_fn(|row, _| block.value(row, 0.0, None, None).expect("it is a parameter"));
+            }
             if DRIVES.contains(&kind.name) {
                 block.switch(false);
             } else if kind.name == UNBALANCE.0 {
@@ -156,7 +180,8 @@ impl Machine {
         });
         let start = &mut parameters.setup.start;
         (start.gamma, start.v_c, start.phi) = (Vector2::zeros(), Vector3::zeros(), 0.0);
-        let body = parameters.shape().inertia();
+        let shape = parameters.shape();
+        let (body, centre) = (shape.inertia(), shape.centre().x);
         let lies_off = |asymmetric: &Asymmetric| {
             asymmetric.centre.yz() != Vector2::zeros() || asymmetric.excess.abs() > ROUNDING * body.per_jt
         };
@@ -164,7 +189,8 @@ impl Machine {
             return Err(Obstacle::Asymmetric);
         }
         let [about_axis, across] = [body.spin + body.per_jt, body.per_jt].map(|per| 1.0 / per);
-        Ok(Self { parameters, about_axis, across, length: (across * body.per_m).sqrt() })
+        let (mass, length) = (body.m, (across * body.per_m).sqrt());
+        Ok(Self { parameters, about_axis, across, length, mass, centre, unbalance, gravity })
     }
 
     /// Where it runs steadily at `speed` [rad/s], sought from `near`, and its linear equations there.
@@ -199,7 +225,8 @@ impl Machine {
                 let is_held = all.singular_values[UNKNOWNS - 1] > UNHELD * largest;
                 let (rate, matrix) = self.linear(&now);
                 let Equations { axis, turning, moment, .. } = now;
-                return Ok(Steady { speed, r, gamma, axis, turning, torque: -moment, is_held, rate, matrix });
+                let attitude = Tilt::new(rotor.frame.chart, gamma).attitude(0.0);
+                return Ok(Steady { speed, r, gamma, axis, attitude, turning, torque: -moment, is_held, rate, matrix });
             }
             let share = if size > LONGEST { LONGEST / size } else { 1.0 };
             r -= step.fixed_rows::<3>(0) * (share * self.length);
@@ -264,25 +291,21 @@ impl Machine {
         let turned = across.transpose() * at.turning * at.moment;
         let mut by_tilt = matrix.fixed_view_mut::<2, 2>(8, 6);
         by_tilt -= turned;
-        let (length, inertia) = (self.length, self.across);
+        let inertia = self.across;
         // The fastest of what springs, dampers and spin make of mass and inertia.
         let springs =
             matrix.fixed_view::<3, 3>(3, 0).amax().max(matrix.fixed_view::<2, 2>(8, 6).amax() / inertia).sqrt();
         let rate = springs.max(matrix.fixed_view::<2, 2>(6, 6).amax());
         let rate = if rate > 0.0 { rate } else { 1.0 };
-        let sizes = [
-            length,
-            length,
-            length,
-            length * rate,
-            length * rate,
-            length * rate,
-            1.0,
-            1.0,
-            inertia * rate,
-            inertia * rate,
-        ];
+        let sizes = self.sizes(rate);
         (rate, SMatrix::from_fn(|row, column| matrix[(row, column)] * sizes[column] / (sizes[row] * rate)))
+    }
+
+    /// What the linear numbers are divided by.
+    pub(super) fn sizes(&self, rate: f64) -> SVector<f64, STATES> {
+        let [place, momentum] = [self.length, self.across * rate];
+        let v = place * rate;
+        SVector::from([place, place, place, v, v, v, 1.0, 1.0, momentum, momentum])
     }
 }
 

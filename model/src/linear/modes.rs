@@ -6,7 +6,7 @@ use nalgebra::{Complex, ComplexField, DMatrix, SMatrix, SVector, Vector2};
 /// The state of a mode, its numbers over their sizes, of norm 1.
 pub type Shape = SVector<Complex<f64>, STATES>;
 
-type Matrix = SMatrix<Complex<f64>, STATES, STATES>;
+pub(super) type Matrix = SMatrix<Complex<f64>, STATES, STATES>;
 
 /// A mode: all numbers of the motion go as Re(shape e^(λt)).
 #[derive(Clone, Debug)]

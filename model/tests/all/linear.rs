@@ -2,7 +2,7 @@
 
 use crate::harness::named::{Named, ROTOR};
 use crate::harness::{largest, within};
-use nalgebra::{ComplexField, DMatrix, Vector3};
+use nalgebra::{Complex, ComplexField, DMatrix, Vector3};
 use oracles::numerics::derivative;
 use split_rotor_model::linear::{Campbell, Direction, Machine, Mode, Obstacle};
 
@@ -170,4 +170,105 @@ fn what_nothing_holds_has_no_steady_state() {
     let text = format!("{ROTOR}{GRAVITY}");
     let machine = Machine::of(Named::written(&text).simulation.parameters()).expect("a machine");
     assert_eq!(machine.steady(10.0, None).err(), Some(Obstacle::NoSteadyState { speed: 10.0 }));
+}
+
+fn polar(size: f64, angle: f64) -> Complex<f64> {
+    let (sine, cosine) = libm::sincos(angle);
+    Complex::new(size * cosine, size * sine)
+}
+
+/// A response against a closed form, over its size there [1]: measured 1.5e-13.
+const RESPONSE: f64 = 1e-12;
+
+#[test]
+fn exact_response_of_jeffcotts_rotor() {
+    let (m, k, d, first) = (5.0, 2000.0, 10.0, 0.1 * 0.1);
+    let text = format!(
+        "[rotor]\nm = 4.9\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = {k}\nc2 = 100.0\nd1 = {d}\n\
+         [[effects.unbalance]]\nmass = 0.1\nradius = 0.1\nangle = 0.7\nposition = 0.0\n"
+    );
+    let jeffcott = machine(&text);
+    for speed in [-35.0, 0.0, 1e-3, 5.0, 19.9, 20.0, 20.1, 40.0, 1e4] {
+        let orbit = jeffcott.response(speed, None).expect("it is held").orbit(0.0);
+        // (k − mω² + idω) Y = U ω² e^(iα)
+        let square = speed * speed;
+        let turned = polar(first * square, 0.7);
+        let y = turned / Complex::new(k - m * square, d * speed);
+        let z = y * Complex::new(0.0, -1.0);
+        for (got, exact) in [(orbit.y, y), (orbit.z, z)] {
+            within(&format!("at {speed} rad/s"), (got - exact).modulus(), RESPONSE * exact.modulus());
+        }
+        // A circle.
+        within("half axis", (orbit.major() - y.modulus()).abs(), RESPONSE * y.modulus());
+        assert!(orbit.minor() >= 0.0, "it runs with the spin");
+    }
+}
+
+#[test]
+fn exact_response_that_tilts() {
+    // Springs of the place and the tilt apart: (c2 − (Jt − Ja) ω²) Θ = W ω², and z is moved by the couple as y is.
+    let (mass, radius, place, [c1, c2]) = (0.02, 0.1, 0.3, [2000.0, 500.0]);
+    let text = format!(
+        "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = {c1}\nc2 = {c2}\n\
+         [[effects.unbalance]]\nmass = {mass}\nradius = {radius}\nposition = {place}\n"
+    );
+    let machine = machine(&text);
+    let m = 5.0 + mass;
+    let centre = mass * place / m;
+    let jt = 0.078125 + mass * place * place - m * centre * centre;
+    for speed in [3.0, 15.0, 60.0, 400.0] {
+        let square: f64 = speed * speed;
+        // The support acts in c, which lies behind the mass centre: F = −c1 (r − x θ), M = −c2 θ + x F …
+        let arm = -centre;
+        let place_of = |r: f64, theta: f64| r + arm * theta;
+        let first = mass * radius * square;
+        let couple = first * (place - centre);
+        // [c1 − mω², c1 a; c1 a, c2 + c1 a² − (Jt − Ja)ω²] (r, θ) = (U ω², W ω²)
+        let [a, b, d] = [c1 - m * square, c1 * arm, c2 + c1 * arm * arm - (jt - 0.15625) * square];
+        let determinant = a * d - b * b;
+        let (r, theta) = ((d * first - b * couple) / determinant, (a * couple - b * first) / determinant);
+        let response = machine.response(speed, None).expect("it is held");
+        for position in [-0.4, 0.0, 0.5] {
+            let exact = place_of(r, theta) + position * theta;
+            let orbit = response.orbit(position);
+            let size = r.abs() + theta.abs();
+            within("y", (orbit.y - Complex::from(exact)).modulus() / size, 1e-11);
+            within("z", (orbit.z - Complex::new(0.0, -exact)).modulus() / size, 1e-11);
+        }
+    }
+}
+
+#[test]
+fn exact_response_of_a_run() {
+    // A small unbalance, bearings that are not the same across, and a sag: what the run does once its start has died out.
+    let speed = 120.0;
+    let text = "[rotor]\nm = 5.0\nJa = 0.05\nJt = 0.08\nl = 0.0\n[effects.gravity]\ng = { x = -3.0, z = -9.81 }\n\
+                [[effects.bearing]]\nposition = -0.2\nkyy = 2e5\nkzz = 1e5\nkyz = 1e4\nkzy = 1e4\ncyy = 400.0\nczz = 300.0\nkxx = 1e5\ncxx = 300.0\n\
+                [[effects.bearing]]\nposition = 0.3\nkyy = 1e5\nkzz = 2e5\ncyy = 300.0\nczz = 400.0\n\
+                [[effects.unbalance]]\nmass = 1e-3\nradius = 1e-3\nangle = 0.4\nposition = 0.1\n\
+                [[effects.probe]]\nposition = 0.25\n";
+    let orbit = machine(text).response(speed, None).expect("it is held").orbit(0.25);
+    let mut run = Named::written(&format!("{text}[effects.imposed_speed]\nw = {speed}\n"));
+    run.set("solver.relative_tolerance", 1e-12);
+    run.start();
+    // The first harmonic over a revolution.
+    const POINTS: u32 = 64;
+    let mut seen = [Complex::from(0.0); 2];
+    for n in 0..POINTS {
+        let t = 3.0 + std::f64::consts::TAU / speed * f64::from(n) / f64::from(POINTS);
+        run.simulation.advance(t).expect("a calm run");
+        let back = polar(2.0 / f64::from(POINTS), -run.get("phi"));
+        seen[0] += back * run.get("probe[1].r.y");
+        seen[1] += back * run.get("probe[1].r.z");
+    }
+    for (got, expected) in seen.iter().zip([orbit.y, orbit.z]) {
+        within("first harmonic", (got - expected).modulus() / orbit.major(), 2e-6);
+    }
+}
+
+#[test]
+fn resonance_without_damping_has_no_bound() {
+    let text = "[rotor]\nm = 4.9\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = 2000.0\n\
+                [[effects.unbalance]]\nmass = 0.1\nradius = 0.1\nposition = 0.0\n";
+    assert_eq!(machine(text).response(20.0, None).err(), Some(Obstacle::Resonant { speed: 20.0 }));
 }

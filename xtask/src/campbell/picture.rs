@@ -1,22 +1,14 @@
 //! The picture: frequencies above, damping ratios below, over the spin.
 
 use super::Diagram;
-use anyhow::{Result, anyhow};
-use plotters::coord::types::RangedCoordf64;
+use crate::chart::{self, Area, Axes, Drawn, INK};
+use anyhow::Result;
 use plotters::prelude::*;
 use split_rotor_model::linear::{Branch, Direction, Point};
-
-/// Its size \[px].
-const SIZE: (u32, u32) = (820, 760);
-
-/// Ink that is read on white and on black.
-const INK: RGBColor = RGBColor(128, 128, 128);
 
 /// Modes further than this above the highest line are left out, and so is what is damped more than this \[1].
 const ABOVE: f64 = 1.6;
 const MOST_DAMPED: f64 = 0.5;
-
-type Axes<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 fn colour(direction: Direction) -> RGBColor {
     match direction {
@@ -32,19 +24,8 @@ const SHOWN: [Direction; 4] = [Direction::Forward, Direction::Backward, Directio
 
 /// As SVG.
 pub fn svg(diagram: &Diagram) -> Result<String> {
-    let mut text = String::new();
-    {
-        let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-        let (above, below) = root.split_vertically(SIZE.1 * 62 / 100);
-        frequencies(diagram, &above).map_err(|error| anyhow!("{error}"))?;
-        damping(diagram, &below).map_err(|error| anyhow!("{error}"))?;
-        root.present()?;
-    }
-    Ok(text)
+    chart::two(|above| frequencies(diagram, above), |below| damping(diagram, below))
 }
-
-type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
-type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
 
 fn speeds(diagram: &Diagram) -> std::ops::Range<f64> {
     let steady = &diagram.campbell.steady;
@@ -53,33 +34,6 @@ fn speeds(diagram: &Diagram) -> std::ops::Range<f64> {
 
 fn points<'a>(diagram: &'a Diagram<'_>) -> impl Iterator<Item = &'a Point> {
     diagram.campbell.branches.iter().flat_map(|branch| &branch.points)
-}
-
-fn axes<'a>(
-    area: &Area<'a>,
-    diagram: &Diagram,
-    caption: &str,
-    y: std::ops::Range<f64>,
-    name: &str,
-) -> std::result::Result<Axes<'a>, Box<dyn std::error::Error>> {
-    let text = ("sans-serif", 15).into_font().color(&INK);
-    let mut axes = ChartBuilder::on(area)
-        .caption(caption, ("sans-serif", 17).into_font().color(&INK))
-        .margin(10)
-        .margin_right(30)
-        .x_label_area_size(45)
-        .y_label_area_size(70)
-        .build_cartesian_2d(speeds(diagram), y)?;
-    axes.configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(INK.mix(0.25))
-        .axis_style(INK)
-        .label_style(text.clone())
-        .axis_desc_style(text)
-        .x_desc("spin [rad/s]")
-        .y_desc(name)
-        .draw()?;
-    Ok(axes)
 }
 
 fn frequencies(diagram: &Diagram, area: &Area) -> Drawn {
@@ -92,7 +46,7 @@ fn frequencies(diagram: &Diagram, area: &Area) -> Drawn {
         .filter(|whirl| *whirl > 0.0)
         .fold(f64::INFINITY, f64::min);
     let top = 1.05 * seen.fold(if lowest.is_finite() { lowest } else { 1.0 }, f64::max);
-    let mut axes = axes(area, diagram, &diagram.scene.title, 0.0..top, "whirl frequency [rad/s]")?;
+    let mut axes = chart::axes(area, &diagram.scene.title, speeds(diagram), 0.0..top, "whirl frequency [rad/s]")?;
     for (order, _) in &diagram.critical {
         // The line leaves at the top or on the right.
         let end = |speed: f64| if order * speed.abs() > top { speed.signum() * top / order } else { speed };
@@ -118,7 +72,7 @@ fn damping(diagram: &Diagram, area: &Area) -> Drawn {
     let ratios = || shown().map(|point| point.mode.damping_ratio()).filter(is_shown);
     let (least, most) =
         ratios().fold((0.0, 0.01), |(least, most): (f64, f64), ratio| (least.min(ratio), most.max(ratio)));
-    let mut axes = axes(area, diagram, "", 1.1 * least..1.1 * most, "damping ratio [1]")?;
+    let mut axes = chart::axes(area, "", speeds(diagram), 1.1 * least..1.1 * most, "damping ratio [1]")?;
     let range = speeds(diagram);
     axes.draw_series(LineSeries::new([(range.start, 0.0), (range.end, 0.0)], INK.stroke_width(2)))?;
     lines(&mut axes, &diagram.campbell.branches, |point| Some(point.mode.damping_ratio()).filter(is_shown))?;
@@ -151,11 +105,5 @@ fn legend(axes: &mut Axes, diagram: &Diagram) -> Drawn {
             axes.draw_series(LineSeries::new([(0.0, 0.0); 0], colour(direction)))?.label(direction.name()).legend(line);
         }
     }
-    let text = ("sans-serif", 15).into_font().color(&INK);
-    axes.configure_series_labels()
-        .position(SeriesLabelPosition::LowerRight)
-        .label_font(text)
-        .border_style(TRANSPARENT)
-        .draw()?;
-    Ok(())
+    chart::legend(axes)
 }

@@ -1,12 +1,9 @@
 //! The table: critical speeds, thresholds, and the modes at a few speeds.
 
 use super::{Diagram, number};
+use crate::numbers::{SHOWN, rounded, rpm, spread};
 use split_rotor_model::linear::{Branch, Crossing, Mode};
-use std::f64::consts::TAU;
 use std::fmt::Write;
-
-/// So many speeds are shown.
-const SHOWN: usize = 6;
 
 /// All of it, in Markdown.
 pub fn table(diagram: &Diagram) -> String {
@@ -16,20 +13,6 @@ pub fn table(diagram: &Diagram) -> String {
     stability(diagram, &mut text);
     modes(diagram, &mut text);
     text
-}
-
-fn rpm(speed: f64) -> f64 {
-    speed * 60.0 / TAU
-}
-
-/// A frequency, or a speed, as people read it.
-fn rounded(value: f64) -> String {
-    if value == 0.0 {
-        return "0".into();
-    }
-    let digits = libm::floor(libm::log10(value.abs()));
-    let decimals = (5.0 - digits).clamp(0.0, 9.0) as usize;
-    format!("{value:.decimals$}")
 }
 
 fn critical_speeds(diagram: &Diagram, text: &mut String) {
@@ -78,9 +61,7 @@ fn stability(diagram: &Diagram, text: &mut String) {
 
 fn modes(diagram: &Diagram, text: &mut String) {
     let steady = &diagram.campbell.steady;
-    let last = steady.len() - 1;
-    let count = SHOWN.min(steady.len());
-    let shown: Vec<_> = (0..count).map(|n| steady[n * last / (count - 1)].speed).collect();
+    let shown: Vec<_> = spread(steady.len(), SHOWN).map(|n| steady[n].speed).collect();
     *text += "| mode |";
     shown.iter().for_each(|speed| *text += &format!(" at {} rad/s |", rounded(*speed)));
     *text += &format!("\n|--:|{}\n", "--:|".repeat(shown.len()));

@@ -1,0 +1,42 @@
+//! The speeds at which a machine is looked at.
+
+use anyhow::{Result, ensure};
+use split_rotor_model::linear::{Machine, Obstacle};
+use split_rotor_model::scene::Scene;
+use split_rotor_model::simulation::Any;
+
+/// So much higher than the scene goes one looks \[1].
+const HIGHER: f64 = 1.5;
+
+/// So many speeds [rad/s] from the first of these to the second; where none are given, from 0 to beyond what the scene reaches.
+pub fn range(scene: &Scene, machine: &Machine, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+    ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
+    let (from, to) = match ends {
+        Some(&[from, to]) => (from, to),
+        _ => (0.0, HIGHER * highest(scene, machine)?),
+    };
+    ensure!(
+        from.is_finite() && to.is_finite() && from < to,
+        "--speeds {from} {to}: the second must be more than the first"
+    );
+    Ok((0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1)).collect())
+}
+
+/// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.
+fn highest(scene: &Scene, machine: &Machine) -> Result<f64, Obstacle> {
+    let told: Any = scene.parameters().into();
+    let value = |name: &str| {
+        let variable = scene.variables.iter().find(|variable| variable.name == name);
+        variable.and_then(|variable| told.value(variable.place)).unwrap_or_default().abs()
+    };
+    let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
+    let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
+    let nodes = nodes.map(|node| value(&node.name)).fold(0.0, f64::max);
+    let highest = imposed.max(nodes).max(value("start.omega.x")).max(value("motor.synchronous_speed"));
+    if highest > 0.0 {
+        return Ok(highest);
+    }
+    let (_, modes) = machine.modes(0.0, None)?;
+    let fastest = modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);
+    Ok(if fastest > 0.0 { fastest } else { 1.0 })
+}
