@@ -25,6 +25,7 @@ mod scenes;
 mod sheet;
 mod sheets;
 mod speeds;
+mod ssv;
 mod templates;
 mod terminals;
 mod test;
@@ -138,6 +139,15 @@ enum Command {
         #[arg(long, default_value_t = 401)]
         steps: u32,
     },
+    /// Write a scene as a parameter set of SSP 1.0, with which the general FMU, `rotor`, is that scene: target/ssv/SCENE.ssv
+    Ssv {
+        /// The scene
+        #[arg(default_value = "paper")]
+        scene: String,
+        /// Into this folder
+        #[arg(long)]
+        out: Option<PathBuf>,
+    },
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print a scene's modelDescription.xml
@@ -174,6 +184,7 @@ fn dispatch(command: Command) -> Result<()> {
             campbell::campbell(&scene, speeds.as_deref(), steps, &orders)
         }
         Command::Response { scene, speeds, steps } => response::response(&scene, speeds.as_deref(), steps),
+        Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),
     }

@@ -3,11 +3,10 @@
 use super::sets::{self, Set};
 use super::spending::{packaged, spent};
 use super::{head, target};
-use crate::{paths, scenes};
-use anyhow::{Context, Result, ensure};
+use crate::{paths, scenes, ssv};
+use anyhow::{Result, ensure};
 use split_rotor_model::effects;
 use split_rotor_model::scene::Scene;
-use split_rotor_model::variable::Place;
 
 /// fmi2DoStep of the general FMU over that of the scene of the same effects \[1]: at most so much.
 const GENERAL: f64 = 1.3;
@@ -83,16 +82,8 @@ fn set(names: &[(&str, usize)]) -> Set {
     names.iter().filter_map(|(name, number)| Some((effects::named(name)?, *number))).collect()
 }
 
-/// What a general FMU must be told to be this scene.
+/// What a general FMU must be told to be this scene, as `NAME=VALUE`.
 fn values(general: &Scene, scene: &Scene) -> Result<Vec<String>> {
-    let named = |place: Place| general.variables.iter().find(|variable| variable.place == place);
-    let switches = general.effects.iter().map(|(info, index)| {
-        let is_on = scene.effects.iter().any(|(called, number)| (called.number, number) == (info.number, index));
-        format!("{}={}", info.switch_name(*index), u8::from(is_on))
-    });
-    let starts = scene.starts.iter().map(|(reference, value)| {
-        let variable = named(Place::of(*reference)).context("the general scene lacks a variable")?;
-        Ok(format!("{}={value:?}", variable.name))
-    });
-    switches.map(Ok).chain(starts).collect()
+    let values = ssv::values(general, scene)?;
+    Ok(values.into_iter().map(|(variable, value)| format!("{}={value:?}", variable.name)).collect())
 }
