@@ -56,6 +56,32 @@ fn exact_whirl_of_the_papers_rotor() {
     compare("at 50 rad/s", &frequencies(&modes(&paper, 50.0)), &known, 1e-7);
 }
 
+/// What is left of a small motion beside its lines, over its size [1]: measured SPECTRUM.
+const SPECTRUM: f64 = 1e-8;
+
+#[test]
+fn exact_spectrum_of_a_small_motion() {
+    let text = format!("{ROTOR}[start]\nr_c = {{ x = 0.75, y = 1e-7 }}\nomega = {{ x = 50.0, y = 1e-5 }}\n{SUPPORT}");
+    let all = modes(&machine(&text), 50.0);
+    let lines: Vec<_> = all.iter().filter(|mode| mode.direction != Direction::Axial).map(Mode::frequency).collect();
+    let mut run = Named::written(&text);
+    run.set("solver.relative_tolerance", 1e-13);
+    run.start();
+    const POINTS: usize = 400;
+    let times: Vec<_> = (0..POINTS).map(|n| 0.011 * n as f64).collect();
+    let mut place = |t: &f64| {
+        run.simulation.advance(*t).expect("a calm run");
+        Complex::new(run.get("r_c.y"), run.get("r_c.z"))
+    };
+    let seen = DMatrix::from_iterator(POINTS, 1, times.iter().map(&mut place));
+    // y + iz = Σ a_k e^(iΩ_k t): the least squares of what is left.
+    let waves = DMatrix::from_fn(POINTS, lines.len(), |n, k| polar(1.0, lines[k] * times[n]));
+    let sizes = waves.clone().svd(true, true).solve(&seen, 1e-12).expect("both sides are there");
+    within("beside the lines", (&waves * &sizes - &seen).norm() / seen.norm(), SPECTRUM);
+    // Each of them is there.
+    assert!(sizes.iter().all(|size| size.modulus() > 1e-5 * seen.norm() / 20.0), "{sizes}");
+}
+
 /// The paper's rotor in gravity as a spherical pendulum: rates of (r, v, t, dt/dt), K·t being S.
 fn pendulum(y: &[f64; 12], s: f64) -> [f64; 12] {
     let vector = |first: usize| Vector3::new(y[first], y[first + 1], y[first + 2]);
