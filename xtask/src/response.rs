@@ -15,10 +15,41 @@ use split_rotor_model::simulation::Any;
 struct Found {
     scene: Scene,
     stations: Vec<Station>,
-    /// By speed; what stands at a resonance that nothing damps is left out.
-    responses: Vec<Response>,
-    /// Of each station, where its orbit is largest.
-    peaks: Vec<Vec<Response>>,
+    /// By speed.
+    points: Vec<Point>,
+    /// Of each station, where its orbit is larger than beside it.
+    peaks: Vec<Vec<Point>>,
+}
+
+/// A speed [rad/s] that was looked at, and how the machine whirls there; None without bound, where nothing damps a resonance.
+#[derive(Clone)]
+struct Point {
+    speed: f64,
+    response: Option<Response>,
+}
+
+impl Point {
+    fn of(machine: &Machine, speed: f64, near: Option<&Self>) -> Result<Self, Obstacle> {
+        let steady = near.and_then(|near| near.response.as_ref()).map(|response| &response.steady);
+        match machine.response(speed, steady) {
+            Err(Obstacle::Resonant { speed }) => Ok(Self { speed, response: None }),
+            response => Ok(Self { speed, response: Some(response?) }),
+        }
+    }
+
+    fn orbit(&self, station: &Station) -> Option<Orbit> {
+        self.response.as_ref().map(|response| response.orbit(station.position))
+    }
+
+    /// The larger half axis of the orbit there [m].
+    fn size(&self, station: &Station) -> f64 {
+        self.orbit(station).map_or(f64::INFINITY, |orbit| orbit.major())
+    }
+
+    /// By how much y is behind the rotor's mark [°].
+    fn lag(&self, orbit: &Orbit) -> f64 {
+        -orbit.y.argument().to_degrees() * self.speed.signum()
+    }
 }
 
 /// A place on the axis that is looked at.
@@ -28,8 +59,11 @@ struct Station {
     position: f64,
 }
 
-/// A peak is found to this part of the range of speeds \[1].
-const FOUND: f64 = 1e-9;
+/// What is higher by no more than this part is level but for rounding \[1].
+const FLAT: f64 = 1e-9;
+
+/// Between two speeds a peak is narrowed down so often: until rounding decides.
+const NARROWED: u32 = 60;
 
 /// Finds the response of a scene between these speeds [rad/s], at so many of them.
 pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32) -> Result<()> {
@@ -38,17 +72,13 @@ pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32) -> Result<()> {
     let machine = Machine::of(&scene.parameters()).with_context(file)?;
     ensure!(machine.is_unbalanced(), "{}: nothing is out of balance (effects.unbalance)", file());
     let stations = stations(&scene);
-    let mut responses: Vec<Response> = Vec::new();
+    let mut points: Vec<Point> = Vec::new();
     for speed in speeds::range(&scene, &machine, ends, steps).with_context(file)? {
-        match machine.response(speed, responses.last().map(|last| &last.steady)) {
-            Err(Obstacle::Resonant { .. }) => {}
-            response => responses.push(response.with_context(file)?),
-        }
+        points.push(Point::of(&machine, speed, points.last()).with_context(file)?);
     }
-    ensure!(responses.len() > 1, "{}: no bounded whirl at these speeds", file());
-    let found = stations.iter().map(|station| peaks(&machine, station, &responses));
+    let found = stations.iter().map(|station| peaks(&machine, station, &points));
     let peaks = found.collect::<Result<_, _>>().with_context(file)?;
-    write(&Found { scene, stations, responses, peaks })
+    write(&Found { scene, stations, points, peaks })
 }
 
 /// c, and what looks at the rotor or touches it: probes, or bearings and rings where there are none.
@@ -72,32 +102,28 @@ fn stations(scene: &Scene) -> Vec<Station> {
 }
 
 /// Where the orbit of a station is larger than beside it, by the golden section between the speeds that were looked at.
-fn peaks(machine: &Machine, station: &Station, responses: &[Response]) -> Result<Vec<Response>, Obstacle> {
+fn peaks(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<Point>, Obstacle> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let size = |response: &Response| response.orbit(station.position).major();
-    let range = responses[responses.len() - 1].steady.speed - responses[0].steady.speed;
     let mut found = Vec::new();
-    for three in responses.windows(3) {
-        if size(&three[1]) <= size(&three[0]) || size(&three[1]) < size(&three[2]) {
+    for three in points.windows(3) {
+        let [before, at, after] = [0, 1, 2].map(|n| three[n].size(station));
+        if at <= before * (1.0 + FLAT) || at < after {
             continue;
         }
-        let (mut from, mut to, mut largest) = (three[0].steady.speed, three[2].steady.speed, three[1].clone());
-        let mut is_left = true;
-        while to - from > FOUND * range {
-            let speed = if is_left { to - GOLDEN * (to - from) } else { from + GOLDEN * (to - from) };
-            let tried = machine.response(speed, Some(&largest.steady))?;
-            let best = largest.steady.speed;
-            // The larger of both stays within, the other one is an end.
-            let (end, inner) = if size(&tried) > size(&largest) { (best, speed) } else { (speed, best) };
-            if end < inner {
-                from = end
+        let (mut from, mut to, mut largest) = (three[0].speed, three[2].speed, three[1].clone());
+        for _ in 0..NARROWED {
+            // The larger part beside the best is divided; the better one stays within, the other is an end.
+            let is_below = largest.speed - from > to - largest.speed;
+            let speed = if is_below { to - GOLDEN * (to - from) } else { from + GOLDEN * (to - from) };
+            let tried = Point::of(machine, speed, Some(&largest))?;
+            let (better, worse) =
+                if tried.size(station) > largest.size(station) { (tried, largest) } else { (largest, tried) };
+            if worse.speed < better.speed {
+                from = worse.speed;
             } else {
-                to = end
+                to = worse.speed;
             }
-            if inner == speed {
-                largest = tried;
-            }
-            is_left = largest.steady.speed - from > to - largest.steady.speed;
+            largest = better;
         }
         found.push(largest);
     }
@@ -118,13 +144,13 @@ fn write(found: &Found) -> Result<()> {
     Ok(())
 }
 
-/// A row for each station at each speed.
+/// A row for each station at each speed at which it has a bound.
 fn rows(found: &Found) -> Vec<sheets::Row> {
-    let all = found.responses.iter().flat_map(|response| found.stations.iter().map(move |station| (response, station)));
-    let row = |(response, station): (&Response, &Station)| {
-        let orbit @ Orbit { y, z } = response.orbit(station.position);
-        vec![
-            ("speed_rad_s", json!(response.steady.speed)),
+    let all = found.points.iter().flat_map(|point| found.stations.iter().map(move |station| (point, station)));
+    let row = |(point, station): (&Point, &Station)| {
+        let orbit @ Orbit { y, z } = point.orbit(station)?;
+        Some(vec![
+            ("speed_rad_s", json!(point.speed)),
             ("station", json!(station.name)),
             ("position_m", json!(station.position)),
             ("major_m", json!(orbit.major())),
@@ -133,7 +159,7 @@ fn rows(found: &Found) -> Vec<sheets::Row> {
             ("phase_y_rad", json!(y.argument())),
             ("amplitude_z_m", json!(z.modulus())),
             ("phase_z_rad", json!(z.argument())),
-        ]
+        ])
     };
-    all.map(row).collect()
+    all.filter_map(row).collect()
 }

@@ -8,6 +8,9 @@ use split_rotor_model::simulation::Any;
 /// So much higher than the scene goes one looks \[1].
 const HIGHER: f64 = 1.5;
 
+/// No rotor turns faster [rad/s].
+const HIGHEST: f64 = 1e9;
+
 /// So many speeds [rad/s] from the first of these to the second; where none are given, from 0 to beyond what the scene reaches.
 pub fn range(scene: &Scene, machine: &Machine, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
@@ -16,8 +19,8 @@ pub fn range(scene: &Scene, machine: &Machine, ends: Option<&[f64]>, steps: u32)
         _ => (0.0, HIGHER * highest(scene, machine)?),
     };
     ensure!(
-        from.is_finite() && to.is_finite() && from < to,
-        "--speeds {from} {to}: the second must be more than the first"
+        from.abs() <= HIGHEST && to.abs() <= HIGHEST && from < to,
+        "--speeds {from} {to}: the second must be more than the first, both within ±{HIGHEST:e} rad/s"
     );
     Ok((0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1)).collect())
 }

@@ -31,7 +31,7 @@ pub fn values<'g>(general: &'g Scene, scene: &Scene) -> Result<Vec<(&'g Variable
     let is_set = |variable: &&Variable| matches!(variable.meta.role, Role::Parameter { .. } | Role::Input { .. });
     let of_scene = scene.variables.iter().filter(is_set).map(|variable| {
         let same = general.variables.iter().find(|own| own.place == variable.place);
-        let same = same.with_context(|| format!("the general FMU has no {}", variable.name))?;
+        let same = same.with_context(|| lacking(&variable.name))?;
         Ok((same, told.value(variable.place).context("a parameter has a value")?))
     });
     let switches = general.effects.iter().filter(|_| !scene.general).map(|(info, index)| {
@@ -42,6 +42,11 @@ pub fn values<'g>(general: &'g Scene, scene: &Scene) -> Result<Vec<(&'g Variable
         Ok((switch.with_context(|| format!("the general FMU has no {name}"))?, f64::from(u8::from(acts))))
     });
     switches.chain(of_scene).collect()
+}
+
+/// Why there is no parameter set, and what to do.
+fn lacking(name: &str) -> String {
+    format!("the general FMU has no {name} (two of a kind at most, and no tables): package the scene itself")
 }
 
 fn render(scene: &Scene, values: &[(&Variable, f64)]) -> Result<String> {

@@ -127,7 +127,11 @@ impl fmt::Display for Obstacle {
             }
             Self::Invalid(reason) => write!(f, "{reason}"),
             Self::NoSteadyState { speed } => {
-                write!(f, "at {speed} rad/s nothing balances what acts on the rotor: no steady state was found")
+                write!(
+                    f,
+                    "at {speed} rad/s nothing balances what acts on the rotor: no steady state was found (a support or bearings \
+                     must hold it where a load acts)"
+                )
             }
             Self::Resonant { speed } => {
                 write!(f, "at {speed} rad/s a mode that nothing damps swings with the spin: the whirl has no bound")

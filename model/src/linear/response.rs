@@ -1,11 +1,14 @@
 //! What an unbalance makes of a steady state: a whirl with the spin, by the linear equations.
 
 use super::machine::{Machine, Obstacle, Steady, across};
-use super::modes::{Matrix, Shape};
+use super::modes::{Matrix, Mode, Shape};
 use nalgebra::{Complex, ComplexField, Vector2, Vector3};
 
-/// A whirl so many times what pushes it, both over their sizes, has no bound but rounding \[1].
-const RESONANT: f64 = 1e12;
+/// A whirl so many times what pushes it, both over their sizes, may have no bound \[1].
+const LARGE: f64 = 1e6;
+
+/// Nor has it where a mode's λ lies within this part of its size from iω \[1]: less is rounding.
+const RESONANT: f64 = 1e-8;
 
 /// How a machine whirls about its steady state by its unbalance: each number goes as Re(x e^(iφ)), φ being the angle that the rotor has
 /// turned by.
@@ -80,7 +83,7 @@ impl Machine {
             size => (whirl - steady.matrix.map(Complex::from))
                 .lu()
                 .solve(&pushed)
-                .filter(|moved| moved.norm() <= RESONANT * size),
+                .filter(|moved| moved.norm() <= LARGE * size || !steady.swings_at(speed)),
         };
         let sizes = self.sizes(steady.rate).map(Complex::from);
         let moved = moved.ok_or(Obstacle::Resonant { speed })?.component_mul(&sizes);
@@ -106,5 +109,16 @@ impl Machine {
         pushed.fixed_rows_mut::<3>(3).copy_from(&(first * (square / self.mass)));
         pushed.fixed_rows_mut::<2>(8).copy_from(&(across * moment));
         pushed.component_div(&(self.sizes(steady.rate) * steady.rate).map(Complex::from))
+    }
+}
+
+impl Steady {
+    /// Whether a mode swings at this speed [rad/s] without damping.
+    fn swings_at(&self, speed: f64) -> bool {
+        let whirl = Complex::new(0.0, speed.abs());
+        let swings = |mode: &Mode| {
+            mode.eigenvalue.im > 0.0 && (mode.eigenvalue - whirl).modulus() <= RESONANT * mode.eigenvalue.modulus()
+        };
+        self.modes().iter().any(swings)
     }
 }

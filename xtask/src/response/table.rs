@@ -2,8 +2,6 @@
 
 use super::{Found, Station};
 use crate::numbers::{SHOWN, rounded, rpm, spread};
-use nalgebra::ComplexField;
-use split_rotor_model::linear::Response;
 use std::fmt::Write;
 
 /// All of it, in Markdown.
@@ -23,32 +21,30 @@ fn peaks(found: &Found, text: &mut String) {
     *text += "| peak at [rad/s] | [rpm] | station | half axes [µm] | behind the mark, y [°] |\n|--:|--:|---|---|--:|\n";
     for (station, peaks) in found.stations.iter().zip(&found.peaks) {
         for peak in peaks {
-            let orbit = peak.orbit(station.position);
-            let speed = peak.steady.speed;
-            let _ = writeln!(
-                text,
-                "| {} | {} | {} | {} and {} | {:.1} |",
-                rounded(speed),
-                rounded(rpm(speed)),
-                name(station),
-                micrometres(orbit.major()),
-                micrometres(orbit.minor()),
-                -orbit.y.argument().to_degrees()
-            );
+            let (speed, name) = (peak.speed, name(station));
+            let _ = write!(text, "| {} | {} | {name} | ", rounded(speed), rounded(rpm(speed)));
+            let _ = match peak.orbit(station) {
+                Some(orbit) => {
+                    let [major, minor] = [orbit.major(), orbit.minor()].map(micrometres);
+                    writeln!(text, "{major} and {minor} | {:.1} |", peak.lag(&orbit))
+                }
+                None => writeln!(text, "no bound: nothing damps it | - |"),
+            };
         }
     }
     *text += "\n";
 }
 
 fn sizes(found: &Found, text: &mut String) {
-    let shown: Vec<&Response> = spread(found.responses.len(), SHOWN).map(|n| &found.responses[n]).collect();
+    let shown: Vec<_> = spread(found.points.len(), SHOWN).map(|n| &found.points[n]).collect();
     *text += "| station |";
-    shown.iter().for_each(|response| *text += &format!(" at {} rad/s |", rounded(response.steady.speed)));
+    shown.iter().for_each(|point| *text += &format!(" at {} rad/s |", rounded(point.speed)));
     *text += &format!("\n|---|{}\n", "--:|".repeat(shown.len()));
     for station in &found.stations {
         *text += &format!("| {} |", name(station));
-        for response in &shown {
-            *text += &format!(" {} |", micrometres(response.orbit(station.position).major()));
+        for point in &shown {
+            let size = point.size(station);
+            *text += &format!(" {} |", if size.is_finite() { micrometres(size) } else { "no bound".into() });
         }
         *text += "\n";
     }
