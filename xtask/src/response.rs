@@ -41,12 +41,12 @@ impl Point {
         self.response.as_ref().map(|response| response.orbit(station.position))
     }
 
-    /// The larger half axis of the orbit there [m].
+    /// The larger half axis of the orbit there \[m].
     fn size(&self, station: &Station) -> f64 {
         self.orbit(station).map_or(f64::INFINITY, |orbit| orbit.major())
     }
 
-    /// By how much y is behind the rotor's mark [°].
+    /// By how much y is behind the rotor's mark \[°].
     fn lag(&self, orbit: &Orbit) -> f64 {
         -orbit.y.argument().to_degrees() * self.speed.signum()
     }

@@ -56,8 +56,8 @@ fn exact_whirl_of_the_papers_rotor() {
     compare("at 50 rad/s", &frequencies(&modes(&paper, 50.0)), &known, 1e-7);
 }
 
-/// What is left of a small motion beside its lines, over its size [1]: measured SPECTRUM.
-const SPECTRUM: f64 = 1e-8;
+/// What is left of a small motion beside its lines, over its size [1]: measured 1.1e-13.
+const SPECTRUM: f64 = 1e-12;
 
 #[test]
 fn exact_spectrum_of_a_small_motion() {
