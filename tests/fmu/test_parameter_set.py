@@ -5,7 +5,7 @@ import project
 import pytest
 from fmpy.ssp.ssd import read_ssv
 
-# The general FMU has two of a kind; the others are long, or follow a method's own steps.
+# The others are long, or have tables, which the general FMU has not.
 SCENES = [scene for scene in project.GENTLE if scene not in project.GENERAL]
 
 

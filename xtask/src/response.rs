@@ -9,7 +9,6 @@ use nalgebra::ComplexField;
 use serde_json::json;
 use split_rotor_model::linear::{Machine, Obstacle, Orbit, Response};
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::Any;
 
 /// What the command found.
 struct Found {
@@ -83,21 +82,16 @@ pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32) -> Result<()> {
 
 /// c, and what looks at the rotor or touches it: probes, or bearings and rings where there are none.
 fn stations(scene: &Scene) -> Vec<Station> {
-    let told: Any = scene.parameters().into();
-    let value = |name: &str| {
-        let variable = scene.variables.iter().find(|variable| variable.name == name);
-        variable.and_then(|variable| told.value(variable.place))
-    };
+    let value = scenes::values(scene);
     let of = |kinds: &[&str]| -> Vec<Station> {
-        let blocks = scene.variables.iter().filter_map(|variable| variable.name.strip_suffix(".position"));
-        let blocks = blocks.filter(|block| kinds.iter().any(|kind| block.starts_with(kind)));
-        let blocks = blocks.filter(|block| value(&format!("effects.{block}")) != Some(0.0));
-        let station =
-            |block: &str| Some(Station { name: block.into(), position: value(&format!("{block}.position"))? });
-        blocks.filter_map(station).collect()
+        let blocks = scene.effects.iter().filter(|(info, _)| kinds.contains(&info.name));
+        // In a general scene an effect may be off.
+        let blocks = blocks.filter(|(info, index)| value(&info.switch_name(*index)) != Some(0.0));
+        let names = blocks.map(|(info, index)| info.block_name(*index));
+        names.filter_map(|name| Some(Station { position: value(&format!("{name}.position"))?, name })).collect()
     };
-    let probes = of(&["probe["]);
-    let rest = if probes.is_empty() { of(&["bearing[", "rub["]) } else { probes };
+    let probes = of(&["probe"]);
+    let rest = if probes.is_empty() { of(&["bearing", "rub"]) } else { probes };
     std::iter::once(Station { name: "c".into(), position: 0.0 }).chain(rest).collect()
 }
 

@@ -1,9 +1,9 @@
 //! The speeds at which a machine is looked at.
 
+use crate::scenes;
 use anyhow::{Result, ensure};
 use split_rotor_model::linear::{Machine, Obstacle};
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::Any;
 
 /// So much higher than the scene goes one looks \[1].
 const HIGHER: f64 = 1.5;
@@ -27,11 +27,8 @@ pub fn range(scene: &Scene, machine: &Machine, ends: Option<&[f64]>, steps: u32)
 
 /// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.
 fn highest(scene: &Scene, machine: &Machine) -> Result<f64, Obstacle> {
-    let told: Any = scene.parameters().into();
-    let value = |name: &str| {
-        let variable = scene.variables.iter().find(|variable| variable.name == name);
-        variable.and_then(|variable| told.value(variable.place)).unwrap_or_default().abs()
-    };
+    let told = scenes::values(scene);
+    let value = |name: &str| told(name).unwrap_or_default().abs();
     let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
     let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
     let nodes = nodes.map(|node| value(&node.name)).fold(0.0, f64::max);

@@ -6,7 +6,7 @@ use minijinja::{Value, context};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::simulation::Any;
 use split_rotor_model::variable::units::Unit;
-use split_rotor_model::variable::{Kind, Place, Role};
+use split_rotor_model::variable::{Kind, Role};
 use split_rotor_model::variables::Variable;
 use std::path::Path;
 
@@ -37,8 +37,7 @@ pub fn values<'g>(general: &'g Scene, scene: &Scene) -> Result<Vec<(&'g Variable
     let switches = general.effects.iter().filter(|_| !scene.general).map(|(info, index)| {
         let name = info.switch_name(*index);
         let switch = general.variables.iter().find(|variable| variable.name == name);
-        let block = Place::effect_block(info.number, *index);
-        let acts = scene.effects.iter().any(|(called, number)| Place::effect_block(called.number, *number) == block);
+        let acts = scene.effects.iter().any(|(called, number)| (called.number, number) == (info.number, index));
         Ok((switch.with_context(|| format!("the general FMU has no {name}"))?, f64::from(u8::from(acts))))
     });
     switches.chain(of_scene).collect()

@@ -29,7 +29,7 @@ const N: usize = numbers_of_state::<All>();
 /// What a drive is: it is off, for the spin is held.
 const DRIVES: [&str; 3] = ["drive", "motor", "imposed_speed"];
 
-/// Its acceleration are its first three rows.
+/// Its first three rows are the acceleration.
 const GRAVITY: &str = "gravity";
 
 /// What is out of balance goes onto the axis.

@@ -232,7 +232,7 @@ fn exact_response_of_jeffcotts_rotor() {
 
 #[test]
 fn exact_response_that_tilts() {
-    // Springs of the place and the tilt apart: (c2 − (Jt − Ja) ω²) Θ = W ω², and z is moved by the couple as y is.
+    // Springs in c, which the added mass leaves a little behind the mass centre; nothing damps, so y is in phase with the mass.
     let (mass, radius, place, [c1, c2]) = (0.02, 0.1, 0.3, [2000.0, 500.0]);
     let text = format!(
         "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = {c1}\nc2 = {c2}\n\
@@ -244,7 +244,7 @@ fn exact_response_that_tilts() {
     let jt = 0.078125 + mass * place * place - m * centre * centre;
     for speed in [3.0, 15.0, 60.0, 400.0] {
         let square: f64 = speed * speed;
-        // The support acts in c, which lies behind the mass centre: F = −c1 (r − x θ), M = −c2 θ + x F …
+        // F = −c1 (r + a θ), M = −c2 θ + a F with a = −x_G
         let arm = -centre;
         let place_of = |r: f64, theta: f64| r + arm * theta;
         let first = mass * radius * square;

@@ -48,7 +48,7 @@ fn sizes(found: &Found, text: &mut String) {
         }
         *text += "\n";
     }
-    *text += "\nThe larger half axis of the orbit [µm]; a smaller one that is negative is run backward. The mark is the y axis of the rotor.\n";
+    *text += "\nThe larger half axis of the orbit [µm]; where the smaller one is negative, the orbit is run against the spin. The mark is the y axis of the rotor.\n";
 }
 
 pub fn name(station: &Station) -> String {
