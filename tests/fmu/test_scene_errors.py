@@ -58,6 +58,10 @@ CASES = {
         ", line 3: title = 5 is not possible: it must be a string",
     ),
     "missing mass": ("m = 5.0\n", "", ": `rotor.m` is missing: give the mass in kg as `m = ...` under [rotor]"),
+    "missing place of the support": (
+        "l = 0.75\n", "",
+        ": `rotor.l` is missing: give the distance from the support point a to the mass centre c in m as `l = ...` under [rotor]",
+    ),
     "negative mass": (
         "m = 5.0", "m = -5.0", ", line 6: rotor.m = -5.0 is not possible: it must be a finite number > 0",
     ),

@@ -14,6 +14,9 @@ use toml::de::{DeTable, DeValue};
 /// Effects that had another name, and what they are called now: `shaft` since 0.2.0, for elastic shafts need the name.
 const RENAMED: &[(&str, &str)] = &[("shaft", "drive")];
 
+/// The effect that is measured from the support point a.
+const SUPPORT: &str = "support";
+
 /// What a text says.
 pub(super) struct Found {
     pub title: Option<String>,
@@ -42,6 +45,15 @@ impl<'v> Values<'v> {
 }
 
 impl Values<'_> {
+    /// Without a support its point a need not be told: it is c.
+    fn measure_from_c(&mut self, called: &[(&'static Info, u32)]) {
+        if called.iter().all(|(info, _)| info.name != SUPPORT)
+            && let Some(l) = self.variables.iter().find(|variable| variable.name == "rotor.l")
+        {
+            self.starts.entry(l.place.value_reference()).or_insert(0.0);
+        }
+    }
+
     /// Switches on what is called for; of the rest, what has no default is zero, and counts only once it is switched on.
     fn switch(&mut self, called: &[(&'static Info, u32)]) {
         let called: Vec<_> = called.iter().map(|(info, index)| Place::effect_block(info.number, *index)).collect();
@@ -146,6 +158,7 @@ impl Reader<'_> {
         if general {
             values.switch(&called);
         }
+        values.measure_from_c(&called);
         nothing_missing(&values)?;
         let Values { mut starts, lines, columns, .. } = values;
         columns.check()?;

@@ -98,6 +98,20 @@ fn messages_of_several_effects_that_cannot_be() {
 }
 
 #[test]
+fn the_support_point_need_not_be_told_where_there_is_no_support() {
+    let without =
+        ROTOR.lines().filter(|line| !line.starts_with("l ")).map(|line| format!("{line}\n")).collect::<String>();
+    let parse = |rest: &str| Scene::parse(Path::new("bad.toml"), &format!("{without}{rest}"));
+    let held = parse("[[effects.bearing]]\nposition = 0.0\n").expect("it has no support");
+    assert_eq!(held.parameters().setup.rotor.l, 0.0);
+    let refused = parse("[effects.support]\nc1 = 1.0\n").expect_err("where is a?").to_string();
+    assert!(
+        refused.starts_with("bad.toml: `rotor.l` is missing: give the distance from the support point a"),
+        "{refused}"
+    );
+}
+
+#[test]
 fn what_no_xml_can_hold_is_refused() {
     let titled = |title: &str, file: &str| Scene::parse(Path::new(file), &format!("title = {title}\n{ROTOR}"));
     let says = "is not possible: it must be one line without control characters";
