@@ -40,6 +40,8 @@ pub mod simulation;
 // Floor 6: what engineers ask before a run, over the list of all effects.
 #[cfg(feature = "scenes")]
 pub mod linear;
+#[cfg(feature = "scenes")]
+pub mod periodic;
 
 // Floor 7: scenes and their modelDescription.xml, for build.rs and xtask.
 #[cfg(feature = "scenes")]

@@ -9,6 +9,8 @@ mod modes;
 mod response;
 
 pub use campbell::{Branch, Campbell, Crossing, Point};
+pub(crate) use machine::stop_drives;
 pub use machine::{Machine, Obstacle, STATES, Steady};
+pub(crate) use modes::eigenvalues;
 pub use modes::{Direction, Mode, Shape};
 pub use response::{Orbit, Response};

@@ -27,7 +27,7 @@ use crate::signal::Signal;
 use crate::state::{COORDINATES, WITH_WORK, own};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
-use crate::variables::{Instant, Parameters, Reading};
+use crate::variables::{Instant, Parameters, Reading, Start};
 use integration::Integration;
 use nominals::Nominals;
 use start::{BESIDE, Motion};
@@ -162,13 +162,36 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// [`Simulation::start`] of a run that is known to stop at `stop` \[s]: no step runs ahead of that.
     pub fn start_until(&mut self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid> {
+        self.begin(t, relative_tolerance, stop, None)
+    }
+
+    /// [`Simulation::start`] with another motion than that of the parameters; what effects measure from the start they measure from
+    /// there.
+    pub(crate) fn start_elsewhere(&mut self, t: f64, motion: &Start) -> Result<(), Invalid> {
+        self.begin(t, None, None, Some(motion))
+    }
+
+    fn begin(
+        &mut self,
+        t: f64,
+        relative_tolerance: Option<f64>,
+        stop: Option<f64>,
+        elsewhere: Option<&Start>,
+    ) -> Result<(), Invalid> {
         assert!(t.is_finite(), "a run starts at a finite time, not at {t:?}");
         let mut parameters = self.parameters.clone();
         let solver = &mut parameters.setup.solver;
         solver.relative_tolerance = relative_tolerance.unwrap_or(solver.relative_tolerance);
         parameters.effects.for_each_signal(&mut |signal| signal.begin(t));
         parameters.check()?;
-        let (start, instant) = self.at_start(&mut parameters, t)?;
+        let (start, instant) = match elsewhere {
+            None => self.at_start(&mut parameters, t)?,
+            Some(motion) => {
+                let start = Motion::elsewhere(&mut parameters, motion, t);
+                let instant = start.shows(&parameters.effects, t);
+                (start, instant)
+            }
+        };
         let span = stop.map(|stop| stop - t);
         // From here on nothing is refused any more: what is refused leaves everything as it was.
         let effects = &parameters.effects;

@@ -24,7 +24,7 @@ pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64])
     ensure!(orders.iter().all(|order| *order > 0.0), "--orders: each must be more than 0");
     let file = || scene.file.display().to_string();
     let machine = Machine::of(&scene.parameters()).with_context(file)?;
-    let speeds = speeds::range(&scene, &machine, speeds, steps).with_context(file)?;
+    let speeds = speeds::range(&scene, Some(&machine), speeds, steps).with_context(file)?;
     let campbell = Campbell::of(&machine, &speeds).with_context(file)?;
     let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order).with_context(file)?));
     let critical = orders.iter().map(crossed).collect::<Result<_>>()?;

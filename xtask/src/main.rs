@@ -126,8 +126,8 @@ enum Command {
         #[arg(long, num_args = 1.., value_name = "X", default_values_t = [1.0, 2.0])]
         orders: Vec<f64>,
     },
-    /// Find how an unbalance makes the machine whirl against the spin: half axes and phases of the orbits at its probes or bearings,
-    /// linear about the steady state: table, SVG, CSV and JSON in target/response/SCENE
+    /// Find how an unbalance makes the machine whirl against the spin: half axes and phases of the orbits at its probes or bearings, by the
+    /// linear equations and by the laws as they stand: table, SVG, CSV and JSON in target/response/SCENE
     Response {
         /// The scene
         #[arg(default_value = "jeffcott")]
@@ -138,6 +138,9 @@ enum Command {
         /// How many speeds
         #[arg(long, default_value_t = 401)]
         steps: u32,
+        /// Only by the linear equations, which takes no time
+        #[arg(long)]
+        linear: bool,
     },
     /// Write a scene as a parameter set of SSP 1.0, with which the general FMU, `rotor`, is that scene: target/ssv/SCENE.ssv
     Ssv {
@@ -183,7 +186,9 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Campbell { scene, speeds, steps, orders } => {
             campbell::campbell(&scene, speeds.as_deref(), steps, &orders)
         }
-        Command::Response { scene, speeds, steps } => response::response(&scene, speeds.as_deref(), steps),
+        Command::Response { scene, speeds, steps, linear } => {
+            response::response(&scene, speeds.as_deref(), steps, !linear)
+        }
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),

@@ -25,3 +25,8 @@ pub fn rounded(value: f64) -> String {
     let decimals = (5.0 - digits).clamp(0.0, 9.0) as usize;
     format!("{value:.decimals$}")
 }
+
+/// A length \[m] in µm.
+pub fn micrometres(length: f64) -> String {
+    rounded(1e6 * length)
+}

@@ -1,19 +1,32 @@
-//! `response`: how far and when an unbalance makes the stations of a machine whirl, against the spin.
+//! `response`: how far and when an unbalance makes the stations of a machine whirl, against the spin; by the linear equations, and by
+//! the laws as they stand.
 
+mod nonlinear;
 mod picture;
 mod table;
 
 use crate::{scenes, sheets, speeds};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use nalgebra::ComplexField;
 use serde_json::json;
 use split_rotor_model::linear::{Machine, Obstacle, Orbit, Response};
+use split_rotor_model::periodic::{self, Branch};
 use split_rotor_model::scene::Scene;
 
 /// What the command found.
 struct Found {
     scene: Scene,
     stations: Vec<Station>,
+    /// [rad/s].
+    speeds: Vec<f64>,
+    /// By the linear equations, where they hold.
+    linear: Result<Linear, Obstacle>,
+    /// By the laws as they stand, where that was asked for.
+    nonlinear: Option<Result<Branch, periodic::Obstacle>>,
+}
+
+/// By the linear equations.
+struct Linear {
     /// By speed.
     points: Vec<Point>,
     /// Of each station, where its orbit is larger than beside it.
@@ -44,11 +57,11 @@ impl Point {
     fn size(&self, station: &Station) -> f64 {
         self.orbit(station).map_or(f64::INFINITY, |orbit| orbit.major())
     }
+}
 
-    /// By how much y is behind the rotor's mark \[°].
-    fn lag(&self, orbit: &Orbit) -> f64 {
-        -orbit.y.argument().to_degrees() * self.speed.signum()
-    }
+/// By how much y is behind the rotor's mark at a speed [rad/s] \[°].
+fn lag(speed: f64, orbit: &Orbit) -> f64 {
+    -orbit.y.argument().to_degrees() * speed.signum()
 }
 
 /// A place on the axis that is looked at.
@@ -64,20 +77,33 @@ const FLAT: f64 = 1e-9;
 /// Between two speeds a peak is narrowed down so often: until rounding decides.
 const NARROWED: u32 = 60;
 
-/// Finds the response of a scene between these speeds [rad/s], at so many of them.
-pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32) -> Result<()> {
+/// Finds the response of a scene between these speeds [rad/s], at so many of them; whether also by the laws as they stand.
+pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32, exact: bool) -> Result<()> {
     let scene = scenes::find(scene)?;
     let file = || scene.file.display().to_string();
-    let machine = Machine::of(&scene.parameters()).with_context(file)?;
-    ensure!(machine.is_unbalanced(), "{}: nothing is out of balance (effects.unbalance)", file());
-    let stations = stations(&scene);
-    let mut points: Vec<Point> = Vec::new();
-    for speed in speeds::range(&scene, &machine, ends, steps).with_context(file)? {
-        points.push(Point::of(&machine, speed, points.last()).with_context(file)?);
+    let machine = Machine::of(&scene.parameters());
+    if let Ok(machine) = &machine {
+        ensure!(machine.is_unbalanced(), "{}: nothing is out of balance (effects.unbalance)", file());
     }
-    let found = stations.iter().map(|station| peaks(&machine, station, &points));
-    let peaks = found.collect::<Result<_, _>>().with_context(file)?;
-    write(&Found { scene, stations, points, peaks })
+    let speeds = speeds::range(&scene, machine.as_ref().ok(), ends, steps).with_context(file)?;
+    let stations = stations(&scene);
+    let linear = machine.and_then(|machine| Linear::of(&machine, &speeds, &stations));
+    if let (Err(obstacle), false) = (&linear, exact) {
+        bail!("{}: {obstacle}", file());
+    }
+    let nonlinear = exact.then(|| nonlinear::branch(&scene, &speeds));
+    write(&Found { scene, stations, speeds, linear, nonlinear })
+}
+
+impl Linear {
+    fn of(machine: &Machine, speeds: &[f64], stations: &[Station]) -> Result<Self, Obstacle> {
+        let mut points: Vec<Point> = Vec::new();
+        for speed in speeds {
+            points.push(Point::of(machine, *speed, points.last())?);
+        }
+        let peaks = stations.iter().map(|station| peaks(machine, station, &points)).collect::<Result<_, _>>()?;
+        Ok(Self { points, peaks })
+    }
 }
 
 /// c, and what looks at the rotor or touches it: probes, or bearings and rings where there are none.
@@ -126,34 +152,47 @@ fn peaks(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<P
 
 fn write(found: &Found) -> Result<()> {
     let table = table::table(found);
-    let rows = rows(found);
-    let json =
-        json!({ "scene": found.scene.name, "title": found.scene.title, "responses": sheets::objects(rows.clone()) });
+    let [linear, nonlinear] = [rows(found), nonlinear::rows(found)];
+    let json = json!({
+        "scene": found.scene.name,
+        "title": found.scene.title,
+        "responses": sheets::objects(linear.clone()),
+        "nonlinear": sheets::objects(nonlinear.clone()),
+    });
     let json = serde_json::to_string_pretty(&json)? + "\n";
-    let files = [("response.md", &*table), ("response.csv", &sheets::csv(&rows)), ("response.json", &json)];
+    let files = [("response.md", &*table), ("response.csv", &sheets::csv(&linear)), ("response.json", &json)];
     let folder = sheets::write(&format!("response/{}", found.scene.name), files)?;
+    std::fs::write(folder.join("nonlinear.csv"), sheets::csv(&nonlinear))?;
     let picture = folder.join("response.svg");
     std::fs::write(&picture, picture::svg(found)?)?;
     println!("{table}\n{}", picture.display());
     Ok(())
 }
 
+/// A station's harmonic that goes round with the spin, as columns.
+fn once(orbit: Orbit) -> sheets::Row {
+    let Orbit { y, z } = orbit;
+    vec![
+        ("major_m", json!(orbit.major())),
+        ("minor_m", json!(orbit.minor())),
+        ("amplitude_y_m", json!(y.modulus())),
+        ("phase_y_rad", json!(y.argument())),
+        ("amplitude_z_m", json!(z.modulus())),
+        ("phase_z_rad", json!(z.argument())),
+    ]
+}
+
 /// A row for each station at each speed at which it has a bound.
 fn rows(found: &Found) -> Vec<sheets::Row> {
-    let all = found.points.iter().flat_map(|point| found.stations.iter().map(move |station| (point, station)));
+    let points = found.linear.iter().flat_map(|linear| &linear.points);
+    let all = points.flat_map(|point| found.stations.iter().map(move |station| (point, station)));
     let row = |(point, station): (&Point, &Station)| {
-        let orbit @ Orbit { y, z } = point.orbit(station)?;
-        Some(vec![
+        let place = vec![
             ("speed_rad_s", json!(point.speed)),
             ("station", json!(station.name)),
             ("position_m", json!(station.position)),
-            ("major_m", json!(orbit.major())),
-            ("minor_m", json!(orbit.minor())),
-            ("amplitude_y_m", json!(y.modulus())),
-            ("phase_y_rad", json!(y.argument())),
-            ("amplitude_z_m", json!(z.modulus())),
-            ("phase_z_rad", json!(z.argument())),
-        ])
+        ];
+        Some([place, once(point.orbit(station)?)].concat())
     };
     all.filter_map(row).collect()
 }

@@ -12,7 +12,7 @@ const HIGHER: f64 = 1.5;
 const HIGHEST: f64 = 1e9;
 
 /// So many speeds [rad/s] from the first of these to the second; where none are given, from 0 to beyond what the scene reaches.
-pub fn range(scene: &Scene, machine: &Machine, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
     let (from, to) = match ends {
         Some(&[from, to]) => (from, to),
@@ -26,7 +26,7 @@ pub fn range(scene: &Scene, machine: &Machine, ends: Option<&[f64]>, steps: u32)
 }
 
 /// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.
-fn highest(scene: &Scene, machine: &Machine) -> Result<f64, Obstacle> {
+fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     let told = scenes::values(scene);
     let value = |name: &str| told(name).unwrap_or_default().abs();
     let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
@@ -36,7 +36,7 @@ fn highest(scene: &Scene, machine: &Machine) -> Result<f64, Obstacle> {
     if highest > 0.0 {
         return Ok(highest);
     }
-    let (_, modes) = machine.modes(0.0, None)?;
+    let modes = machine.map(|machine| machine.modes(0.0, None)).transpose()?.map_or_else(Vec::new, |(_, modes)| modes);
     let fastest = modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);
     Ok(if fastest > 0.0 { fastest } else { 1.0 })
 }

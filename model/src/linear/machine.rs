@@ -163,20 +163,28 @@ struct Equations {
     moment: f64,
 }
 
+/// Switches off what drives the spin.
+pub(crate) fn stop_drives(parameters: &mut Parameters<All>) {
+    parameters.effects.for_each(|block| {
+        if DRIVES.contains(&block.kind().name) {
+            block.switch(false);
+        }
+    });
+}
+
 impl Machine {
     /// Of these parameters; why not.
     pub fn of(parameters: &Parameters<All>) -> Result<Self, Obstacle> {
         parameters.check().map_err(|invalid| Obstacle::Invalid(invalid.to_string()))?;
         let (mut parameters, unbalance) = (parameters.clone(), parameters.shape().unbalance());
+        stop_drives(&mut parameters);
         let mut gravity = Vector3::zeros();
         parameters.effects.for_each(|block| {
             let kind = block.kind();
             if kind.name == GRAVITY && block.is_active() {
                 gravity = Vector3::from_fn(|row, _| block.value(row, 0.0, None, None).expect("it is a parameter"));
             }
-            if DRIVES.contains(&kind.name) {
-                block.switch(false);
-            } else if kind.name == UNBALANCE.0 {
+            if kind.name == UNBALANCE.0 {
                 let is_radius = |row: &usize| (kind.meta)(*row).is_some_and(|meta| meta.name == UNBALANCE.1);
                 let row = (0..).find(is_radius).expect("it has one");
                 block.set_parameter(row, 0.0);

@@ -1,6 +1,7 @@
 //! How a machine whirls about its steady state: eigenvalues, and shapes that tell what they are.
 
 use super::machine::{Machine, STATES, Steady, across};
+use nalgebra::linalg::Schur;
 use nalgebra::{Complex, ComplexField, DMatrix, SMatrix, SVector, Vector2};
 
 /// The state of a mode, its numbers over their sizes, of norm 1.
@@ -60,6 +61,9 @@ const UNHELD: f64 = 1e-7;
 /// Eigenvalues that differ by less than this part of their size are one \[1]: of springs that are the same in all directions.
 const EQUAL: f64 = 1e-9;
 
+/// More iterations no Schur form of so few numbers takes.
+const ITERATIONS: usize = 1000;
+
 /// A mode swings where its λ is further than this part of its size from the real axis \[1].
 const SWINGS: f64 = 1e-7;
 
@@ -98,7 +102,7 @@ impl Steady {
             let size = value.modulus();
             (self.is_held || size > UNHELD * largest) && value.im >= -SWINGS * size
         };
-        let mut values: Vec<_> = matrix.complex_eigenvalues().iter().copied().filter(held).collect();
+        let mut values: Vec<_> = eigenvalues(&matrix).into_iter().filter(held).collect();
         values.sort_by(|a, b| a.im.total_cmp(&b.im));
         let mut modes = Vec::new();
         while let Some(value) = values.first().copied() {
@@ -173,6 +177,14 @@ impl Steady {
             _ => Direction::Plane,
         }
     }
+}
+
+/// The eigenvalues of a matrix; where the iteration does not end, not numbers.
+pub(crate) fn eigenvalues(matrix: &SMatrix<f64, STATES, STATES>) -> Vec<Complex<f64>> {
+    // Of equal ones rounding may keep it from an end: it may then err more.
+    let schur = |error: f64| Schur::try_new(*matrix, error, ITERATIONS);
+    let found = [f64::EPSILON, 1e-14, 1e-12, 1e-10].into_iter().find_map(schur);
+    found.map_or(vec![Complex::from(f64::NAN); STATES], |schur| schur.complex_eigenvalues().iter().copied().collect())
 }
 
 /// The area that orbits sweep in a turn, over π/2 and by the motion's square: 1 of a circle, forward; of two motions its Hermitian form.

@@ -7,7 +7,7 @@ use crate::integrate::{Cost, Tolerance};
 use crate::rotation::{Angle, Chart, Tilt};
 use crate::rotor::Frame;
 use crate::state::{Coordinates, PHI, own, rigid_mut};
-use crate::variables::{Instant, Parameters, Setup, Solver};
+use crate::variables::{Instant, Parameters, Setup, Solver, Start};
 
 /// Where a rotor is, and how that is written.
 pub(crate) struct Motion<const N: usize> {
@@ -24,6 +24,29 @@ pub(crate) struct Motion<const N: usize> {
 impl<const N: usize> Motion<N> {
     /// The motion at the start, at time `t` \[s], of which the effects hear; the parameters were checked.
     pub(crate) fn at_start<E: Effects>(parameters: &mut Parameters<E>, t: f64) -> Self {
+        let (frame, mut state) = Self::placed(parameters, t);
+        let motion = frame.under(&parameters.effects).motion(t, &state);
+        let mut own_nominal = [0.0; N];
+        let count = own(N);
+        parameters.effects.begin(&motion, &mut state[..count], &mut own_nominal[..count]);
+        let events = Events::begin(&mut parameters.effects, &motion, &state);
+        Self { frame, state, own_nominal, events }
+    }
+
+    /// [`Motion::at_start`], but for rotor and effects to go on elsewhere: what effects measure from the start they measure from there.
+    pub(super) fn elsewhere<E: Effects>(parameters: &mut Parameters<E>, start: &Start, t: f64) -> Self {
+        let heard = Self::at_start(parameters, t);
+        parameters.setup.start = start.clone();
+        let (frame, mut state) = Self::placed(parameters, t);
+        let count = own(N);
+        state[..count].copy_from_slice(&heard.state[..count]);
+        let motion = frame.under(&parameters.effects).motion(t, &state);
+        let events = Events::begin(&mut parameters.effects, &motion, &state);
+        Self { frame, state, events, ..heard }
+    }
+
+    /// Where the start places the rotor.
+    fn placed<E: Effects>(parameters: &Parameters<E>, t: f64) -> (Frame, [f64; N]) {
         let (shape, start) = (parameters.shape(), &parameters.setup.start);
         let body = shape.inertia();
         let (chart, gamma) = Chart::best(start.gamma);
@@ -51,12 +74,7 @@ impl<const N: usize> Motion<N> {
         // An imposed speed strikes along n, as at every jump, and λ counts from there (eq. 75).
         coordinates.k = frame.under(&parameters.effects).motion(t, &state).momentum();
         coordinates.write(rigid_mut(&mut state));
-        let motion = frame.under(&parameters.effects).motion(t, &state);
-        let mut own_nominal = [0.0; N];
-        let count = own(N);
-        parameters.effects.begin(&motion, &mut state[..count], &mut own_nominal[..count]);
-        let events = Events::begin(&mut parameters.effects, &motion, &state);
-        Self { frame, state, own_nominal, events }
+        (frame, state)
     }
 
     /// What it shows at time `t` \[s], under the effects that heard of it.

@@ -32,6 +32,7 @@ mod motor;
 mod order;
 mod ordinary;
 mod paper;
+mod periodic;
 mod port;
 mod power;
 mod random_scenes;

@@ -1,32 +1,39 @@
 //! The table: where the orbits are largest, and how large they are at a few speeds.
 
-use super::{Found, Station};
-use crate::numbers::{SHOWN, rounded, rpm, spread};
+use super::{Found, Linear, Station, lag, nonlinear};
+use crate::numbers::{SHOWN, micrometres, rounded, rpm, spread};
 use std::fmt::Write;
 
 /// All of it, in Markdown.
 pub fn table(found: &Found) -> String {
     let mut text = format!("{}: {}\n\n", found.scene.name, found.scene.title);
-    text += "Unbalance response, drives off, the spin held; linear, about the steady state at each speed.\n\n";
-    peaks(found, &mut text);
-    sizes(found, &mut text);
+    text += "Unbalance response, drives off, the spin held.\n\n";
+    match &found.linear {
+        Ok(linear) => {
+            text += "Linear, about the steady state at each speed.\n\n";
+            peaks(found, linear, &mut text);
+            sizes(found, linear, &mut text);
+        }
+        Err(obstacle) => text += &format!("No linear response: {obstacle}.\n"),
+    }
+    nonlinear::words(found, &mut text);
     text
 }
 
-fn peaks(found: &Found, text: &mut String) {
-    if found.peaks.iter().all(Vec::is_empty) {
+fn peaks(found: &Found, linear: &Linear, text: &mut String) {
+    if linear.peaks.iter().all(Vec::is_empty) {
         *text += "No resonance peak in this range.\n\n";
         return;
     }
     *text += "| peak at [rad/s] | [rpm] | station | half axes [µm] | behind the mark, y [°] |\n|--:|--:|---|---|--:|\n";
-    for (station, peaks) in found.stations.iter().zip(&found.peaks) {
+    for (station, peaks) in found.stations.iter().zip(&linear.peaks) {
         for peak in peaks {
             let (speed, name) = (peak.speed, name(station));
             let _ = write!(text, "| {} | {} | {name} | ", rounded(speed), rounded(rpm(speed)));
             let _ = match peak.orbit(station) {
                 Some(orbit) => {
                     let [major, minor] = [orbit.major(), orbit.minor()].map(micrometres);
-                    writeln!(text, "{major} and {minor} | {:.1} |", peak.lag(&orbit))
+                    writeln!(text, "{major} and {minor} | {:.1} |", lag(speed, &orbit))
                 }
                 None => writeln!(text, "no bound: nothing damps it | - |"),
             };
@@ -35,8 +42,8 @@ fn peaks(found: &Found, text: &mut String) {
     *text += "\n";
 }
 
-fn sizes(found: &Found, text: &mut String) {
-    let shown: Vec<_> = spread(found.points.len(), SHOWN).map(|n| &found.points[n]).collect();
+fn sizes(found: &Found, linear: &Linear, text: &mut String) {
+    let shown: Vec<_> = spread(linear.points.len(), SHOWN).map(|n| &linear.points[n]).collect();
     *text += "| station |";
     shown.iter().for_each(|point| *text += &format!(" at {} rad/s |", rounded(point.speed)));
     *text += &format!("\n|---|{}\n", "--:|".repeat(shown.len()));
@@ -53,8 +60,4 @@ fn sizes(found: &Found, text: &mut String) {
 
 pub fn name(station: &Station) -> String {
     format!("{} at {} m", station.name, station.position)
-}
-
-fn micrometres(length: f64) -> String {
-    rounded(1e6 * length)
 }

@@ -1,0 +1,121 @@
+//! Motions that repeat with each revolution followed through the speeds, around folds.
+
+use super::orbit::{Both, Near, Orbit, UNHELD};
+use super::revolution::{Obstacle, Rotating, State};
+
+/// A step counts one where the speed changes by one of those asked for, or the state by this part of the motion's size \[1].
+const BEND: f64 = 0.3;
+
+/// Steps are halved to this one, and grow by this \[1].
+const SHORTEST: f64 = 1e-4;
+const GROWTH: f64 = 1.5;
+
+/// Newton's method may move a motion from where it is expected by this part of a step \[1].
+const OFF: f64 = 0.5;
+
+/// The cosine between one step and the next is at least this, where steps are longer than that \[1]: a contact bends at once.
+const STRAIGHT: f64 = 0.8;
+const SHORT: f64 = 0.1;
+
+/// A branch has at most so many motions for each speed that was asked for.
+const MOST: usize = 20;
+
+/// Why a branch ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum End {
+    /// It leaves the range of speeds.
+    Range,
+    /// It is longer than is looked at.
+    Long,
+    /// It cannot be followed further.
+    Lost(Obstacle),
+}
+
+/// Motions that go over into one another.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// In their order, at speeds that may turn back.
+    pub orbits: Vec<Orbit>,
+    /// Why there are no more.
+    pub end: End,
+}
+
+impl Branch {
+    /// The numbers of the orbits at which the speed turns back.
+    pub fn folds(&self) -> impl Iterator<Item = usize> {
+        let gain = |n: usize| self.orbits[n + 1].speed - self.orbits[n].speed;
+        (1..self.orbits.len().saturating_sub(1)).filter(move |n| gain(*n) * gain(n - 1) < 0.0)
+    }
+}
+
+impl Rotating {
+    /// The motions that go over into that at the first of these speeds [rad/s], neither of which is 0, on to the second, in so many steps
+    /// or more.
+    ///
+    /// # Errors
+    /// Where there is none at the first.
+    pub fn branch(&self, [from, to]: [f64; 2], steps: u32) -> Result<Branch, Obstacle> {
+        let first = self.orbit(from, None)?;
+        let pace = (to - from) / f64::from(steps);
+        let (mut branch, mut ahead, mut step) =
+            (Branch { orbits: vec![first], end: End::Long }, Both::ith(10, 1.0), 1.0);
+        while branch.orbits.len() < MOST * steps as usize {
+            let last = branch.orbits.last().expect("it begins with one");
+            let unit = [BEND * last.size, pace];
+            let tangent = self.tangent(last, unit, &ahead)?;
+            let near = Near { speed: last.speed, state: last.state, size: last.size, unit };
+            // The end of the range is met.
+            let rest = (to - last.speed) / pace;
+            let is_last = tangent[10] * step >= rest;
+            let by = if is_last { rest / tangent[10] } else { step };
+            let held = if is_last { Both::ith(10, 1.0) } else { tangent };
+            match self.step(last, &near, &(tangent * by), &held) {
+                Ok(orbit) if is_last => {
+                    branch.orbits.push(orbit);
+                    branch.end = End::Range;
+                    return Ok(branch);
+                }
+                Ok(orbit) => {
+                    let bent = self.tangent(&orbit, unit, &tangent)?.dot(&tangent);
+                    if bent < STRAIGHT && step > SHORT {
+                        step *= 0.5;
+                        continue;
+                    }
+                    ahead = tangent;
+                    if (orbit.speed - from) / pace < 0.0 {
+                        branch.end = End::Range;
+                        return Ok(branch);
+                    }
+                    branch.orbits.push(orbit);
+                    step = (step * GROWTH).min(1.0);
+                }
+                Err(obstacle) => {
+                    step *= 0.5;
+                    if step < SHORTEST {
+                        branch.end = End::Lost(obstacle);
+                        return Ok(branch);
+                    }
+                }
+            }
+        }
+        Ok(branch)
+    }
+
+    /// Which way a branch goes on from an orbit, of length 1 in these units, `ahead` being about it.
+    fn tangent(&self, from: &Orbit, unit: [f64; 2], ahead: &Both) -> Result<Both, Obstacle> {
+        let near = Near { speed: from.speed, state: from.state, size: from.size, unit };
+        let all = near.matrix(&from.slopes, &self.slope_by_speed(from.speed, &from.state)?, ahead).svd(true, true);
+        let tangent = all.solve(&Both::ith(10, 1.0), UNHELD * all.singular_values[0]).unwrap_or(*ahead);
+        Ok(tangent.normalize())
+    }
+
+    /// The orbit that is met by this way from `near`, or beside it.
+    fn step(&self, last: &Orbit, near: &Near, way: &Both, held: &Both) -> Result<Orbit, Obstacle> {
+        let expected: State = near.state + way.fixed_rows::<10>(0) * near.unit[0];
+        let at = Near { speed: near.speed + way[10] * near.unit[1], state: expected, ..*near };
+        let lost = Obstacle::NotFound { speed: at.speed };
+        let (speed, state) = self.corrected(&at, held, Some(&last.slopes))?.ok_or(lost.clone())?;
+        let off = ((state - expected).norm() / near.unit[0]).hypot((speed - at.speed) / near.unit[1]);
+        if off > OFF * (way.norm() + SHORT) { Err(lost) } else { self.at(speed, &state) }
+    }
+}
