@@ -19,6 +19,7 @@ mod page;
 mod paths;
 mod python;
 mod response;
+mod ross;
 mod run;
 mod sanitize;
 mod scenes;

@@ -38,11 +38,15 @@ pub fn clients() -> Result<()> {
     )
 }
 
-/// A command of the Python that has this peer of xtask/python/peers; each has its own, so that one that cannot be installed
+/// A command that runs this module of xtask/python/peers; each has a Python of its own, so that one that cannot be installed
 /// keeps no other from it.
 pub fn peer(name: &str) -> Result<Command> {
     let (folder, requirements) = (format!("venv-peers/{name}"), format!("peers/requirements/{name}.txt"));
-    Environment { folder: &folder, requirements: &requirements, minors: 11..=14 }.python()
+    let mut command = Environment { folder: &folder, requirements: &requirements, minors: 11..=14 }.python()?;
+    command.current_dir(paths::root().join("xtask/python")).args(["-m", &format!("peers.{name}")]);
+    // Threads of their linear algebra would count as time of a run.
+    command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
+    Ok(command)
 }
 
 impl Environment<'_> {

@@ -2,7 +2,7 @@
 
 use crate::hard_cases::{self, Extent};
 use crate::run::{cargo, run};
-use crate::{accuracy, bench, c_host, copies, fuzz, memcheck, package, paths, python, sanitize};
+use crate::{accuracy, bench, c_host, copies, fuzz, memcheck, package, paths, python, ross, sanitize};
 use anyhow::{Result, bail, ensure};
 use split_rotor_model::scene::Scene;
 use std::time::Instant;
@@ -21,12 +21,13 @@ const SHORT: [Job; 6] = [
 ];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 11] = [
+const LONG: [Job; 12] = [
     ("third-party clients", clients),
     ("long runs", long_runs),
     ("bits of wide builds", wide_builds),
     ("hard cases in full", whole_gallery),
     ("peers", peers),
+    ("against ROSS", ross::ross),
     ("sanitizers", sanitize::sanitizers),
     ("memcheck", memcheck::valgrind),
     ("counts that must hold", bench::must_hold),

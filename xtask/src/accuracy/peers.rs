@@ -50,13 +50,7 @@ impl Program {
     /// Its command; what it needs is installed or built first.
     fn command(self) -> Result<Command> {
         match self {
-            Program::Python(module) => {
-                let mut command = python::peer(module)?;
-                command.current_dir(paths::root().join("xtask/python")).args(["-m", &format!("peers.{module}")]);
-                // Threads of their linear algebra would count as time of the run.
-                command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
-                Ok(command)
-            }
+            Program::Python(module) => python::peer(module),
             Program::Rust(argument) => {
                 let target = paths::target().join("peers");
                 let manifest = paths::root().join("benches/peers/Cargo.toml");

@@ -1,0 +1,24 @@
+//! The linear view beside ROSS, a program of beam elements: one rotor in both.
+
+use crate::run::{Conversation, run};
+use crate::{campbell, paths, python, response};
+use anyhow::Result;
+
+/// Up to which speed [rad/s], and at how many.
+const SPEEDS: [f64; 2] = [0.0, 600.0];
+const STEPS: u32 = 121;
+
+/// Modes, critical speeds and unbalance response of both, into target/ross: table, picture and CSV. What differs by more than the beam
+/// explains is an error.
+pub fn ross() -> Result<()> {
+    let scene = paths::root().join("xtask/python/peers/ross.toml").display().to_string();
+    campbell::campbell(&scene, Some(&SPEEDS), STEPS, &[1.0])?;
+    response::response(&scene, Some(&SPEEDS), STEPS)?;
+    let mut peer = Conversation::with(python::peer("ross")?.arg(paths::target()))?;
+    peer.paragraph()?.iter().for_each(|line| println!("{line}"));
+    peer.end()?;
+    let folder = paths::target().join("ross");
+    run(python::python()?.arg("xtask/python/against_ross.py").arg(&folder))?;
+    println!("{}", folder.join("ross.svg").display());
+    Ok(())
+}
