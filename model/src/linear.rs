@@ -7,8 +7,10 @@ mod campbell;
 mod machine;
 mod modes;
 mod response;
+mod state_space;
 
 pub use campbell::{Branch, Campbell, Crossing, Point};
 pub use machine::{Machine, Obstacle, STATES, Steady};
 pub use modes::{Direction, Mode, Shape};
 pub use response::{Orbit, Response};
+pub use state_space::{Quantity, StateSpace};
