@@ -7,6 +7,7 @@ mod campbell;
 mod machine;
 mod modes;
 mod response;
+mod state_space;
 
 pub use campbell::{Branch, Campbell, Crossing, Point};
 pub(crate) use machine::stop_drives;
@@ -14,3 +15,4 @@ pub use machine::{Machine, Obstacle, STATES, Steady};
 pub(crate) use modes::eigenvalues;
 pub use modes::{Direction, Mode, Shape};
 pub use response::{Orbit, Response};
+pub use state_space::{Quantity, StateSpace};

@@ -9,6 +9,7 @@ mod chart;
 mod copies;
 mod demo;
 mod fmu;
+mod frequency;
 mod fuzz;
 mod hard_cases;
 mod licences;
@@ -27,6 +28,7 @@ mod sheet;
 mod sheets;
 mod speeds;
 mod ssv;
+mod state_space;
 mod templates;
 mod terminals;
 mod test;
@@ -128,7 +130,8 @@ enum Command {
         orders: Vec<f64>,
     },
     /// Find how an unbalance makes the machine whirl against the spin: half axes and phases of the orbits at its probes or bearings, by the
-    /// linear equations and by the laws as they stand: table, SVG, CSV and JSON in target/response/SCENE
+    /// linear equations and by the laws as they stand; with --from and --to how an output answers an input: table, SVG, CSV and JSON in
+    /// target/response/SCENE
     Response {
         /// The scene
         #[arg(default_value = "jeffcott")]
@@ -136,12 +139,41 @@ enum Command {
         /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
         #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
         speeds: Option<Vec<f64>>,
-        /// How many speeds
+        /// How many speeds, or frequencies
         #[arg(long, default_value_t = 401)]
         steps: u32,
         /// Only by the linear equations, which takes no time
         #[arg(long)]
         linear: bool,
+        #[arg(
+            long,
+            help = "Instead the frequency response to this input, such as port[1].f.y: Bode's and Nyquist's pictures",
+            value_name = "INPUT",
+            requires = "to",
+            conflicts_with_all = ["speeds", "linear"]
+        )]
+        from: Option<String>,
+        #[arg(long, help = "of this output, such as probe[1].r.y", value_name = "OUTPUT", requires = "from")]
+        to: Option<String>,
+        /// at this spin [rad/s]; else at the one with which the scene starts
+        #[arg(long, value_name = "W", requires = "from", allow_negative_numbers = true)]
+        speed: Option<f64>,
+        /// from the first to the second frequency [rad/s]; else from a tenth of the lowest to ten times the highest of its modes
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], requires = "from")]
+        frequencies: Option<Vec<f64>>,
+    },
+    /// Write a scene about its steady state as matrices A, B, C and D with names and units, drives off, the spin held: JSON and MATLAB's
+    /// .mat in target/state-space/SCENE
+    StateSpace {
+        /// The scene
+        #[arg(default_value = "coupled")]
+        scene: String,
+        /// The spin [rad/s]; else the one with which the scene starts
+        #[arg(long, value_name = "W", allow_negative_numbers = true)]
+        speed: Option<f64>,
+        /// Into this folder
+        #[arg(long)]
+        out: Option<PathBuf>,
     },
     /// Write a scene as a parameter set of SSP 1.0, with which the general FMU, `rotor`, is that scene: target/ssv/SCENE.ssv
     Ssv {
@@ -187,9 +219,13 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Campbell { scene, speeds, steps, orders } => {
             campbell::campbell(&scene, speeds.as_deref(), steps, &orders)
         }
-        Command::Response { scene, speeds, steps, linear } => {
+        Command::Response { scene, from: Some(from), to: Some(to), speed, frequencies, steps, .. } => {
+            frequency::frequency(&scene, speed, [&from, &to], frequencies.as_deref(), steps)
+        }
+        Command::Response { scene, speeds, steps, linear, .. } => {
             response::response(&scene, speeds.as_deref(), steps, !linear)
         }
+        Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
         Command::Scenes => scenes::list(),
         Command::Describe { scene } => scenes::describe(&scene),

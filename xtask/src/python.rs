@@ -49,6 +49,11 @@ pub fn peer(name: &str) -> Result<Command> {
     Ok(command)
 }
 
+/// A command of the Python that has SciPy: the peer's, which is there already where somebody compared with that.
+pub fn scipy() -> Result<Command> {
+    peer("scipy")
+}
+
 impl Environment<'_> {
     fn python(&self) -> Result<Command> {
         let folder = paths::target().join(self.folder);

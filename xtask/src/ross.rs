@@ -13,7 +13,7 @@ const STEPS: u32 = 121;
 pub fn ross() -> Result<()> {
     let scene = paths::root().join("xtask/python/peers/ross.toml").display().to_string();
     campbell::campbell(&scene, Some(&SPEEDS), STEPS, &[1.0])?;
-    response::response(&scene, Some(&SPEEDS), STEPS)?;
+    response::response(&scene, Some(&SPEEDS), STEPS, false)?;
     let mut peer = Conversation::with(python::peer("ross")?.arg(paths::target()))?;
     peer.paragraph()?.iter().for_each(|line| println!("{line}"));
     peer.end()?;

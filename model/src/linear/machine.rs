@@ -24,10 +24,10 @@ const UNKNOWNS: usize = 5;
 const BALANCES: usize = 6;
 
 /// How many numbers the state of the nonlinear equations has.
-const N: usize = numbers_of_state::<All>();
+pub(super) const N: usize = numbers_of_state::<All>();
 
 /// What a drive is: it is off, for the spin is held.
-const DRIVES: [&str; 3] = ["drive", "motor", "imposed_speed"];
+pub(super) const DRIVES: [&str; 3] = ["drive", "motor", "imposed_speed"];
 
 /// Its first three rows are the acceleration.
 const GRAVITY: &str = "gravity";
@@ -210,10 +210,7 @@ impl Machine {
     /// # Errors
     /// Where nothing balances what acts, or a law switches on the way from the start.
     pub fn steady(&self, speed: f64, near: Option<&Steady>) -> Result<Steady, Obstacle> {
-        let mut parameters = self.parameters.clone();
-        parameters.setup.start.omega = Vector3::x() * speed;
-        // Tables take their stretch from the speed, and axial springs their length from the place at the start.
-        let start = Motion::<N>::at_start(&mut parameters, 0.0);
+        let (parameters, start) = self.spinning(speed);
         let rotor = start.frame.under(&parameters.effects);
         let mut r = near.map_or(Coordinates::from_slice(rigid(&start.state)).r, |near| near.r);
         let mut gamma = near.map_or(Vector2::zeros(), |near| near.gamma);
@@ -248,8 +245,17 @@ impl Machine {
         Err(Obstacle::NoSteadyState { speed })
     }
 
+    /// What it is and where it starts at this speed [rad/s]: tables take their stretch from it, and axial springs their length from the
+    /// place at the start.
+    pub(super) fn spinning(&self, speed: f64) -> (Parameters<All>, Motion<N>) {
+        let mut parameters = self.parameters.clone();
+        parameters.setup.start.omega = Vector3::x() * speed;
+        let start = Motion::at_start(&mut parameters, 0.0);
+        (parameters, start)
+    }
+
     /// The state of a rotor that spins about an axis at rest.
-    fn state(&self, rotor: &Rotor<'_, All>, speed: f64, r: Vector3<f64>, gamma: Vector2<f64>) -> [f64; N] {
+    pub(super) fn state(&self, rotor: &Rotor<'_, All>, speed: f64, r: Vector3<f64>, gamma: Vector2<f64>) -> [f64; N] {
         let mut state = [0.0; N];
         let axis = Tilt::new(rotor.frame.chart, gamma).axis;
         let k = axis * (self.about_axis * speed);

@@ -77,14 +77,7 @@ impl Machine {
         let steady = self.steady(speed, near)?;
         let pushed = self.pushed(&steady);
         // eq. 117: (iω − A) x = b
-        let whirl = Matrix::from_diagonal_element(Complex::new(0.0, speed / steady.rate));
-        let moved = match pushed.norm() {
-            0.0 => Some(Shape::zeros()),
-            size => (whirl - steady.matrix.map(Complex::from))
-                .lu()
-                .solve(&pushed)
-                .filter(|moved| moved.norm() <= LARGE * size || !steady.swings_at(speed)),
-        };
+        let moved = steady.swung(&pushed, speed);
         let sizes = self.sizes(steady.rate).map(Complex::from);
         let moved = moved.ok_or(Obstacle::Resonant { speed })?.component_mul(&sizes);
         let (place, gamma) = (moved.fixed_rows::<3>(0).into_owned(), moved.fixed_rows::<2>(6).into_owned());
@@ -113,9 +106,24 @@ impl Machine {
 }
 
 impl Steady {
-    /// Whether a mode swings at this speed [rad/s] without damping.
-    fn swings_at(&self, speed: f64) -> bool {
-        let whirl = Complex::new(0.0, speed.abs());
+    /// The motion that goes as e^(iΩt) where it is pushed so, Ω being the `frequency` [rad/s], motion and push over their sizes; None where
+    /// it has no bound.
+    pub(super) fn swung(&self, pushed: &Shape, frequency: f64) -> Option<Shape> {
+        let size = pushed.norm();
+        if size == 0.0 {
+            return Some(Shape::zeros());
+        }
+        let swing = Matrix::from_diagonal_element(Complex::new(0.0, frequency / self.rate));
+        let moved = (swing - self.matrix.map(Complex::from)).lu().solve(pushed)?;
+        (moved.norm() <= LARGE * size || !self.swings_at(frequency)).then_some(moved)
+    }
+
+    /// Whether a mode swings at this frequency [rad/s] without damping; at 0, whether nothing holds it in some direction.
+    fn swings_at(&self, frequency: f64) -> bool {
+        if frequency == 0.0 {
+            return !self.is_held;
+        }
+        let whirl = Complex::new(0.0, frequency.abs());
         let swings = |mode: &Mode| {
             mode.eigenvalue.im > 0.0 && (mode.eigenvalue - whirl).modulus() <= RESONANT * mode.eigenvalue.modulus()
         };

@@ -120,7 +120,7 @@ impl Orbit {
         let mut once = [Complex::from(0.0); 2];
         for (n, at) in (1..).zip(all()) {
             let (sine, cosine) = libm::sincos(TAU.copysign(self.speed) * f64::from(n) / count);
-            // eq. 118: Y = (2/N) Σ y_n e^(−iφ_n)
+            // eq. 120: Y = (2/N) Σ y_n e^(−iφ_n)
             let back = Complex::new(cosine, -sine) * (2.0 / count);
             once[0] += back * at.x;
             once[1] += back * at.y;

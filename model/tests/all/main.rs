@@ -41,6 +41,7 @@ mod rub;
 mod scenes;
 mod series;
 mod signal;
+mod state_space;
 mod stiff;
 mod stored;
 mod symplectic;

@@ -1,0 +1,139 @@
+//! `response --from --to`: how an output of a machine answers an input that swings, against the frequency, at one spin.
+
+mod decades;
+mod degrees;
+mod picture;
+mod sweep;
+mod table;
+
+use crate::{scenes, sheets, state_space};
+use anyhow::{Context, Result, ensure};
+use nalgebra::{Complex, ComplexField};
+use serde_json::json;
+use split_rotor_model::linear::{Quantity, StateSpace};
+use split_rotor_model::scene::Scene;
+
+/// What the command found.
+struct Found {
+    scene: Scene,
+    space: StateSpace,
+    /// The numbers of the input and of the output.
+    from: usize,
+    to: usize,
+    /// By frequency.
+    points: Vec<Point>,
+    /// Where the answer is larger than beside it.
+    peaks: Vec<Point>,
+}
+
+/// A frequency [rad/s], and the answer there in the output's unit over the input's; None without bound, where nothing damps a resonance.
+#[derive(Clone, Copy)]
+struct Point {
+    frequency: f64,
+    answer: Option<Complex<f64>>,
+}
+
+impl Point {
+    fn size(&self) -> f64 {
+        self.answer.map_or(f64::INFINITY, ComplexField::modulus)
+    }
+}
+
+impl Found {
+    fn at(&self, frequency: f64) -> Point {
+        Point { frequency, answer: self.space.response(self.from, self.to, frequency) }
+    }
+
+    /// What is between both, in words.
+    fn between(&self) -> String {
+        let [from, to] = [&self.space.inputs[self.from].name, &self.space.outputs[self.to].name];
+        format!("from {from} to {to} at {} rad/s", self.space.steady.speed)
+    }
+
+    /// The unit of the answer.
+    fn unit(&self) -> String {
+        let [to, from] = [&self.space.outputs[self.to], &self.space.inputs[self.from]].map(|one| one.unit.name);
+        let over = if from.contains(['.', '/']) { format!("({from})") } else { from.into() };
+        match (to, from) {
+            (to, "") => to.into(),
+            ("", _) => format!("1/{over}"),
+            _ => format!("{to}/{over}"),
+        }
+    }
+}
+
+/// Finds the answer of an output of a scene to an input, both by their names, at a spin [rad/s] and so many frequencies between these
+/// [rad/s].
+pub fn frequency(
+    scene: &str,
+    speed: Option<f64>,
+    [from, to]: [&str; 2],
+    ends: Option<&[f64]>,
+    steps: u32,
+) -> Result<()> {
+    let scene = scenes::find(scene)?;
+    let space = state_space::of(&scene, speed)?;
+    let file = || scene.file.display().to_string();
+    let input = number("--from", from, &space.inputs, "input").with_context(file)?;
+    let output = number("--to", to, &space.outputs, "output").with_context(file)?;
+    let frequencies = sweep::frequencies(&space.steady, ends, steps)?;
+    let mut found = Found { scene, space, from: input, to: output, points: Vec::new(), peaks: Vec::new() };
+    found.points = frequencies.into_iter().map(|frequency| found.at(frequency)).collect();
+    ensure!(
+        found.points.iter().any(|point| point.answer.is_some_and(|answer| answer.modulus() > 0.0)),
+        "{}: {from} does not move {to}: the response is 0 at every frequency",
+        found.scene.file.display()
+    );
+    found.peaks = sweep::peaks(&found);
+    write(&found)
+}
+
+/// The number of what has this name.
+fn number(option: &str, name: &str, of: &[Quantity], kind: &str) -> Result<usize> {
+    let known = || of.iter().map(|one| &*one.name).collect::<Vec<_>>().join(", ");
+    of.iter().position(|one| one.name == name).with_context(|| match of.is_empty() {
+        true => format!(
+            "{option} {name}: the scene has no {kind} that acts while the spin is held: call for an [[effects.port]]"
+        ),
+        false => format!("{option} {name}: no such {kind}; it can be {}", known()),
+    })
+}
+
+fn write(found: &Found) -> Result<()> {
+    let (table, rows) = (table::table(found), rows(&found.points));
+    let json = json!({
+        "scene": found.scene.name,
+        "title": found.scene.title,
+        "speed_rad_s": found.space.steady.speed,
+        "from": found.space.inputs[found.from].name,
+        "to": found.space.outputs[found.to].name,
+        "unit": found.unit(),
+        "peaks": sheets::objects(self::rows(&found.peaks)),
+        "responses": sheets::objects(rows.clone()),
+    });
+    let json = serde_json::to_string_pretty(&json)? + "\n";
+    let files = [("frequency.md", &*table), ("frequency.csv", &sheets::csv(&rows)), ("frequency.json", &json)];
+    let folder = sheets::write(&format!("response/{}", found.scene.name), files)?;
+    println!("{table}");
+    for (name, picture) in [("frequency.svg", picture::bode(found)?), ("polar.svg", picture::polar(found)?)] {
+        let file = folder.join(name);
+        std::fs::write(&file, picture)?;
+        println!("{}", file.display());
+    }
+    Ok(())
+}
+
+/// A row for each frequency at which the answer has a bound.
+fn rows(points: &[Point]) -> Vec<sheets::Row> {
+    let row = |point: &Point| {
+        let answer = point.answer?;
+        Some(vec![
+            ("frequency_rad_s", json!(point.frequency)),
+            ("real", json!(answer.re)),
+            ("imaginary", json!(answer.im)),
+            ("magnitude", json!(answer.modulus())),
+            ("phase_rad", json!(answer.argument())),
+        ])
+    };
+    points.iter().filter_map(row).collect()
+}
