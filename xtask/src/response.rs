@@ -22,7 +22,7 @@ struct Found {
     /// By the linear equations, where they hold.
     linear: Result<Linear, Obstacle>,
     /// By the laws as they stand, where that was asked for.
-    nonlinear: Option<Result<Branch, periodic::Obstacle>>,
+    nonlinear: Option<Result<Vec<Branch>, periodic::Obstacle>>,
 }
 
 /// By the linear equations.
@@ -81,17 +81,19 @@ const NARROWED: u32 = 60;
 pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32, exact: bool) -> Result<()> {
     let scene = scenes::find(scene)?;
     let file = || scene.file.display().to_string();
+    let unbalance = scene.parameters().shape().unbalance();
+    ensure!(unbalance.iter().any(|off| off.norm() > 0.0), "{}: nothing is out of balance (effects.unbalance)", file());
     let machine = Machine::of(&scene.parameters());
-    if let Ok(machine) = &machine {
-        ensure!(machine.is_unbalanced(), "{}: nothing is out of balance (effects.unbalance)", file());
-    }
     let speeds = speeds::range(&scene, machine.as_ref().ok(), ends, steps).with_context(file)?;
     let stations = stations(&scene);
     let linear = machine.and_then(|machine| Linear::of(&machine, &speeds, &stations));
     if let (Err(obstacle), false) = (&linear, exact) {
         bail!("{}: {obstacle}", file());
     }
-    let nonlinear = exact.then(|| nonlinear::branch(&scene, &speeds));
+    if exact {
+        eprintln!("Following the whirl by the laws as they stand: up to a minute (--linear leaves it out) ...");
+    }
+    let nonlinear = exact.then(|| nonlinear::branches(&scene, &speeds));
     write(&Found { scene, stations, speeds, linear, nonlinear })
 }
 

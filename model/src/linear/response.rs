@@ -64,11 +64,6 @@ impl Response {
 }
 
 impl Machine {
-    /// Whether anything is out of balance.
-    pub fn is_unbalanced(&self) -> bool {
-        self.unbalance.iter().any(|across| *across != Vector2::zeros())
-    }
-
     /// How its unbalance makes it whirl at `speed` [rad/s], about the steady state sought from `near`.
     ///
     /// # Errors

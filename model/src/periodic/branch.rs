@@ -7,7 +7,7 @@ use super::revolution::{Obstacle, Rotating, State};
 const BEND: f64 = 0.3;
 
 /// Steps are halved to this one, and grow by this \[1].
-const SHORTEST: f64 = 1e-4;
+const SHORTEST: f64 = 1e-2;
 const GROWTH: f64 = 1.5;
 
 /// Newton's method may move a motion from where it is expected by this part of a step \[1].
@@ -104,6 +104,7 @@ impl Rotating {
     /// Which way a branch goes on from an orbit, of length 1 in these units, `ahead` being about it.
     fn tangent(&self, from: &Orbit, unit: [f64; 2], ahead: &Both) -> Result<Both, Obstacle> {
         let near = Near { speed: from.speed, state: from.state, size: from.size, unit };
+        // eq. 119: (∂P/∂x − 1) x' + ∂P/∂ω ω' = 0
         let all = near.matrix(&from.slopes, &self.slope_by_speed(from.speed, &from.state)?, ahead).svd(true, true);
         let tangent = all.solve(&Both::ith(10, 1.0), UNHELD * all.singular_values[0]).unwrap_or(*ahead);
         Ok(tangent.normalize())
@@ -115,7 +116,8 @@ impl Rotating {
         let at = Near { speed: near.speed + way[10] * near.unit[1], state: expected, ..*near };
         let lost = Obstacle::NotFound { speed: at.speed };
         let (speed, state) = self.corrected(&at, held, Some(&last.slopes))?.ok_or(lost.clone())?;
-        let off = ((state - expected).norm() / near.unit[0]).hypot((speed - at.speed) / near.unit[1]);
+        let [by_state, by_speed] = [(state - expected).norm() / near.unit[0], (speed - at.speed) / near.unit[1]];
+        let off = (by_state * by_state + by_speed * by_speed).sqrt();
         if off > OFF * (way.norm() + SHORT) { Err(lost) } else { self.at(speed, &state) }
     }
 }

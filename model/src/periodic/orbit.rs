@@ -21,8 +21,8 @@ const REAL: f64 = 1e-3;
 const SETTLING: u32 = 300;
 
 /// So many steps Newton's method takes at most, and new slopes.
-const MOST_STEPS: u32 = 30;
-const MOST_SLOPES: u32 = 6;
+const MOST_STEPS: u32 = 20;
+const MOST_SLOPES: u32 = 4;
 
 /// A step is the last where it is less than this part of the motion's size; or than that, where it hardly shrinks any more \[1].
 const FOUND: f64 = 1e-9;
@@ -41,6 +41,9 @@ pub(super) const UNHELD: f64 = 1e-10;
 pub(super) type Both = SVector<f64, 11>;
 pub(super) type Square = SMatrix<f64, 11, 11>;
 
+/// c \[m] and the axis t \[1], point by point.
+type Seen = Vec<[Vector3<f64>; 2]>;
+
 /// A motion that repeats with each revolution.
 #[derive(Clone, Debug)]
 pub struct Orbit {
@@ -54,8 +57,8 @@ pub struct Orbit {
     pub(super) slopes: Slopes,
     /// How far it moves, over the sizes of the state \[1].
     pub(super) size: f64,
-    /// c \[m] and the axis t \[1] at equal parts of the revolution, the last where it begins anew.
-    seen: Vec<[Vector3<f64>; 2]>,
+    /// At equal parts of the revolution, the last where it begins anew.
+    seen: Seen,
 }
 
 /// How a motion that does not last leaves.
@@ -168,7 +171,7 @@ impl Rotating {
     }
 
     /// What a motion shows in a revolution, and its size.
-    fn watched(&self, speed: f64, state: &State) -> Result<(Vec<[Vector3<f64>; 2]>, f64), Obstacle> {
+    fn watched(&self, speed: f64, state: &State) -> Result<(Seen, f64), Obstacle> {
         let mut seen = Vec::new();
         let end = self.follow(speed, state, [1, POINTS], |motion| seen.push([motion.r_c(), *motion.axis()]))?;
         let mean = seen.iter().fold([Vector3::zeros(); 2], |[r, t], [c, axis]| [r + c, t + axis]);
@@ -212,6 +215,7 @@ impl Rotating {
             };
             matrix = Some(all);
             let all = all.svd(true, true);
+            // eq. 119: P(x, ω) − x = 0
             let mut left = Both::zeros();
             left.fixed_rows_mut::<10>(0).copy_from(&((state - self.turn(speed, &state)?) / unit[0]));
             let Ok(step) = all.solve(&left, UNHELD * all.singular_values[0]) else { return Ok(None) };

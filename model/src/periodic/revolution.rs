@@ -22,8 +22,8 @@ pub(super) type Slopes = SMatrix<f64, NUMBERS, NUMBERS>;
 /// What imposes the spin.
 const SPEED: &str = "imposed_speed.w";
 
-/// Relative tolerance of a revolution \[1].
-const TOLERANCE: f64 = 1e-10;
+/// Tolerance of a revolution, relative \[1], and in nominals \[1]: what only rounding moves would cost a thousand steps.
+const TOLERANCE: [f64; 2] = [1e-10, 1e-13];
 
 /// Differences are taken over this part of the motion's size, and of where it is \[1]: between its bend and what a revolution errs.
 const APART: [f64; 2] = [1e-3, 1e-4];
@@ -92,7 +92,7 @@ impl Rotating {
         let setup = &mut parameters.setup;
         let solver = &mut setup.solver;
         (solver.method, solver.method_number) = (numbers::AUTO, 0);
-        (solver.relative_tolerance, solver.absolute_tolerance) = (TOLERANCE, 0.0);
+        [solver.relative_tolerance, solver.absolute_tolerance] = TOLERANCE;
         setup.start = Start { r_c: setup.start.r_c, ..Start::default() };
         let body = parameters.shape().inertia();
         Ok(Self { run: parameters.into(), length: (body.per_m / body.per_jt).sqrt(), speed })

@@ -1,58 +1,152 @@
-//! Motions that repeat with each revolution: against closed forms, against runs that settle, and through folds.
+//! Motions that repeat with each revolution: against closed forms, against runs that settle, and around a fold.
 
 use crate::harness::named::Named;
-use nalgebra::{Complex, ComplexField};
-use split_rotor_model::linear::Machine;
-use split_rotor_model::periodic::Rotating;
+use crate::harness::within;
+use nalgebra::{Complex, ComplexField, Matrix2, Matrix4};
+use split_rotor_model::linear::{self, Machine};
+use split_rotor_model::periodic::{Branch, End, Loss, Orbit, Rotating};
+use std::f64::consts::TAU;
 
 fn rotating(text: &str) -> Rotating {
     Rotating::of(Named::written(text).simulation.parameters()).unwrap_or_else(|obstacle| panic!("{obstacle}"))
 }
 
+fn found(rotating: &Rotating, speed: f64, near: Option<&Orbit>) -> Orbit {
+    rotating.orbit(speed, near).unwrap_or_else(|obstacle| panic!("{obstacle}"))
+}
+
+/// An orbit beside another one, over its size \[1].
+fn apart(got: &linear::Orbit, exact: &linear::Orbit) -> f64 {
+    ((got.y - exact.y).modulus_squared() + (got.z - exact.z).modulus_squared()).sqrt() / exact.major()
+}
+
+/// Of multipliers, the largest distance from those expected \[1].
+fn astray(orbit: &Orbit, expected: &[Complex<f64>]) -> f64 {
+    let nearest =
+        |to: &Complex<f64>| orbit.multipliers.iter().map(|found| (found - to).modulus()).fold(f64::INFINITY, f64::min);
+    expected.iter().map(nearest).fold(0.0, f64::max)
+}
+
 #[test]
-fn try_it() {
-    let text = "[rotor]\nm = 5.0\nJa = 0.05\nJt = 0.08\n[effects.gravity]\ng = { x = -3.0, z = -9.81 }\n\
-                [[effects.bearing]]\nposition = -0.2\nkyy = 2e5\nkzz = 1e5\nkyz = 1e4\nkzy = 1e4\ncyy = 400.0\nczz = 300.0\nkxx = 1e5\ncxx = 300.0\n\
-                [[effects.bearing]]\nposition = 0.3\nkyy = 1e5\nkzz = 2e5\ncyy = 300.0\nczz = 400.0\n\
-                [[effects.unbalance]]\nmass = 1e-3\nradius = 1e-3\nangle = 0.4\nposition = 0.1\n";
-    let machine = Machine::of(Named::written(text).simulation.parameters()).unwrap();
-    let all = rotating(text);
-    let start = std::time::Instant::now();
-    for speed in [20.0, 120.0, 250.0, -300.0] {
-        let linear = machine.response(speed, None).unwrap();
-        let orbit = all.orbit(speed, None).unwrap();
-        let path = orbit.path(0.25);
-        println!(
-            "{speed} {:e} {:e} size {:e}",
-            (path.once.y - linear.orbit(0.25).y).modulus() / path.once.major(),
-            path.reach,
-            orbit.size
-        );
-        let modes = machine.modes(speed, None).unwrap().1;
-        for mode in &modes {
-            let mu = (mode.eigenvalue * std::f64::consts::TAU / speed.abs()).exp();
-            let near = orbit.multipliers.iter().map(|m| (m - mu).modulus()).fold(f64::INFINITY, f64::min);
-            print!(" {near:.1e}");
+fn exact_orbit_and_multipliers_of_jeffcotts_rotor() {
+    let balanced = "[rotor]\nm = 4.9\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = 2000.0\nc2 = 100.0\nd1 = 10.0\nd2 = 0.2\n";
+    let unbalance = "[[effects.unbalance]]\nmass = 0.1\nradius = 0.1\nangle = 0.7\nposition = 0.0\n";
+    let jeffcott = rotating(&format!("{balanced}{unbalance}"));
+    let machine = Machine::of(Named::written(balanced).simulation.parameters()).expect("a machine");
+    for speed in [-35.0, 5.0, 19.9, 40.0, 400.0_f64] {
+        let orbit = found(&jeffcott, speed, None);
+        // (k − mω² + idω) Y = U ω² e^(iα)
+        let (sine, cosine) = libm::sincos(0.7);
+        let square = speed * speed;
+        let y = Complex::new(cosine, sine) * (0.01 * square) / Complex::new(2000.0 - 5.0 * square, 10.0 * speed);
+        let exact = linear::Orbit { y, z: y * Complex::new(0.0, -1.0) };
+        within(&format!("orbit at {speed} rad/s"), apart(&orbit.path(0.0).once, &exact), 3e-9);
+        within("a circle", (orbit.path(0.0).farthest / y.modulus() - 1.0).abs(), 3e-9);
+        // e^(λT)
+        let modes = machine.modes(speed, None).expect("it is held").1;
+        let expected: Vec<_> = modes.iter().map(|mode| (mode.eigenvalue * TAU / speed.abs()).exp()).collect();
+        let still = found(&rotating(balanced), speed, None);
+        within(&format!("multipliers at {speed} rad/s"), astray(&still, &expected), 1e-7);
+        assert_eq!((orbit.loss(), still.loss()), (None, None));
+    }
+}
+
+#[test]
+fn exact_multipliers_of_a_body_that_is_not_symmetric() {
+    let [a, b, c, spring] = [0.08, 0.05, 0.06, 100.0];
+    let text = format!(
+        "[rotor]\nm = 5.0\nJa = {c}\nJt = {a}\n[effects.asymmetry]\nJt2 = {b}\n\
+         [[effects.bearing]]\nposition = 0.0\nkyy = 1e4\nkzz = 1e4\ncyy = 30.0\nczz = 30.0\nkxx = 1e4\ncxx = 30.0\nkt = {spring}\n"
+    );
+    let rotor = rotating(&text);
+    let mut lost = 0;
+    for speed in [20.0, 45.0, 60.0, 150.0] {
+        // In axes that turn with the body, θ = (α, β):
+        // A(α̈ − ωβ̇) + (C − B)ω(β̇ + ωα) + kα = 0, B(β̈ + ωα̇) − (C − A)ω(α̇ − ωβ) + kβ = 0
+        let mass = Matrix2::new(a, 0.0, 0.0, b);
+        let turning = Matrix2::new(0.0, -a + c - b, b - c + a, 0.0) * speed;
+        let springs = Matrix2::new((c - b) * speed * speed + spring, 0.0, 0.0, (c - a) * speed * speed + spring);
+        let inverse = mass.try_inverse().expect("it has mass");
+        let mut matrix = Matrix4::zeros();
+        matrix.fixed_view_mut::<2, 2>(0, 2).fill_with_identity();
+        matrix.fixed_view_mut::<2, 2>(2, 0).copy_from(&(-inverse * springs));
+        matrix.fixed_view_mut::<2, 2>(2, 2).copy_from(&(-inverse * turning));
+        let expected: Vec<_> = matrix.complex_eigenvalues().iter().map(|value| (value * (TAU / speed)).exp()).collect();
+        let orbit = found(&rotor, speed, None);
+        let largest = expected.iter().map(|value| value.modulus()).fold(0.0, f64::max);
+        within(&format!("multipliers at {speed} rad/s"), astray(&orbit, &expected) / largest, 1e-6);
+        assert_eq!(orbit.loss().is_some(), largest > 1.0 + 1e-5, "at {speed} rad/s: {largest}");
+        lost += u32::from(orbit.loss().is_some());
+    }
+    assert!((1..4).contains(&lost), "one of them lasts, and one does not: {lost}");
+}
+
+/// A rotor that runs against a ring as it whirls: above its critical speed it whirls within, or far out on it.
+const RING: &str = "[rotor]\nm = 5.0\nJa = 0.05\nJt = 0.08\n\
+    [[effects.bearing]]\nposition = -0.2\nkyy = 1e5\nkzz = 1e5\ncyy = 60.0\nczz = 60.0\nkxx = 1e5\ncxx = 300.0\n\
+    [[effects.bearing]]\nposition = 0.2\nkyy = 1e5\nkzz = 1e5\ncyy = 60.0\nczz = 60.0\n\
+    [[effects.unbalance]]\nmass = 1e-2\nradius = 5e-2\nposition = 0.0\n\
+    [[effects.rub]]\nposition = 0.0\ngap = 3e-4\nstiffness = 4e5\nradius = 0.05\nv0 = 0.01\n";
+
+/// The harmonic of a run at this speed once it has settled, which begins at a hundredth more than `near`.
+fn settled(speed: f64, near: linear::Orbit) -> linear::Orbit {
+    let [y, z] = [near.y.re, near.z.re].map(|at| 1.01 * at);
+    let [vy, vz] = [-z * speed, y * speed];
+    let start =
+        format!("[start]\nr_c = {{ y = {y}, z = {z} }}\nv_c = {{ y = {vy}, z = {vz} }}\nomega = {{ x = {speed} }}\n");
+    let mut run = Named::written(&format!("{RING}{start}[effects.imposed_speed]\nw = {speed}\n"));
+    run.set("solver.relative_tolerance", 1e-9);
+    run.start();
+    const POINTS: u32 = 64;
+    let mut seen = [Complex::from(0.0); 2];
+    for n in 0..POINTS {
+        let turns = 150.0 + f64::from(n) / f64::from(POINTS);
+        run.simulation.advance(TAU / speed * turns).expect("a calm run");
+        let (sine, cosine) = libm::sincos(TAU * turns);
+        let c = run.simulation.read().expect("a motion").motion.r_c();
+        seen[0] += Complex::new(cosine, -sine) * (2.0 / f64::from(POINTS)) * c.y;
+        seen[1] += Complex::new(cosine, -sine) * (2.0 / f64::from(POINTS)) * c.z;
+    }
+    linear::Orbit { y: seen[0], z: seen[1] }
+}
+
+/// The motion of a branch at a speed: by those beside it that last, or do not.
+fn at(ring: &Rotating, branch: &Branch, speed: f64, lasts: bool) -> Orbit {
+    let like = branch.orbits.iter().filter(|orbit| orbit.loss().is_none() == lasts);
+    let nearest = like.min_by(|a, b| (a.speed - speed).abs().total_cmp(&(b.speed - speed).abs()));
+    found(ring, speed, nearest)
+}
+
+#[test]
+fn motions_on_a_ring_are_those_that_runs_settle_to() {
+    let ring = rotating(RING);
+    let up = ring.branch([150.0, 380.0], 40).expect("it begins within the ring");
+    let down = ring.branch([380.0, 200.0], 40).expect("it begins within the ring");
+    // Up it goes around a fold, and back until it leaves the ring; down it goes until it meets that.
+    let folds: Vec<_> = up.folds().map(|n| up.orbits[n].speed).collect();
+    let [fold] = folds[..] else { panic!("{folds:?}") };
+    let [met, meets] = [&up, &down].map(|branch| branch.orbits.last().expect("it has some"));
+    within(
+        "both end at the gap",
+        (met.path(0.0).farthest / 3e-4 - 1.0).abs().max((meets.path(0.0).farthest / 3e-4 - 1.0).abs()),
+        2e-3,
+    );
+    within("in one place", (met.speed / meets.speed - 1.0).abs(), 2e-3);
+    assert!(matches!(up.end, End::Lost(_)) && fold > 1.2 * met.speed, "{:?}", up.end);
+    // Ten speeds at which there is one motion, ten at which there are three: within and far out runs settle.
+    let middle = 0.5 * (fold + met.speed);
+    for n in 0..10 {
+        let single = 160.0 + 8.0 * f64::from(n);
+        let bistable = middle + 0.045 * (fold - met.speed) * f64::from(2 * n - 9);
+        for (speed, branch) in [(single, &up), (bistable, &up), (bistable, &down)] {
+            let once = at(&ring, branch, speed, true).path(0.0).once;
+            // From near it: a run from rest may settle to either.
+            within(&format!("at {speed} rad/s"), apart(&settled(speed, once), &once), 1e-6);
         }
-        println!(" {:?}", orbit.loss());
+        let between = at(&ring, &up, bistable, false);
+        assert_eq!(between.loss(), Some(Loss::Away), "at {bistable} rad/s");
+        let [inner, outer] = [&down, &up].map(|branch| at(&ring, branch, bistable, true).path(0.0).farthest);
+        let size = between.path(0.0).farthest;
+        assert!(inner < size && size < outer, "at {bistable} rad/s: {inner}, {size}, {outer}");
     }
-    println!("{:?}", start.elapsed());
-    let start = std::time::Instant::now();
-    let branch = all.branch([10.0, 600.0], 100).unwrap();
-    println!("{} {:?} {:?}", branch.orbits.len(), branch.end, start.elapsed());
-    let ring = "[rotor]\nm = 5.0\nJa = 0.05\nJt = 0.08\n\
-                [[effects.bearing]]\nposition = -0.2\nkyy = 1e5\nkzz = 1e5\ncyy = 60.0\nczz = 60.0\nkxx = 1e5\ncxx = 300.0\n\
-                [[effects.bearing]]\nposition = 0.2\nkyy = 1e5\nkzz = 1e5\ncyy = 60.0\nczz = 60.0\n\
-                [[effects.unbalance]]\nmass = 1e-2\nradius = 5e-2\nposition = 0.0\n\
-                [[effects.rub]]\nposition = 0.0\ngap = 3e-4\nstiffness = 4e5\nradius = 0.05\nv0 = 0.01\n";
-    let all = rotating(ring);
-    let start = std::time::Instant::now();
-    let branch = all.branch([100.0, 600.0], 100).unwrap();
-    println!("{} {:?} {:?}", branch.orbits.len(), branch.end, start.elapsed());
-    for orbit in &branch.orbits {
-        let path = orbit.path(0.0);
-        let worst = orbit.multipliers.iter().map(|m| m.modulus()).fold(0.0, f64::max);
-        println!("{:8.2} {:9.3e} {:9.3e} {worst:.6} {:?}", orbit.speed, path.once.major(), path.farthest, orbit.loss());
-    }
-    println!("folds {:?}", branch.folds().map(|n| branch.orbits[n].speed).collect::<Vec<_>>());
 }

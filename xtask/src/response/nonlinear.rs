@@ -6,7 +6,6 @@ use crate::sheets;
 use serde_json::json;
 use split_rotor_model::periodic::{Branch, End, Obstacle, Orbit, Rotating};
 use split_rotor_model::scene::Scene;
-use std::fmt::Write;
 
 /// One step for so many of the linear response.
 const COARSER: u32 = 4;
@@ -14,12 +13,26 @@ const COARSER: u32 = 4;
 /// Nor is it looked for below this part of the highest speed \[1]: there revolutions are long, and an unbalance does little.
 const LOWEST: f64 = 0.05;
 
-/// Follows the motions of a scene through these speeds [rad/s] that are not too low; of both signs, through those with the spin.
-pub fn branch(scene: &Scene, speeds: &[f64]) -> Result<Branch, Obstacle> {
+/// Follows the motions of a scene up through these speeds [rad/s] that are not too low; of both signs, through the positive ones. Down
+/// too, where the way up turns back or ends: what is there at the highest may not hang together with it.
+pub fn branches(scene: &Scene, speeds: &[f64]) -> Result<Vec<Branch>, Obstacle> {
     let [first, last] = [speeds[0], speeds[speeds.len() - 1]];
-    let ends = if last > 0.0 { [first.max(LOWEST * last), last] } else { [last.min(LOWEST * first), first] };
+    let [slow, fast] = if last > 0.0 { [first.max(LOWEST * last), last] } else { [last.min(LOWEST * first), first] };
     let steps = (speeds.len() as u32 / COARSER).max(2);
-    Rotating::of(&scene.parameters())?.branch(ends, steps)
+    let machine = Rotating::of(&scene.parameters())?;
+    let up = machine.branch([slow, fast], steps);
+    match &up {
+        Ok(branch) if branch.end == End::Range && branch.folds().next().is_none() => Ok(vec![up?]),
+        _ => match (up, machine.branch([fast, slow], steps)) {
+            (Err(obstacle), Err(_)) => Err(obstacle),
+            (up, down) => Ok(up.into_iter().chain(down).collect()),
+        },
+    }
+}
+
+/// What was found.
+pub fn of(found: &Found) -> impl Iterator<Item = &Branch> {
+    found.nonlinear.iter().flatten().flatten()
 }
 
 /// Neighbours that all last, or all leave in the same way.
@@ -29,8 +42,7 @@ pub fn alike(branch: &Branch) -> impl Iterator<Item = &[Orbit]> {
 
 /// A row for each station in each motion, in the order in which they go over into one another.
 pub fn rows(found: &Found) -> Vec<sheets::Row> {
-    let branch = found.nonlinear.iter().flatten();
-    let orbits = branch.flat_map(|branch| &branch.orbits);
+    let orbits = of(found).flat_map(|branch| &branch.orbits);
     let all = orbits.flat_map(|orbit| found.stations.iter().map(move |station| (orbit, station)));
     let row = |(orbit, station): (&Orbit, &Station)| {
         let path = orbit.path(station.position);
@@ -54,66 +66,56 @@ pub fn rows(found: &Found) -> Vec<sheets::Row> {
 
 /// What the table says of it.
 pub fn words(found: &Found, text: &mut String) {
-    let branch = match &found.nonlinear {
-        None => return,
-        Some(Err(obstacle)) => {
-            *text += &format!("\nNo nonlinear response: {obstacle}.\n");
-            return;
-        }
-        Some(Ok(branch)) => branch,
-    };
-    let [first, last] = [&branch.orbits[0], &branch.orbits[branch.orbits.len() - 1]];
-    let (from, to, count) = (rounded(first.speed), rounded(last.speed), branch.orbits.len());
-    *text += &format!(
-        "\nNonlinear, by the laws as they stand: {count} motions that repeat with each revolution, from {from} to {to} rad/s.\n"
-    );
-    let _ = match &branch.end {
-        End::Range => Ok(()),
-        End::Long => writeln!(text, "They go on; so many were looked at."),
-        End::Lost(obstacle) => writeln!(text, "Further they could not be followed: {obstacle}."),
-    };
+    if let Some(Err(obstacle)) = &found.nonlinear {
+        *text += &format!("\nNo nonlinear response: {obstacle}.\n");
+    }
+    if of(found).next().is_none() {
+        return;
+    }
+    *text += "\nNonlinear, by the laws as they stand: motions that repeat with each revolution.\n";
+    of(found).for_each(|branch| tell(branch, text));
+    *text += "\n| nonlinear peak at [rad/s] | [rpm] | station | half axes [µm] | farthest from the line [µm] | lasts |\n|--:|--:|---|---|--:|---|\n";
+    for (station, peak) in found
+        .stations
+        .iter()
+        .flat_map(|station| of(found).flat_map(move |branch| peaks(branch, station).map(move |peak| (station, peak))))
+    {
+        let (speed, path) = (peak.speed, peak.path(station.position));
+        let [major, minor, farthest] = [path.once.major(), path.once.minor(), path.farthest].map(micrometres);
+        let lasts = if peak.loss().is_none() { "yes" } else { "no" };
+        let name = table::name(station);
+        let (rounded, rpm) = (rounded(speed), rounded(rpm(speed)));
+        *text += &format!("| {rounded} | {rpm} | {name} | {major} and {minor} | {farthest} | {lasts} |\n");
+    }
+}
+
+/// Where a branch goes, turns back, and does not last.
+fn tell(branch: &Branch, text: &mut String) {
+    let at = |orbit: &Orbit| format!("{} rad/s", rounded(orbit.speed));
+    let [first, last] = [&branch.orbits[0], &branch.orbits[branch.orbits.len() - 1]].map(at);
+    *text += &format!("\n- From {first} to {last}.\n");
     for fold in branch.folds() {
-        let speed = branch.orbits[fold].speed;
-        let _ = writeln!(
-            text,
-            "They turn back at {} rad/s ({} rpm): there the whirl jumps.",
-            rounded(speed),
-            rounded(rpm(speed))
-        );
+        *text += &format!("  They turn back at {}: there the whirl jumps.\n", at(&branch.orbits[fold]));
     }
     for part in alike(branch) {
         if let Some(loss) = part[0].loss() {
-            let [from, to] = [&part[0], &part[part.len() - 1]].map(|orbit| rounded(orbit.speed));
-            let _ = writeln!(
-                text,
-                "From {from} to {to} rad/s none lasts: a small disturbance grows, and the rotor {}.",
+            let [from, to] = [&part[0], &part[part.len() - 1]].map(at);
+            *text += &format!(
+                "  From {from} to {to} none lasts: a small disturbance grows, and the rotor {}.\n",
                 loss.words()
             );
         }
     }
-    *text += "\n| nonlinear peak at [rad/s] | [rpm] | station | half axes [µm] | farthest from the line [µm] | lasts |\n|--:|--:|---|---|--:|---|\n";
-    for station in &found.stations {
-        for peak in peaks(branch, station) {
-            let (speed, path) = (peak.speed, peak.path(station.position));
-            let [major, minor, farthest] = [path.once.major(), path.once.minor(), path.farthest].map(micrometres);
-            let lasts = if peak.loss().is_none() { "yes" } else { "no" };
-            let _ = writeln!(
-                text,
-                "| {} | {} | {} | {major} and {minor} | {farthest} | {lasts} |",
-                rounded(speed),
-                rounded(rpm(speed)),
-                table::name(station)
-            );
-        }
-    }
+    *text += &match &branch.end {
+        End::Range => String::new(),
+        End::Long => "  They go on; so many were looked at.\n".into(),
+        End::Lost(_) => format!("  Beyond {last} they could not be followed: a contact may begin or end there.\n"),
+    };
 }
 
 /// The motions in which the orbit of a station is larger than beside them.
-fn peaks<'b>(branch: &'b Branch, station: &Station) -> Vec<&'b Orbit> {
+fn peaks<'b>(branch: &'b Branch, station: &'b Station) -> impl Iterator<Item = &'b Orbit> {
     let size = |orbit: &Orbit| orbit.path(station.position).once.major();
-    let three = branch
-        .orbits
-        .windows(3)
-        .filter(|three| size(&three[1]) > size(&three[0]) && size(&three[1]) >= size(&three[2]));
-    three.map(|three| &three[1]).collect()
+    let is_peak = move |three: &&[Orbit]| size(&three[1]) > size(&three[0]) && size(&three[1]) >= size(&three[2]);
+    branch.orbits.windows(3).filter(is_peak).map(|three| &three[1])
 }

@@ -33,7 +33,7 @@ fn nonlinear<'f>(
     found: &'f Found,
     value: impl Fn(&Orbit) -> (f64, f64) + 'f,
 ) -> impl Iterator<Item = (bool, Vec<(f64, f64)>)> + 'f {
-    let parts = found.nonlinear.iter().flatten().flat_map(nonlinear::alike);
+    let parts = nonlinear::of(found).flat_map(nonlinear::alike);
     parts.map(move |part| (part[0].loss().is_none(), part.iter().map(&value).collect()))
 }
 
