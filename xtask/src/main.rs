@@ -28,6 +28,7 @@ mod sheet;
 mod sheets;
 mod speeds;
 mod ssv;
+mod stability;
 mod state_space;
 mod templates;
 mod terminals;
@@ -175,6 +176,28 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+    /// Find where the machine begins to whirl by itself, against a parameter and the spin: table, SVG, CSV and JSON in
+    /// target/stability/SCENE
+    Stability {
+        /// The scene
+        #[arg(default_value = "unstable_whirl")]
+        scene: String,
+        /// The parameter, such as bearing[1].cyy
+        #[arg(long, value_name = "PARAMETER")]
+        against: String,
+        /// Its first and its last value, in the unit of the scene
+        #[arg(long, required = true, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
+        values: Vec<f64>,
+        /// How many values
+        #[arg(long, default_value_t = 61)]
+        count: u32,
+        /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
+        speeds: Option<Vec<f64>>,
+        /// At how many speeds modes are looked for; thresholds between them are found exactly
+        #[arg(long, default_value_t = 61)]
+        steps: u32,
+    },
     /// Write a scene as a parameter set of SSP 1.0, with which the general FMU, `rotor`, is that scene: target/ssv/SCENE.ssv
     Ssv {
         /// The scene
@@ -224,6 +247,11 @@ fn dispatch(command: Command) -> Result<()> {
         }
         Command::Response { scene, speeds, steps, linear, .. } => {
             response::response(&scene, speeds.as_deref(), steps, !linear)
+        }
+        Command::Stability { scene, against, values, count, speeds, steps } => {
+            let values = [values[0], values[1]];
+            let against = stability::Against { name: &against, values, count };
+            stability::stability(&scene, &against, speeds.as_deref(), steps)
         }
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),

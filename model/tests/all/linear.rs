@@ -168,6 +168,47 @@ fn exact_threshold_of_rotating_damping() {
 }
 
 #[test]
+fn exact_threshold_of_cross_coupling_from_a_table() {
+    // m r̈ + c ṙ + (k − iq) r = 0 is at its threshold where q = c √(k/m); between inner nodes of one slope the table is a line.
+    let (m, k, c): (f64, f64, f64) = (5.0, 2e5, 35.0);
+    let nodes: Vec<_> = (0..6).map(|n| 100.0 * f64::from(n)).collect();
+    let of = |value: &dyn Fn(f64) -> f64| format!("{:?}", nodes.iter().map(|speed| value(*speed)).collect::<Vec<_>>());
+    let [stiff, damped] = [k, c].map(|constant| of(&|_| constant));
+    let (kyz, kzy) = (of(&|speed| 40.0 * speed), of(&|speed| -40.0 * speed));
+    let text = format!(
+        "[rotor]\nm = {m}\nJa = 0.05\nJt = 0.08\n[[effects.bearing]]\nposition = 0.0\nkt = 800.0\nct = 1.0\nkxx = 1e5\ncxx = 10.0\n\
+         speed = {nodes:?}\nkyy = {stiff}\nkzz = {stiff}\nkyz = {kyz}\nkzy = {kzy}\ncyy = {damped}\nczz = {damped}\n"
+    );
+    let machine = machine(&text);
+    let whirl = (k / m).sqrt();
+    let exact = c * whirl / 40.0;
+    let speeds: Vec<_> = (0..=20).map(|n| 20.0 * f64::from(n)).collect();
+    let thresholds = Campbell::of(&machine, &speeds).expect("it is held").thresholds().expect("it is held");
+    let [threshold] = &thresholds[..] else { panic!("{thresholds:?}") };
+    within("threshold", (threshold.speed / exact - 1.0).abs(), 1e-11);
+    within("frequency", (threshold.mode.frequency() / whirl - 1.0).abs(), 1e-11);
+    // A run decays below it and grows above, at the rate of the closed form.
+    for (part, grows) in [(0.999, false), (1.001, true)] {
+        let speed = part * exact;
+        let mut run =
+            Named::written(&format!("{text}[start]\nr_c = {{ y = 1e-6 }}\n[effects.imposed_speed]\nw = {speed}\n"));
+        run.set("solver.relative_tolerance", 1e-12);
+        run.start();
+        let mut size = |t: f64| {
+            run.simulation.advance(t).expect("a calm run");
+            run.simulation.read().expect("a motion").motion.r_c().yz().norm()
+        };
+        let [early, late] = [5.0, 25.0].map(&mut size);
+        let seen = libm::log(late / early) / 20.0;
+        // λ = (−c + √(c² − 4m(k − iq)))/2m
+        let root = Complex::new(c * c - 4.0 * m * k, 4.0 * m * 40.0 * speed).sqrt();
+        let told = ((root - c) / (2.0 * m)).re;
+        assert_eq!((told > 0.0, late > early), (grows, grows), "at {speed} rad/s");
+        within("growth [1/s]", (seen - told).abs(), 1e-11);
+    }
+}
+
+#[test]
 fn exact_growth_of_a_run_on_either_side() {
     for (part, grows) in [(0.999, false), (1.001, true)] {
         let speed = part * 80.0;

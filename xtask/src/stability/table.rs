@@ -1,0 +1,39 @@
+//! The table: the thresholds at a few values of the parameter.
+
+use super::{Column, Map};
+use crate::numbers::{rounded, rpm, spread};
+
+/// So many values are shown.
+const SHOWN: usize = 12;
+
+/// All of it, in Markdown.
+pub fn table(map: &Map) -> String {
+    let [from, to] = [map.speeds[0], map.speeds[map.speeds.len() - 1]].map(rounded);
+    let mut text = format!("{}: {}\n\n", map.scene.name, map.scene.title);
+    text += &format!("Balanced, drives off, the spin held; from {from} to {to} rad/s.\n\n");
+    text += &format!(
+        "| {} | a mode grows | threshold [rad/s] | [rpm] | whirl there [rad/s] |\n|--:|---|--:|--:|--:|\n",
+        map.label()
+    );
+    for column in spread(map.columns.len(), SHOWN).map(|n| &map.columns[n]) {
+        let value = rounded(column.value);
+        if column.thresholds.is_empty() {
+            text += &format!("| {value} | {} | - | - | - |\n", if column.grows[0] { "everywhere" } else { "nowhere" });
+        }
+        for at in &column.thresholds {
+            let (speed, rpm, whirl) = (rounded(at.speed), rounded(rpm(at.speed)), rounded(at.mode.frequency()));
+            text += &format!("| {value} | {} | {speed} | {rpm} | {whirl} |\n", side(column, map, at.speed));
+        }
+    }
+    text
+}
+
+/// On which side of a threshold [rad/s] the machine is unstable.
+fn side(column: &Column, map: &Map, threshold: f64) -> &'static str {
+    let above = map.speeds.iter().position(|speed| *speed > threshold);
+    match (above.is_some_and(|n| column.grows[n]), above.is_some_and(|n| n > 0 && column.grows[n - 1])) {
+        (true, true) => "on both sides",
+        (true, false) => "above",
+        (false, _) => "below",
+    }
+}
