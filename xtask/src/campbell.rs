@@ -2,11 +2,12 @@
 
 mod picture;
 mod table;
+mod turning;
 
 use crate::{scenes, sheets, speeds};
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
-use split_rotor_model::linear::{Campbell, Crossing, Machine, Point};
+use split_rotor_model::linear::{Campbell, Crossing, Machine, Obstacle, Point};
 use split_rotor_model::scene::Scene;
 
 /// What the command found.
@@ -23,7 +24,10 @@ pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64])
     let scene = scenes::find(scene)?;
     ensure!(orders.iter().all(|order| *order > 0.0), "--orders: each must be more than 0");
     let file = || scene.file.display().to_string();
-    let machine = Machine::of(&scene.parameters()).with_context(file)?;
+    let machine = match Machine::of(&scene.parameters()) {
+        Err(Obstacle::Asymmetric) => return turning::turning(scene, speeds, steps),
+        machine => machine.with_context(file)?,
+    };
     let speeds = speeds::range(&scene, Some(&machine), speeds, steps).with_context(file)?;
     let campbell = Campbell::of(&machine, &speeds).with_context(file)?;
     let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order).with_context(file)?));

@@ -102,6 +102,16 @@ impl Orbit {
         self.multipliers.iter().map(|multiplier| multiplier.modulus()).fold(0.0, f64::max)
     }
 
+    /// By which rates small motions beside it grow, and their frequencies but for whole multiples of the speed [rad/s].
+    pub fn exponents(&self) -> Vec<Complex<f64>> {
+        // μ = e^(λT)
+        let per_time = self.speed.abs() / TAU;
+        let exponent = |multiplier: &Complex<f64>| {
+            Complex::new(libm::log(multiplier.modulus()), libm::atan2(multiplier.im, multiplier.re)) * per_time
+        };
+        self.multipliers.iter().map(exponent).collect()
+    }
+
     /// How small motions beside it leave it, if they do.
     pub fn loss(&self) -> Option<Loss> {
         let largest = self.multipliers.iter().max_by(|a, b| a.modulus().total_cmp(&b.modulus()))?;
