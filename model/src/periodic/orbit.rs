@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 const POINTS: u32 = 128;
 
 /// A motion has at least this size, over √(Jt/m) \[1]: differences are taken of one that does not move at all, too.
-const LEAST: f64 = 1e-9;
+const LEAST: f64 = 1e-7;
 
 /// A multiplier beyond 1 by more than this tells that the motion does not last \[1]: less may be what differences err.
 const GROWS: f64 = 1e-5;
@@ -27,6 +27,9 @@ const MOST_SLOPES: u32 = 4;
 /// A step is the last where it is less than this part of the motion's size; or than that, where it hardly shrinks any more \[1].
 const FOUND: f64 = 1e-9;
 const ROUNDED: f64 = 1e-6;
+
+/// A motion comes back that misses its start by less than this part of its size before the last step \[1].
+const RETURNS: f64 = 1e-4;
 
 /// New slopes where a step is more than this part of the one before \[1].
 const SLOW: f64 = 0.1;
@@ -233,7 +236,9 @@ impl Rotating {
             speed += step[10] * unit[1];
             let length = step.norm() * unit[0] / size;
             if length < FOUND || (length < ROUNDED && length > SLOW * before) {
-                return Ok(Some((speed, state)));
+                // Where nothing holds the rotor a step is none, and the motion does not come back for all that.
+                let returns = left.norm() * unit[0] < RETURNS * size;
+                return Ok(returns.then_some((speed, state)));
             }
             if !length.is_finite() || speed * near.speed <= 0.0 {
                 return Ok(None);
