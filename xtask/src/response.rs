@@ -22,7 +22,7 @@ struct Found {
     /// By the linear equations, where they hold.
     linear: Result<Linear, Obstacle>,
     /// By the laws as they stand, where that was asked for.
-    nonlinear: Option<Result<Vec<Branch>, periodic::Obstacle>>,
+    nonlinear: Option<Vec<Result<Branch, periodic::Obstacle>>>,
 }
 
 /// By the linear equations.

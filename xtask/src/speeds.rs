@@ -11,7 +11,7 @@ const HIGHER: f64 = 1.5;
 /// No rotor turns faster [rad/s].
 const HIGHEST: f64 = 1e9;
 
-/// So many speeds [rad/s] from the first of these to the second; where none are given, from 0 to beyond what the scene reaches.
+/// So many speeds [rad/s] from the first of these to the second, and 0 where it lies between; where none are given, from 0 to beyond what the scene reaches.
 pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
     let (from, to) = match ends {
@@ -22,7 +22,13 @@ pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, ste
         from.abs() <= HIGHEST && to.abs() <= HIGHEST && from < to,
         "--speeds {from} {to}: the second must be more than the first, both within ±{HIGHEST:e} rad/s"
     );
-    Ok((0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1)).collect())
+    let mut speeds: Vec<_> = (0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1)).collect();
+    // Modes at ω and −ω are alike, and the lines of the speed's multiples bend at 0.
+    let after = speeds.partition_point(|speed| *speed < 0.0);
+    if after > 0 && speeds.get(after).is_some_and(|speed| *speed > 0.0) {
+        speeds.insert(after, 0.0);
+    }
+    Ok(speeds)
 }
 
 /// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.

@@ -172,22 +172,30 @@ pub(crate) fn stop_drives(parameters: &mut Parameters<All>) {
     });
 }
 
+/// The same with its drives off, and what is out of balance on the axis.
+pub fn balanced(parameters: &Parameters<All>) -> Parameters<All> {
+    let mut parameters = parameters.clone();
+    stop_drives(&mut parameters);
+    parameters.effects.for_each(|block| {
+        let kind = block.kind();
+        if kind.name == UNBALANCE.0 {
+            let is_radius = |row: &usize| (kind.meta)(*row).is_some_and(|meta| meta.name == UNBALANCE.1);
+            block.set_parameter((0..).find(is_radius).expect("it has one"), 0.0);
+        }
+    });
+    parameters
+}
+
 impl Machine {
     /// Of these parameters; why not.
     pub fn of(parameters: &Parameters<All>) -> Result<Self, Obstacle> {
         parameters.check().map_err(|invalid| Obstacle::Invalid(invalid.to_string()))?;
-        let (mut parameters, unbalance) = (parameters.clone(), parameters.shape().unbalance());
-        stop_drives(&mut parameters);
+        let unbalance = parameters.shape().unbalance();
+        let mut parameters = balanced(parameters);
         let mut gravity = Vector3::zeros();
         parameters.effects.for_each(|block| {
-            let kind = block.kind();
-            if kind.name == GRAVITY && block.is_active() {
+            if block.kind().name == GRAVITY && block.is_active() {
                 gravity = Vector3::from_fn(|row, _| block.value(row, 0.0, None, None).expect("it is a parameter"));
-            }
-            if kind.name == UNBALANCE.0 {
-                let is_radius = |row: &usize| (kind.meta)(*row).is_some_and(|meta| meta.name == UNBALANCE.1);
-                let row = (0..).find(is_radius).expect("it has one");
-                block.set_parameter(row, 0.0);
             }
         });
         let start = &mut parameters.setup.start;
@@ -203,6 +211,11 @@ impl Machine {
         let [about_axis, across] = [body.spin + body.per_jt, body.per_jt].map(|per| 1.0 / per);
         let (mass, length) = (body.m, (across * body.per_m).sqrt());
         Ok(Self { parameters, about_axis, across, length, mass, centre, unbalance, gravity })
+    }
+
+    /// Where the mass centre lies from c along t \[m].
+    pub fn centre(&self) -> f64 {
+        self.centre
     }
 
     /// Where it runs steadily at `speed` [rad/s], sought from `near`, and its linear equations there.

@@ -17,6 +17,10 @@ const OFF: f64 = 0.5;
 const STRAIGHT: f64 = 0.8;
 const SHORT: f64 = 0.1;
 
+/// A fold is found where the speed changes by less than this part of a step, or after so many orbits \[1].
+const LEVEL: f64 = 1e-5;
+const TURNS: u32 = 12;
+
 /// A branch has at most so many motions for each speed that was asked for.
 const MOST: usize = 20;
 
@@ -76,16 +80,26 @@ impl Rotating {
                     return Ok(branch);
                 }
                 Ok(orbit) => {
-                    let bent = self.tangent(&orbit, unit, &tangent)?.dot(&tangent);
-                    if bent < STRAIGHT && step > SHORT {
+                    let on = self.tangent(&orbit, unit, &tangent)?;
+                    if on.dot(&tangent) < STRAIGHT && step > SHORT {
                         step *= 0.5;
                         continue;
                     }
-                    ahead = tangent;
+                    // Past an end of the range a branch is over.
+                    if (to - orbit.speed) / pace < 0.0 {
+                        branch.orbits.push(self.orbit(to, Some(&orbit))?);
+                        branch.end = End::Range;
+                        return Ok(branch);
+                    }
                     if (orbit.speed - from) / pace < 0.0 {
                         branch.end = End::Range;
                         return Ok(branch);
                     }
+                    if on[10] * tangent[10] < 0.0 {
+                        let fold = self.fold(last, &near, [&(tangent * by), &tangent], [tangent[10], on[10]]);
+                        branch.orbits.extend(fold);
+                    }
+                    ahead = tangent;
                     branch.orbits.push(orbit);
                     step = (step * GROWTH).min(1.0);
                 }
@@ -108,6 +122,34 @@ impl Rotating {
         let all = near.matrix(&from.slopes, &self.slope_by_speed(from.speed, &from.state)?, ahead).svd(true, true);
         let tangent = all.solve(&Both::ith(10, 1.0), UNHELD * all.singular_values[0]).unwrap_or(*ahead);
         Ok(tangent.normalize())
+    }
+
+    /// The orbit on this way from `near` at which the speed turns back: by Illinois' rule, from the rates of the speed at both ends.
+    fn fold(
+        &self,
+        last: &Orbit,
+        near: &Near,
+        [way, held]: [&Both; 2],
+        [mut at_a, mut at_b]: [f64; 2],
+    ) -> Option<Orbit> {
+        let [mut a, mut b] = [0.0, 1.0];
+        let mut found = None;
+        for _ in 0..TURNS {
+            let part = b - at_b * (b - a) / (at_b - at_a);
+            let orbit = self.step(last, near, &(way * part), held).ok()?;
+            let value = self.tangent(&orbit, near.unit, held).ok()?[10];
+            if value * at_b < 0.0 {
+                (a, at_a) = (b, at_b);
+            } else {
+                at_a *= 0.5;
+            }
+            (b, at_b) = (part, value);
+            found = Some(orbit);
+            if value.abs() < LEVEL {
+                break;
+            }
+        }
+        found
     }
 
     /// The orbit that is met by this way from `near`, or beside it.

@@ -153,13 +153,13 @@ impl Orbit {
 }
 
 impl Rotating {
-    /// The motion that repeats with each revolution at `speed` [rad/s], which is not 0, sought from `near`, else from where the scene
-    /// places the rotor, and from what it does when it has settled.
+    /// The motion that repeats with each revolution at `speed` [rad/s], which is not 0, sought from `near`, else from where it
+    /// would stand without its unbalance, and from what it does when it has settled.
     ///
     /// # Errors
     /// Where it is not found.
     pub fn orbit(&self, speed: f64, near: Option<&Orbit>) -> Result<Orbit, Obstacle> {
-        let from = near.map_or_else(|| self.at_start(), |near| near.state);
+        let from = near.map_or_else(|| self.at_rest(speed), |near| near.state);
         if let Ok(orbit) = self.found(speed, from) {
             return Ok(orbit);
         }

@@ -1,7 +1,7 @@
 //! A machine whose spin is imposed, over one revolution.
 
 use crate::effects::{All, Effects};
-use crate::linear::stop_drives;
+use crate::linear::{Machine, stop_drives};
 use crate::rotation::{Chart, Tilt};
 use crate::simulation::Any;
 use crate::state::Kinematics;
@@ -38,6 +38,8 @@ const DIFFERENCE: f64 = 1e-6;
 #[derive(Clone)]
 pub struct Rotating {
     run: Any,
+    /// Where it would stand without its unbalance; None of a body that is not symmetric.
+    machine: Option<Machine>,
     /// √(Jt/m) \[m].
     length: f64,
     speed: Place,
@@ -95,13 +97,21 @@ impl Rotating {
         [solver.relative_tolerance, solver.absolute_tolerance] = TOLERANCE;
         setup.start = Start { r_c: setup.start.r_c, ..Start::default() };
         let body = parameters.shape().inertia();
-        Ok(Self { run: parameters.into(), length: (body.per_m / body.per_jt).sqrt(), speed })
+        let machine = Machine::of(&parameters).ok();
+        Ok(Self { run: parameters.into(), machine, length: (body.per_m / body.per_jt).sqrt(), speed })
     }
 
-    /// At rest but for its spin, where the scene places it.
-    pub(super) fn at_start(&self) -> State {
+    /// At rest but for its spin: where it would stand without its unbalance, else where the scene places it.
+    pub(super) fn at_rest(&self, speed: f64) -> State {
         let mut state = State::zeros();
-        state.fixed_rows_mut::<3>(0).copy_from(&(self.run.parameters().setup.start.r_c / self.length));
+        let steady = self.machine.as_ref().and_then(|machine| Some((machine, machine.steady(speed, None).ok()?)));
+        let place = steady.map_or(self.run.parameters().setup.start.r_c, |(machine, steady)| {
+            state.fixed_rows_mut::<2>(6).copy_from(&steady.gamma);
+            // ω = ω_φ t
+            state.fixed_rows_mut::<2>(8).copy_from(&(steady.axis.yz() * speed.signum()));
+            steady.r - steady.axis * machine.centre()
+        });
+        state.fixed_rows_mut::<3>(0).copy_from(&(place / self.length));
         state
     }
 

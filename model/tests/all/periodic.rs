@@ -3,6 +3,7 @@
 use crate::harness::named::Named;
 use crate::harness::within;
 use nalgebra::{Complex, ComplexField, Matrix2, Matrix4};
+use oracles::numerics::derivative;
 use split_rotor_model::linear::{self, Machine};
 use split_rotor_model::periodic::{Branch, End, Loss, Obstacle, Orbit, Rotating};
 use std::f64::consts::TAU;
@@ -105,6 +106,24 @@ const RING: &str = "[rotor]\nm = 5.0\nJa = 0.05\nJt = 0.08\n\
     [[effects.unbalance]]\nmass = 1e-2\nradius = 5e-2\nposition = 0.0\n\
     [[effects.rub]]\nposition = 0.0\ngap = 3e-4\nstiffness = 4e5\nradius = 0.05\nv0 = 0.01\n";
 
+/// The speed above which no circle of the radius A lasts on the ring: the largest ω of
+/// (K − mω²)² + (cω)² = (U ω²/A)², K = k + k_ring (1 − g/A).
+fn exact_fold() -> f64 {
+    let (m, c, first, gap) = (5.01, 120.0, 5e-4, 3e-4);
+    let speed = |size: f64| {
+        let k = 2e5 + 4e5 * (1.0 - gap / size);
+        let [square, line] = [m * m - first * first / (size * size), c * c - 2.0 * k * m];
+        ((-line + (line * line - 4.0 * square * k * k).sqrt()) / (2.0 * square)).sqrt()
+    };
+    let slope = |size: f64| derivative(|size| [speed(size)], size, 1e-5)[0];
+    let (mut low, mut high) = (1.0e-3, 1.3e-3);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if slope(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    speed(low)
+}
+
 /// The harmonic of a run at this speed once it has settled, which begins at a hundredth more than `near`.
 fn settled(speed: f64, near: linear::Orbit) -> linear::Orbit {
     let [y, z] = [near.y.re, near.z.re].map(|at| 1.01 * at);
@@ -143,6 +162,7 @@ fn motions_on_a_ring_are_those_that_runs_settle_to() {
     let folds: Vec<_> = up.folds().map(|n| up.orbits[n].speed).collect();
     let [fold] = folds[..] else { panic!("{folds:?}") };
     let [met, meets] = [&up, &down].map(|branch| branch.orbits.last().expect("it has some"));
+    within("fold", (fold / exact_fold() - 1.0).abs(), 1e-9);
     within(
         "both end at the gap",
         (met.path(0.0).farthest / 3e-4 - 1.0).abs().max((meets.path(0.0).farthest / 3e-4 - 1.0).abs()),

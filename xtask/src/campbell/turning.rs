@@ -8,6 +8,7 @@ use anyhow::{Context, Result, bail};
 use nalgebra::{Complex, ComplexField};
 use plotters::prelude::*;
 use serde_json::json;
+use split_rotor_model::linear::balanced;
 use split_rotor_model::periodic::{Obstacle, Orbit, Rotating};
 use split_rotor_model::scene::Scene;
 
@@ -27,6 +28,8 @@ const DECAYS: RGBColor = RGBColor(31, 119, 210);
 struct Turning {
     scene: Scene,
     orbits: Vec<Orbit>,
+    /// At so many speeds no motion was found that repeats with each revolution.
+    missed: u32,
     thresholds: Vec<f64>,
 }
 
@@ -35,14 +38,13 @@ pub fn turning(scene: Scene, ends: Option<&[f64]>, steps: u32) -> Result<()> {
     let file = || scene.file.display().to_string();
     let all = speeds::range(&scene, None, ends, steps).with_context(file)?;
     let fastest = all.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
-    let rotating = Rotating::of(&scene.parameters()).with_context(file)?;
+    let rotating = Rotating::of(&balanced(&scene.parameters())).with_context(file)?;
     eprintln!("The body is not symmetric: its revolutions are followed, which may take a minute ...");
-    let mut orbits: Vec<Orbit> = Vec::new();
+    let (mut orbits, mut missed): (Vec<Orbit>, u32) = (Vec::new(), 0);
     for speed in all.into_iter().filter(|speed| speed.abs() >= LOWEST * fastest) {
         match rotating.orbit(speed, orbits.last()) {
             Ok(orbit) => orbits.push(orbit),
-            Err(Obstacle::NotFound { .. }) => {}
-            Err(obstacle) => return Err(obstacle).with_context(file),
+            Err(_) => missed += 1,
         }
     }
     if orbits.is_empty() {
@@ -50,7 +52,7 @@ pub fn turning(scene: Scene, ends: Option<&[f64]>, steps: u32) -> Result<()> {
     }
     let changes = orbits.windows(2).filter(|pair| pair[0].loss().is_some() != pair[1].loss().is_some());
     let thresholds = changes.map(|pair| threshold(&rotating, pair)).collect::<Result<_, _>>().with_context(file)?;
-    write(&Turning { scene, orbits, thresholds })
+    write(&Turning { scene, orbits, missed, thresholds })
 }
 
 /// Where motions begin or cease to grow between two speeds, by bisection.
@@ -113,12 +115,18 @@ fn rows(turning: &Turning) -> Vec<sheets::Row> {
 fn table(turning: &Turning) -> String {
     let mut text = format!("{}: {}\n\n", turning.scene.name, turning.scene.title);
     text += "The body is not symmetric about its axis, so its equations change as it turns (Floquet): growth of small motions beside those that \
-             repeat with each revolution, drives off, the spin imposed. Frequencies count but for whole multiples of the spin.\n\n";
+             repeat with each revolution, balanced, drives off, the spin imposed. Frequencies count but for whole multiples of the spin.\n\n";
     for threshold in &turning.thresholds {
         let before = turning.orbits.iter().rfind(|orbit| orbit.speed < *threshold);
         let ceases = before.is_some_and(|orbit| orbit.loss().is_some());
         let (verb, at) = (if ceases { "cease" } else { "begin" }, rounded(*threshold));
         text += &format!("Small motions {verb} to grow at {at} rad/s ({} rpm).\n", rounded(rpm(*threshold)));
+    }
+    if turning.missed > 0 {
+        text += &format!(
+            "At {} of the speeds no motion was found that repeats with each revolution; they are left out.\n",
+            turning.missed
+        );
     }
     match turning.orbits.iter().filter(|orbit| orbit.loss().is_some()).count() {
         0 => text += "None grows at these speeds.\n",

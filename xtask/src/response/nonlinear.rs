@@ -13,21 +13,36 @@ const COARSER: u32 = 4;
 /// Nor is it looked for below this part of the highest speed \[1]: there revolutions are long, and an unbalance does little.
 const LOWEST: f64 = 0.05;
 
+/// A branch that goes down meets that which goes up where their motions are alike by this \[1].
+const ALIKE: f64 = 1e-6;
+
 /// Follows the motions of a scene up through these speeds [rad/s] that are not too low; of both signs, through the positive ones. Down
 /// too, where the way up turns back or ends: what is there at the highest may not hang together with it.
-pub fn branches(scene: &Scene, speeds: &[f64]) -> Result<Vec<Branch>, Obstacle> {
+pub fn branches(scene: &Scene, speeds: &[f64]) -> Vec<Result<Branch, Obstacle>> {
     let [first, last] = [speeds[0], speeds[speeds.len() - 1]];
     let [slow, fast] = if last > 0.0 { [first.max(LOWEST * last), last] } else { [last.min(LOWEST * first), first] };
     let steps = (speeds.len() as u32 / COARSER).max(2);
-    let machine = Rotating::of(&scene.parameters())?;
+    let machine = match Rotating::of(&scene.parameters()) {
+        Ok(machine) => machine,
+        Err(obstacle) => return vec![Err(obstacle)],
+    };
     let up = machine.branch([slow, fast], steps);
-    match &up {
-        Ok(branch) if branch.end == End::Range && branch.folds().next().is_none() => Ok(vec![up?]),
-        _ => match (up, machine.branch([fast, slow], steps)) {
-            (Err(obstacle), Err(_)) => Err(obstacle),
-            (up, down) => Ok(up.into_iter().chain(down).collect()),
-        },
+    if up.as_ref().is_ok_and(|up| up.end == End::Range && up.folds().next().is_none()) {
+        return vec![up];
     }
+    let down = machine.branch([fast, slow], steps);
+    match (&up, &down) {
+        // Then it is all of it.
+        (Ok(up), Ok(down)) if is_start(up, down) => vec![Ok(down.clone())],
+        _ => vec![up, down],
+    }
+}
+
+/// Whether the second of these branches ends where the first one begins.
+fn is_start(up: &Branch, down: &Branch) -> bool {
+    let [first, last] = [&up.orbits[0], &down.orbits[down.orbits.len() - 1]];
+    let apart = (first.state - last.state).norm();
+    first.speed == last.speed && apart < ALIKE * (first.state.norm() + last.state.norm())
 }
 
 /// What was found.
@@ -66,15 +81,19 @@ pub fn rows(found: &Found) -> Vec<sheets::Row> {
 
 /// What the table says of it.
 pub fn words(found: &Found, text: &mut String) {
-    if let Some(Err(obstacle)) = &found.nonlinear {
-        *text += &format!("\nNo nonlinear response: {obstacle}.\n");
+    let Some(branches) = &found.nonlinear else { return };
+    *text += "\nNonlinear, by the laws as they stand: motions that repeat with each revolution, from a twentieth of the highest speed on, of \
+              ranges through 0 with positive spin.\n";
+    for branch in branches {
+        match branch {
+            Ok(branch) => tell(branch, text),
+            Err(obstacle) => *text += &format!("\n- None found: {obstacle}.\n"),
+        }
     }
-    if of(found).next().is_none() {
+    if of(found).all(|branch| found.stations.iter().all(|station| peaks(branch, station).next().is_none())) {
         return;
     }
-    *text += "\nNonlinear, by the laws as they stand: motions that repeat with each revolution.\n";
-    of(found).for_each(|branch| tell(branch, text));
-    *text += "\n| nonlinear peak at [rad/s] | [rpm] | station | half axes [µm] | farthest from the line [µm] | lasts |\n|--:|--:|---|---|--:|---|\n";
+    *text += "\n| largest found at [rad/s] | [rpm] | station | half axes [µm] | farthest from the line [µm] | lasts |\n|--:|--:|---|---|--:|---|\n";
     for (station, peak) in found
         .stations
         .iter()
@@ -108,8 +127,10 @@ fn tell(branch: &Branch, text: &mut String) {
     }
     *text += &match &branch.end {
         End::Range => String::new(),
-        End::Long => "  They go on; so many were looked at.\n".into(),
-        End::Lost(_) => format!("  Beyond {last} they could not be followed: a contact may begin or end there.\n"),
+        End::Long => "  They go on; with more --steps they are followed further.\n".into(),
+        End::Lost(_) => format!(
+            "  Beyond {last} they could not be followed: a contact may begin or end there, or nothing damps the whirl.\n"
+        ),
     };
 }
 

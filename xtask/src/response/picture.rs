@@ -78,7 +78,7 @@ fn sizes(found: &Found, area: &Area) -> Drawn {
             .label(table::name(station))
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], colour(number).stroke_width(3)));
     }
-    if let Some(Ok(_)) = found.nonlinear {
+    if found.nonlinear.is_some() {
         for (name, width, gap) in [("linear", 1, 0), ("by the laws as they stand", 3, 0), ("does not last", 3, 6)] {
             let dash = move |from, to| PathElement::new([(from, 0), (to, 0)], chart::INK.stroke_width(width));
             axes.draw_series(LineSeries::new([(0.0, from); 0], chart::INK))?
