@@ -10,7 +10,8 @@ use split_rotor_model::scene::Scene;
 /// One step for so many of the linear response.
 const COARSER: u32 = 4;
 
-/// Nor is it looked for below this part of the highest speed \[1]: there revolutions are long, and an unbalance does little.
+/// Of a range that begins at standstill it is looked for from this part of its end on \[1]: below, revolutions are long, and an unbalance
+/// does little.
 const LOWEST: f64 = 0.05;
 
 /// A branch that goes down meets that which goes up where their motions are alike by this \[1].
@@ -20,7 +21,12 @@ const ALIKE: f64 = 1e-6;
 /// too, where the way up turns back or ends: what is there at the highest may not hang together with it.
 pub fn branches(scene: &Scene, speeds: &[f64]) -> Vec<Result<Branch, Obstacle>> {
     let [first, last] = [speeds[0], speeds[speeds.len() - 1]];
-    let [slow, fast] = if last > 0.0 { [first.max(LOWEST * last), last] } else { [last.min(LOWEST * first), first] };
+    let [slow, fast] = match (first, last) {
+        (first, last) if first > 0.0 => [first, last],
+        (first, last) if last < 0.0 => [last, first],
+        (_, last) if last > 0.0 => [LOWEST * last, last],
+        (first, _) => [LOWEST * first, first],
+    };
     let steps = (speeds.len() as u32 / COARSER).max(2);
     let machine = match Rotating::of(&scene.parameters()) {
         Ok(machine) => machine,
@@ -82,8 +88,8 @@ pub fn rows(found: &Found) -> Vec<sheets::Row> {
 /// What the table says of it.
 pub fn words(found: &Found, text: &mut String) {
     let Some(branches) = &found.nonlinear else { return };
-    *text += "\nNonlinear, by the laws as they stand: motions that repeat with each revolution, from a twentieth of the highest speed on, of \
-              ranges through 0 with positive spin.\n";
+    *text += "\nNonlinear, by the laws as they stand: motions that repeat with each revolution; where the range holds 0, from a twentieth of \
+              its end on.\n";
     for branch in branches {
         match branch {
             Ok(branch) => tell(branch, text),
