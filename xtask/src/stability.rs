@@ -33,7 +33,7 @@ struct Column {
 }
 
 impl Map {
-    /// "bearing[1].cyy [N·s/m]"
+    /// Its name and unit, as a picture and a table have it.
     fn label(&self) -> String {
         format!("{} [{}]", self.name, if self.unit.is_empty() { "1" } else { self.unit })
     }
