@@ -182,8 +182,7 @@ enum Command {
         /// The scene
         #[arg(default_value = "unstable_whirl")]
         scene: String,
-        /// The parameter, such as bearing[1].cyy
-        #[arg(long, value_name = "PARAMETER")]
+        #[arg(long, help = "The parameter, such as bearing[1].cyy", value_name = "PARAMETER")]
         against: String,
         /// Its first and its last value, in the unit of the scene
         #[arg(long, required = true, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
