@@ -41,8 +41,7 @@ pub fn clients() -> Result<()> {
 /// A command that runs this module of xtask/python/peers; each has a Python of its own, so that one that cannot be installed
 /// keeps no other from it.
 pub fn peer(name: &str) -> Result<Command> {
-    let (folder, requirements) = (format!("venv-peers/{name}"), format!("peers/requirements/{name}.txt"));
-    let mut command = Environment { folder: &folder, requirements: &requirements, minors: 11..=14 }.python()?;
+    let mut command = python_of_peer(name)?;
     command.current_dir(paths::root().join("xtask/python")).args(["-m", &format!("peers.{name}")]);
     // Threads of their linear algebra would count as time of a run.
     command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
@@ -51,7 +50,12 @@ pub fn peer(name: &str) -> Result<Command> {
 
 /// A command of the Python that has SciPy: the peer's, which is there already where somebody compared with that.
 pub fn scipy() -> Result<Command> {
-    peer("scipy")
+    python_of_peer("scipy")
+}
+
+fn python_of_peer(name: &str) -> Result<Command> {
+    let (folder, requirements) = (format!("venv-peers/{name}"), format!("peers/requirements/{name}.txt"));
+    Environment { folder: &folder, requirements: &requirements, minors: 11..=14 }.python()
 }
 
 impl Environment<'_> {
