@@ -167,7 +167,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// [`Simulation::start`] with another motion than that of the parameters; what effects measure from the start they measure from
     /// there.
-    pub(crate) fn start_elsewhere(&mut self, t: f64, motion: &Start) -> Result<(), Invalid> {
+    pub fn start_elsewhere(&mut self, t: f64, motion: &Start) -> Result<(), Invalid> {
         self.begin(t, None, None, Some(motion))
     }
 
