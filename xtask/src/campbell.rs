@@ -38,14 +38,9 @@ pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64])
 
 fn write(diagram: &Diagram) -> Result<()> {
     let table = table::table(diagram);
-    let json = serde_json::to_string_pretty(&json(diagram))? + "\n";
-    let csv = sheets::csv(&rows(diagram));
-    let files = [("campbell.md", &*table), ("campbell.csv", &csv), ("campbell.json", &json)];
-    let folder = sheets::write(&format!("campbell/{}", diagram.scene.name), files)?;
-    let picture = folder.join("campbell.svg");
-    std::fs::write(&picture, picture::svg(diagram)?)?;
-    println!("{table}\n{}", picture.display());
-    Ok(())
+    let folder = format!("campbell/{}", diagram.scene.name);
+    let pictures = [("campbell.svg", picture::svg(diagram)?)];
+    sheets::leave(&folder, "campbell", &table, &rows(diagram), &json(diagram), &pictures).map(drop)
 }
 
 /// A mode's number, as people count.

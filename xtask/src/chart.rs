@@ -22,6 +22,10 @@ const LINE: u32 = 36;
 /// Ink that is read on white and on black.
 pub const INK: RGBColor = RGBColor(128, 128, 128);
 
+/// The first two colours of lines.
+pub const BLUE: RGBColor = RGBColor(31, 119, 210);
+pub const ORANGE: RGBColor = RGBColor(220, 90, 30);
+
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 pub type Axes<'a, Y = RangedCoordf64, X = RangedCoordf64> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<X, Y>>;
 pub type Drawn<T = ()> = std::result::Result<T, Box<dyn std::error::Error>>;

@@ -1,12 +1,11 @@
 //! `response --from --to`: how an output of a machine answers an input that swings, against the frequency, at one spin.
 
-mod decades;
-mod degrees;
+mod axis;
 mod picture;
 mod sweep;
 mod table;
 
-use crate::{scenes, sheets, state_space};
+use crate::{peaks, scenes, sheets, state_space};
 use anyhow::{Context, Result, ensure};
 use nalgebra::{Complex, ComplexField};
 use serde_json::json;
@@ -84,7 +83,8 @@ pub fn frequency(
         "{}: {from} does not move {to}: the response is 0 at every frequency",
         found.scene.file.display()
     );
-    found.peaks = sweep::peaks(&found);
+    let seen = |point: &Point| (point.frequency, point.size());
+    found.peaks = peaks::of(&found.points, seen, |frequency, _| anyhow::Ok(found.at(frequency)))?;
     write(&found)
 }
 
@@ -111,16 +111,8 @@ fn write(found: &Found) -> Result<()> {
         "peaks": sheets::objects(self::rows(&found.peaks)),
         "responses": sheets::objects(rows.clone()),
     });
-    let json = serde_json::to_string_pretty(&json)? + "\n";
-    let files = [("frequency.md", &*table), ("frequency.csv", &sheets::csv(&rows)), ("frequency.json", &json)];
-    let folder = sheets::write(&format!("response/{}", found.scene.name), files)?;
-    println!("{table}");
-    for (name, picture) in [("frequency.svg", picture::bode(found)?), ("polar.svg", picture::polar(found)?)] {
-        let file = folder.join(name);
-        std::fs::write(&file, picture)?;
-        println!("{}", file.display());
-    }
-    Ok(())
+    let pictures = [("frequency.svg", picture::bode(found)?), ("polar.svg", picture::polar(found)?)];
+    sheets::leave(&format!("response/{}", found.scene.name), "frequency", &table, &rows, &json, &pictures).map(drop)
 }
 
 /// A row for each frequency at which the answer has a bound.

@@ -18,6 +18,7 @@ mod numbers;
 mod package;
 mod page;
 mod paths;
+mod peaks;
 mod python;
 mod response;
 mod ross;

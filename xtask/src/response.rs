@@ -5,7 +5,7 @@ mod nonlinear;
 mod picture;
 mod table;
 
-use crate::{scenes, sheets, speeds};
+use crate::{peaks, scenes, sheets, speeds};
 use anyhow::{Context, Result, bail, ensure};
 use nalgebra::ComplexField;
 use serde_json::json;
@@ -71,12 +71,6 @@ struct Station {
     position: f64,
 }
 
-/// What is higher by no more than this part is level but for rounding \[1].
-const FLAT: f64 = 1e-9;
-
-/// Between two speeds a peak is narrowed down so often: until rounding decides.
-const NARROWED: u32 = 60;
-
 /// Finds the response of a scene between these speeds [rad/s], at so many of them; whether also by the laws as they stand.
 pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32, exact: bool) -> Result<()> {
     let scene = scenes::find(scene)?;
@@ -103,7 +97,7 @@ impl Linear {
         for speed in speeds {
             points.push(Point::of(machine, *speed, points.last())?);
         }
-        let peaks = stations.iter().map(|station| peaks(machine, station, &points)).collect::<Result<_, _>>()?;
+        let peaks = stations.iter().map(|station| peaks_of(machine, station, &points)).collect::<Result<_, _>>()?;
         Ok(Self { points, peaks })
     }
 }
@@ -123,33 +117,10 @@ fn stations(scene: &Scene) -> Vec<Station> {
     std::iter::once(Station { name: "c".into(), position: 0.0 }).chain(rest).collect()
 }
 
-/// Where the orbit of a station is larger than beside it, by the golden section between the speeds that were looked at.
-fn peaks(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<Point>, Obstacle> {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let mut found = Vec::new();
-    for three in points.windows(3) {
-        let [before, at, after] = [0, 1, 2].map(|n| three[n].size(station));
-        if at <= before * (1.0 + FLAT) || at < after {
-            continue;
-        }
-        let (mut from, mut to, mut largest) = (three[0].speed, three[2].speed, three[1].clone());
-        for _ in 0..NARROWED {
-            // The larger part beside the best is divided; the better one stays within, the other is an end.
-            let is_below = largest.speed - from > to - largest.speed;
-            let speed = if is_below { to - GOLDEN * (to - from) } else { from + GOLDEN * (to - from) };
-            let tried = Point::of(machine, speed, Some(&largest))?;
-            let (better, worse) =
-                if tried.size(station) > largest.size(station) { (tried, largest) } else { (largest, tried) };
-            if worse.speed < better.speed {
-                from = worse.speed;
-            } else {
-                to = worse.speed;
-            }
-            largest = better;
-        }
-        found.push(largest);
-    }
-    Ok(found)
+/// Where the orbit of a station is larger than beside it.
+fn peaks_of(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<Point>, Obstacle> {
+    let at = |speed: f64, near: &Point| Point::of(machine, speed, Some(near));
+    peaks::of(points, |point| (point.speed, point.size(station)), at)
 }
 
 fn write(found: &Found) -> Result<()> {
@@ -161,14 +132,9 @@ fn write(found: &Found) -> Result<()> {
         "responses": sheets::objects(linear.clone()),
         "nonlinear": sheets::objects(nonlinear.clone()),
     });
-    let json = serde_json::to_string_pretty(&json)? + "\n";
-    let files = [("response.md", &*table), ("response.csv", &sheets::csv(&linear)), ("response.json", &json)];
-    let folder = sheets::write(&format!("response/{}", found.scene.name), files)?;
-    std::fs::write(folder.join("nonlinear.csv"), sheets::csv(&nonlinear))?;
-    let picture = folder.join("response.svg");
-    std::fs::write(&picture, picture::svg(found)?)?;
-    println!("{table}\n{}", picture.display());
-    Ok(())
+    let (folder, pictures) = (format!("response/{}", found.scene.name), [("response.svg", picture::svg(found)?)]);
+    let folder = sheets::leave(&folder, "response", &table, &linear, &json, &pictures)?;
+    Ok(std::fs::write(folder.join("nonlinear.csv"), sheets::csv(&nonlinear))?)
 }
 
 /// A station's harmonic that goes round with the spin, as columns.

@@ -18,6 +18,28 @@ pub fn write(folder: &str, files: [(&str, &str); 3]) -> Result<PathBuf> {
     Ok(folder)
 }
 
+/// What a command that looks at a machine leaves in a folder of target/: its table, rows and all of it as NAME.md, .csv and .json, and
+/// pictures by their files' names. Prints the table and where the pictures are.
+pub fn leave(
+    folder: &str,
+    name: &str,
+    table: &str,
+    rows: &[Row],
+    all: &Value,
+    pictures: &[(&str, String)],
+) -> Result<PathBuf> {
+    let [md, csv_name, json_name] = ["md", "csv", "json"].map(|form| format!("{name}.{form}"));
+    let (csv, all) = (csv(rows), serde_json::to_string_pretty(all)? + "\n");
+    let folder = write(folder, [(&md, table), (&csv_name, &csv), (&json_name, &all)])?;
+    println!("{table}");
+    for (name, picture) in pictures {
+        let file = folder.join(name);
+        std::fs::write(&file, picture)?;
+        println!("{}", file.display());
+    }
+    Ok(folder)
+}
+
 /// Rows as objects of JSON.
 pub fn objects(rows: impl IntoIterator<Item = Row>) -> Vec<Map<String, Value>> {
     rows.into_iter().map(|row| row.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()).collect()

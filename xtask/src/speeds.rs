@@ -9,7 +9,7 @@ use split_rotor_model::scene::Scene;
 const HIGHER: f64 = 1.5;
 
 /// No rotor turns faster [rad/s].
-const HIGHEST: f64 = 1e9;
+pub const HIGHEST: f64 = 1e9;
 
 /// So many speeds [rad/s] from the first of these to the second, and 0 where it lies between; where none are given, from 0 to beyond what the scene reaches.
 pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {

@@ -1,5 +1,6 @@
 //! `state-space`: a machine about its steady state as matrices with names and units, for control design.
 
+use crate::speeds::HIGHEST;
 use crate::{paths, python, run, scenes};
 use anyhow::{Context, Result, ensure};
 use nalgebra::{Dim, Matrix, RawStorage};
@@ -7,9 +8,6 @@ use serde_json::{Value, json};
 use split_rotor_model::linear::{Machine, Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
 use std::path::Path;
-
-/// No rotor turns faster [rad/s].
-const HIGHEST: f64 = 1e9;
 
 /// Writes the matrices of a scene at this speed [rad/s], or the one with which it starts, as JSON and for MATLAB into the folder `out`,
 /// or target/state-space/SCENE.

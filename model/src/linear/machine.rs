@@ -59,7 +59,7 @@ pub struct Machine {
     length: f64,
     /// Mass \[kg], and where its centre lies from c along t \[m].
     pub(super) mass: f64,
-    pub(super) centre: f64,
+    pub(crate) centre: f64,
     /// What was put onto the axis: [`Shape::unbalance`](crate::body::Shape::unbalance).
     pub(super) unbalance: [Vector2<f64>; 2],
     /// Acceleration of gravity [m/s²].
@@ -211,11 +211,6 @@ impl Machine {
         let [about_axis, across] = [body.spin + body.per_jt, body.per_jt].map(|per| 1.0 / per);
         let (mass, length) = (body.m, (across * body.per_m).sqrt());
         Ok(Self { parameters, about_axis, across, length, mass, centre, unbalance, gravity })
-    }
-
-    /// Where the mass centre lies from c along t \[m].
-    pub fn centre(&self) -> f64 {
-        self.centre
     }
 
     /// Where it runs steadily at `speed` [rad/s], sought from `near`, and its linear equations there.

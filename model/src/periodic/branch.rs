@@ -1,7 +1,7 @@
 //! Motions that repeat with each revolution followed through the speeds, around folds.
 
-use super::orbit::{Both, Near, Orbit, UNHELD};
-use super::revolution::{Obstacle, Rotating, State};
+use super::orbit::{Both, Near, Orbit, SPEED, UNHELD};
+use super::revolution::{NUMBERS, Obstacle, Rotating, State};
 
 /// A step counts one where the speed changes by one of those asked for, or the state by this part of the motion's size \[1].
 const BEND: f64 = 0.3;
@@ -52,6 +52,20 @@ impl Branch {
     }
 }
 
+impl Orbit {
+    fn near(&self, unit: [f64; 2]) -> Near {
+        Near { speed: self.speed, state: self.state, size: self.size, unit }
+    }
+
+    /// Which way a branch goes on from here, of length 1 in these units, `ahead` being about it.
+    fn tangent(&self, unit: [f64; 2], ahead: &Both) -> Both {
+        // eq. 119: (∂P/∂x − 1) x' + ∂P/∂ω ω' = 0
+        let all = self.near(unit).matrix(&self.slopes, &self.by_speed, ahead).svd(true, true);
+        let tangent = all.solve(&Both::ith(SPEED, 1.0), UNHELD * all.singular_values[0]).unwrap_or(*ahead);
+        tangent.normalize()
+    }
+}
+
 impl Rotating {
     /// The motions that go over into that at the first of these speeds [rad/s], neither of which is 0, on to the second, in so many steps
     /// or more.
@@ -62,17 +76,17 @@ impl Rotating {
         let first = self.orbit(from, None)?;
         let pace = (to - from) / f64::from(steps);
         let (mut branch, mut ahead, mut step) =
-            (Branch { orbits: vec![first], end: End::Long }, Both::ith(10, 1.0), 1.0);
+            (Branch { orbits: vec![first], end: End::Long }, Both::ith(SPEED, 1.0), 1.0);
         while branch.orbits.len() < MOST * steps as usize {
             let last = branch.orbits.last().expect("it begins with one");
             let unit = [BEND * last.size, pace];
-            let tangent = self.tangent(last, unit, &ahead)?;
-            let near = Near { speed: last.speed, state: last.state, size: last.size, unit };
+            let tangent = last.tangent(unit, &ahead);
+            let near = last.near(unit);
             // The end of the range is met.
             let rest = (to - last.speed) / pace;
-            let is_last = tangent[10] * step >= rest;
-            let by = if is_last { rest / tangent[10] } else { step };
-            let held = if is_last { Both::ith(10, 1.0) } else { tangent };
+            let is_last = tangent[SPEED] * step >= rest;
+            let by = if is_last { rest / tangent[SPEED] } else { step };
+            let held = if is_last { Both::ith(SPEED, 1.0) } else { tangent };
             match self.step(last, &near, &(tangent * by), &held) {
                 Ok(orbit) if is_last => {
                     branch.orbits.push(orbit);
@@ -80,7 +94,7 @@ impl Rotating {
                     return Ok(branch);
                 }
                 Ok(orbit) => {
-                    let on = self.tangent(&orbit, unit, &tangent)?;
+                    let on = orbit.tangent(unit, &tangent);
                     if on.dot(&tangent) < STRAIGHT && step > SHORT {
                         step *= 0.5;
                         continue;
@@ -95,8 +109,8 @@ impl Rotating {
                         branch.end = End::Range;
                         return Ok(branch);
                     }
-                    if on[10] * tangent[10] < 0.0 {
-                        let fold = self.fold(last, &near, [&(tangent * by), &tangent], [tangent[10], on[10]]);
+                    if on[SPEED] * tangent[SPEED] < 0.0 {
+                        let fold = self.fold(last, &near, [&(tangent * by), &tangent], [tangent[SPEED], on[SPEED]]);
                         branch.orbits.extend(fold);
                     }
                     ahead = tangent;
@@ -116,14 +130,6 @@ impl Rotating {
     }
 
     /// Which way a branch goes on from an orbit, of length 1 in these units, `ahead` being about it.
-    fn tangent(&self, from: &Orbit, unit: [f64; 2], ahead: &Both) -> Result<Both, Obstacle> {
-        let near = Near { speed: from.speed, state: from.state, size: from.size, unit };
-        // eq. 119: (∂P/∂x − 1) x' + ∂P/∂ω ω' = 0
-        let all = near.matrix(&from.slopes, &self.slope_by_speed(from.speed, &from.state)?, ahead).svd(true, true);
-        let tangent = all.solve(&Both::ith(10, 1.0), UNHELD * all.singular_values[0]).unwrap_or(*ahead);
-        Ok(tangent.normalize())
-    }
-
     /// The orbit on this way from `near` at which the speed turns back: by Illinois' rule, from the rates of the speed at both ends.
     fn fold(
         &self,
@@ -137,7 +143,7 @@ impl Rotating {
         for _ in 0..TURNS {
             let part = b - at_b * (b - a) / (at_b - at_a);
             let orbit = self.step(last, near, &(way * part), held).ok()?;
-            let value = self.tangent(&orbit, near.unit, held).ok()?[10];
+            let value = orbit.tangent(near.unit, held)[SPEED];
             if value * at_b < 0.0 {
                 (a, at_a) = (b, at_b);
             } else {
@@ -154,8 +160,8 @@ impl Rotating {
 
     /// The orbit that is met by this way from `near`, or beside it.
     fn step(&self, last: &Orbit, near: &Near, way: &Both, held: &Both) -> Result<Orbit, Obstacle> {
-        let expected: State = near.state + way.fixed_rows::<10>(0) * near.unit[0];
-        let at = Near { speed: near.speed + way[10] * near.unit[1], state: expected, ..*near };
+        let expected: State = near.state + way.fixed_rows::<NUMBERS>(0) * near.unit[0];
+        let at = Near { speed: near.speed + way[SPEED] * near.unit[1], state: expected, ..*near };
         let lost = Obstacle::NotFound { speed: at.speed };
         let (speed, state) = self.corrected(&at, held, Some(&last.slopes))?.ok_or(lost.clone())?;
         let [by_state, by_speed] = [(state - expected).norm() / near.unit[0], (speed - at.speed) / near.unit[1]];

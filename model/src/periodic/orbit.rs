@@ -1,6 +1,6 @@
 //! A motion that repeats with each revolution: where its stations go, and whether it lasts.
 
-use super::revolution::{Obstacle, Rotating, Slopes, State};
+use super::revolution::{NUMBERS, Obstacle, Rotating, Slopes, State};
 use crate::linear;
 use nalgebra::{Complex, ComplexField, SMatrix, SVector, Vector2, Vector3};
 use std::f64::consts::TAU;
@@ -41,8 +41,11 @@ const LIKE: f64 = 10.0;
 pub(super) const UNHELD: f64 = 1e-10;
 
 /// Numbers that continuation solves for: the state, and the speed.
-pub(super) type Both = SVector<f64, 11>;
-pub(super) type Square = SMatrix<f64, 11, 11>;
+pub(super) type Both = SVector<f64, { NUMBERS + 1 }>;
+pub(super) type Square = SMatrix<f64, { NUMBERS + 1 }, { NUMBERS + 1 }>;
+
+/// Where the speed stands among them.
+pub(super) const SPEED: usize = NUMBERS;
 
 /// c \[m] and the axis t \[1], point by point.
 type Seen = Vec<[Vector3<f64>; 2]>;
@@ -56,8 +59,9 @@ pub struct Orbit {
     pub state: State,
     /// By what small motions beside it are multiplied in a revolution (Floquet) \[1].
     pub multipliers: Vec<Complex<f64>>,
-    /// How the end of a revolution changes with its start.
+    /// How the end of a revolution changes with its start, and with the speed, per rad/s.
     pub(super) slopes: Slopes,
+    pub(super) by_speed: State,
     /// How far it moves, over the sizes of the state \[1].
     pub(super) size: f64,
     /// At equal parts of the revolution, the last where it begins anew.
@@ -168,15 +172,15 @@ impl Rotating {
 
     fn found(&self, speed: f64, mut state: State) -> Result<Orbit, Obstacle> {
         let (_, mut size) = self.watched(speed, &state)?;
-        let held = Both::ith(10, 1.0);
+        let held = Both::ith(SPEED, 1.0);
         // What is far from it at first has another size.
         for _ in 0..3 {
             let near = Near { speed, state, size, unit: [1.0, speed.abs()] };
             let Some(found) = self.corrected(&near, &held, None)? else { break };
             state = found.1;
-            let (_, now) = self.watched(speed, &state)?;
+            let watched @ (_, now) = self.watched(speed, &state)?;
             if now <= LIKE * size && size <= LIKE * now {
-                return self.at(speed, &state);
+                return self.repeating(speed, &state, watched);
             }
             size = now;
         }
@@ -189,17 +193,21 @@ impl Rotating {
         let end = self.follow(speed, state, [1, POINTS], |motion| seen.push([motion.r_c(), *motion.axis()]))?;
         let mean = seen.iter().fold([Vector3::zeros(); 2], |[r, t], [c, axis]| [r + c, t + axis]);
         let [place, axis] = mean.map(|sum: Vector3<f64>| sum / f64::from(POINTS));
-        let moved = |[c, t]: &[Vector3<f64>; 2]| ((c - place) / self.length()).norm() + (t - axis).norm();
+        let moved = |[c, t]: &[Vector3<f64>; 2]| ((c - place) / self.length).norm() + (t - axis).norm();
         let size = seen.iter().map(moved).fold(0.0, f64::max);
         Ok((seen, size.max(LEAST).max((end - state).amax())))
     }
 
     /// The motion of a state that repeats.
     pub(super) fn at(&self, speed: f64, state: &State) -> Result<Orbit, Obstacle> {
-        let (seen, size) = self.watched(speed, state)?;
-        let slopes = self.slopes(speed, state, size)?;
+        self.repeating(speed, state, self.watched(speed, state)?)
+    }
+
+    /// The same where a revolution of it was watched.
+    fn repeating(&self, speed: f64, state: &State, (seen, size): (Seen, f64)) -> Result<Orbit, Obstacle> {
+        let (slopes, by_speed) = (self.slopes(speed, state, size)?, self.slope_by_speed(speed, state)?);
         let multipliers = linear::eigenvalues(&slopes);
-        Ok(Orbit { speed, state: *state, multipliers, slopes, size, seen })
+        Ok(Orbit { speed, state: *state, multipliers, slopes, by_speed, size, seen })
     }
 
     /// Newton's method from near a motion to one that repeats, and does not move along `held`, with these slopes as long as they do; None
@@ -230,10 +238,10 @@ impl Rotating {
             let all = all.svd(true, true);
             // eq. 119: P(x, ω) − x = 0
             let mut left = Both::zeros();
-            left.fixed_rows_mut::<10>(0).copy_from(&((state - self.turn(speed, &state)?) / unit[0]));
+            left.fixed_rows_mut::<NUMBERS>(0).copy_from(&((state - self.turn(speed, &state)?) / unit[0]));
             let Ok(step) = all.solve(&left, UNHELD * all.singular_values[0]) else { return Ok(None) };
-            state += step.fixed_rows::<10>(0) * unit[0];
-            speed += step[10] * unit[1];
+            state += step.fixed_rows::<NUMBERS>(0) * unit[0];
+            speed += step[SPEED] * unit[1];
             let length = step.norm() * unit[0] / size;
             if length < FOUND || (length < ROUNDED && length > SLOW * before) {
                 // Where nothing holds the rotor a step is none, and the motion does not come back for all that.
@@ -265,9 +273,9 @@ impl Near {
     /// The equations of a motion that repeats, and what is held.
     pub fn matrix(&self, slopes: &Slopes, by_speed: &State, held: &Both) -> Square {
         let mut matrix = Square::zeros();
-        matrix.fixed_view_mut::<10, 10>(0, 0).copy_from(&(slopes - Slopes::identity()));
-        matrix.fixed_view_mut::<10, 1>(0, 10).copy_from(&(by_speed * (self.unit[1] / self.unit[0])));
-        matrix.set_row(10, &held.transpose());
+        matrix.fixed_view_mut::<NUMBERS, NUMBERS>(0, 0).copy_from(&(slopes - Slopes::identity()));
+        matrix.fixed_view_mut::<NUMBERS, 1>(0, SPEED).copy_from(&(by_speed * (self.unit[1] / self.unit[0])));
+        matrix.set_row(SPEED, &held.transpose());
         matrix
     }
 }

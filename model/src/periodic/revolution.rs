@@ -41,7 +41,7 @@ pub struct Rotating {
     /// Where it would stand without its unbalance; None of a body that is not symmetric.
     machine: Option<Machine>,
     /// √(Jt/m) \[m].
-    length: f64,
+    pub(super) length: f64,
     speed: Place,
 }
 
@@ -109,7 +109,7 @@ impl Rotating {
             state.fixed_rows_mut::<2>(6).copy_from(&steady.gamma);
             // ω = ω_φ t
             state.fixed_rows_mut::<2>(8).copy_from(&(steady.axis.yz() * speed.signum()));
-            steady.r - steady.axis * machine.centre()
+            steady.r - steady.axis * machine.centre
         });
         state.fixed_rows_mut::<3>(0).copy_from(&(place / self.length));
         state
@@ -192,10 +192,5 @@ impl Rotating {
     pub(super) fn slope_by_speed(&self, speed: f64, at: &State) -> Result<State, Obstacle> {
         let apart = SPEED_APART * speed.abs();
         Ok((self.turn(speed + apart, at)? - self.turn(speed - apart, at)?) / (2.0 * apart))
-    }
-
-    /// √(Jt/m), of which places count \[m].
-    pub(super) fn length(&self) -> f64 {
-        self.length
     }
 }

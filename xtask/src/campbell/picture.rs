@@ -12,8 +12,8 @@ const MOST_DAMPED: f64 = 0.5;
 
 fn colour(direction: Direction) -> RGBColor {
     match direction {
-        Direction::Forward => RGBColor(31, 119, 210),
-        Direction::Backward => RGBColor(220, 90, 30),
+        Direction::Forward => chart::BLUE,
+        Direction::Backward => chart::ORANGE,
         Direction::Plane => RGBColor(150, 110, 200),
         Direction::Axial => RGBColor(40, 160, 90),
         Direction::Creep => INK,

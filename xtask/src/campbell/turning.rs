@@ -21,9 +21,6 @@ const NARROWED: u32 = 20;
 /// More exponents than this beyond the fastest one that grows are not drawn \[1].
 const DAMPED: f64 = 3.0;
 
-const GROWS: RGBColor = RGBColor(220, 90, 30);
-const DECAYS: RGBColor = RGBColor(31, 119, 210);
-
 /// What was found, by speed, and where motions begin or cease to grow [rad/s].
 struct Turning {
     scene: Scene,
@@ -78,13 +75,8 @@ fn write(turning: &Turning) -> Result<()> {
         "thresholds": turning.thresholds,
         "modes": sheets::objects(rows.clone()),
     });
-    let json = serde_json::to_string_pretty(&json)? + "\n";
-    let files = [("campbell.md", &*table), ("campbell.csv", &sheets::csv(&rows)), ("campbell.json", &json)];
-    let folder = sheets::write(&format!("campbell/{}", turning.scene.name), files)?;
-    let picture = folder.join("campbell.svg");
-    std::fs::write(&picture, svg(turning)?)?;
-    println!("{table}\n{}", picture.display());
-    Ok(())
+    let folder = format!("campbell/{}", turning.scene.name);
+    sheets::leave(&folder, "campbell", &table, &rows, &json, &[("campbell.svg", svg(turning)?)]).map(drop)
 }
 
 /// The exponents that count once, the fastest growth first.
@@ -147,7 +139,7 @@ fn svg(turning: &Turning) -> Result<String> {
     let points = || turning.orbits.iter().flat_map(|orbit| exponents(orbit).into_iter().map(|one| (orbit.speed, one)));
     let most = points().map(|(_, one)| one.re).fold(1e-3, f64::max);
     let least = points().map(|(_, one)| one.re).fold(0.0, f64::min).max(-DAMPED * most);
-    let colour = |one: &Complex<f64>| if one.re > 1e-6 * most { GROWS } else { DECAYS };
+    let colour = |one: &Complex<f64>| if one.re > 1e-6 * most { chart::ORANGE } else { chart::BLUE };
     let top = points().map(|(_, one)| one.im).fold(1e-3, f64::max);
     chart::two(
         |above| {

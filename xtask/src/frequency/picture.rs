@@ -1,7 +1,6 @@
 //! The pictures: magnitude and phase over the frequency (Bode), and the answer in the complex plane (Nyquist).
 
-use super::decades::Decades;
-use super::degrees::Degrees;
+use super::axis::{decades, degrees};
 use super::{Found, Point};
 use crate::chart::{self, Area, Drawn, INK};
 use crate::numbers::rounded;
@@ -10,8 +9,8 @@ use nalgebra::ComplexField;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-const LINE: RGBColor = RGBColor(31, 119, 210);
-const MARK: RGBColor = RGBColor(220, 90, 30);
+const LINE: RGBColor = chart::BLUE;
+const MARK: RGBColor = chart::ORANGE;
 
 /// What is smaller than this part of the largest is left out \[1].
 const LEAST: f64 = 1e-8;
@@ -51,8 +50,8 @@ fn magnitudes(found: &Found, area: &Area) -> Drawn {
     // Whole decades, or there would be none with a number.
     let [from, to] =
         [libm::floor(libm::log10(least)), libm::ceil(libm::log10(1.01 * most))].map(|power| libm::pow(10.0, power));
-    let x = (Decades::of(frequencies(found)), FREQUENCY);
-    let y = (Decades::of(from..to), &*format!("magnitude [{}]", found.unit()));
+    let x = (decades(frequencies(found)), FREQUENCY);
+    let y = (decades(from..to), &*format!("magnitude [{}]", found.unit()));
     let mut axes = chart::axes_of(area, &found.between(), x, y)?;
     for part in line.split(|(_, size)| !(from..=to).contains(size)) {
         axes.draw_series(LineSeries::new(part.iter().copied(), LINE.stroke_width(2)))?;
@@ -64,8 +63,8 @@ fn magnitudes(found: &Found, area: &Area) -> Drawn {
 
 fn phases(found: &Found, area: &Area) -> Drawn {
     let line = unwrapped(&found.points);
-    let y = (Degrees::of(line.iter().map(|(_, phase)| *phase)), "phase [°]");
-    let mut axes = chart::axes_of(area, "", (Decades::of(frequencies(found)), FREQUENCY), y)?;
+    let y = (degrees(line.iter().map(|(_, phase)| *phase)), "phase [°]");
+    let mut axes = chart::axes_of(area, "", (decades(frequencies(found)), FREQUENCY), y)?;
     axes.draw_series(LineSeries::new(line, LINE.stroke_width(2)))?;
     Ok(())
 }

@@ -1,6 +1,5 @@
-//! At which frequencies one looks, and where the answer is largest.
+//! At which frequencies one looks.
 
-use super::{Found, Point};
 use anyhow::{Result, ensure};
 use split_rotor_model::linear::{Mode, Steady};
 
@@ -13,12 +12,6 @@ const SLOWEST: f64 = 1e-12;
 
 /// About a mode the curve in the complex plane is nearly a circle, of which so many points are shown.
 const OF_A_CIRCLE: u32 = 72;
-
-/// What is higher by no more than this part is level but for rounding \[1].
-const FLAT: f64 = 1e-9;
-
-/// Between two frequencies a peak is narrowed down so often: until rounding decides.
-const NARROWED: u32 = 60;
 
 /// So many frequencies [rad/s] from the first of these to the second, in equal ratios, and some about each mode between; where none are
 /// given, to beyond those of the modes.
@@ -61,34 +54,4 @@ fn circle(mode: &Mode) -> impl Iterator<Item = f64> {
     // 1/(iΩ − λ) runs round a circle by twice the angle α whose tangent is (Ω − Im λ)/|Re λ|.
     let angle = |n: u32| std::f64::consts::PI * (f64::from(n) / f64::from(OF_A_CIRCLE) - 0.5);
     (1..OF_A_CIRCLE).map(move |n| swing + decay * libm::tan(angle(n))).filter(|frequency| *frequency > 0.0)
-}
-
-/// Where the answer is larger than beside it, by the golden section between the frequencies that were looked at.
-pub fn peaks(found: &Found) -> Vec<Point> {
-    let is_peak = |three: &&[Point]| {
-        let [before, at, after] = [0, 1, 2].map(|n| three[n].size());
-        at > before * (1.0 + FLAT) && at >= after
-    };
-    found.points.windows(3).filter(is_peak).map(|three| narrowed(found, three)).collect()
-}
-
-fn narrowed(found: &Found, three: &[Point]) -> Point {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let (mut from, mut to, mut largest) = (three[0].frequency, three[2].frequency, three[1]);
-    for _ in 0..NARROWED {
-        if !largest.size().is_finite() {
-            break;
-        }
-        // The larger part beside the best is divided; the better one stays within, the other is an end.
-        let is_below = largest.frequency - from > to - largest.frequency;
-        let tried = found.at(if is_below { to - GOLDEN * (to - from) } else { from + GOLDEN * (to - from) });
-        let (better, worse) = if tried.size() > largest.size() { (tried, largest) } else { (largest, tried) };
-        if worse.frequency < better.frequency {
-            from = worse.frequency;
-        } else {
-            to = worse.frequency;
-        }
-        largest = better;
-    }
-    largest
 }

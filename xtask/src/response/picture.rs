@@ -8,8 +8,8 @@ use split_rotor_model::periodic::Orbit;
 use std::ops::Range;
 
 const COLOURS: [RGBColor; 6] = [
-    RGBColor(31, 119, 210),
-    RGBColor(220, 90, 30),
+    chart::BLUE,
+    chart::ORANGE,
     RGBColor(40, 160, 90),
     RGBColor(150, 110, 200),
     RGBColor(190, 150, 20),

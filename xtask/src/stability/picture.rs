@@ -6,7 +6,7 @@ use anyhow::Result;
 use plotters::prelude::*;
 
 /// What is unstable, and its border.
-const GROWS: RGBColor = RGBColor(220, 90, 30);
+const GROWS: RGBColor = chart::ORANGE;
 
 /// As SVG.
 pub fn svg(map: &Map) -> Result<String> {
