@@ -36,7 +36,7 @@ mod terminals;
 mod test;
 mod unpacked;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
 use std::path::PathBuf;
@@ -177,18 +177,23 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
-    /// Find where the machine begins to whirl by itself, against a parameter and the spin: table, SVG, CSV and JSON in
-    /// target/stability/SCENE
+    /// Find where the machine begins to whirl by itself, against one parameter and the spin, or the lowest such speed against two: table,
+    /// SVG, CSV and JSON in target/stability/SCENE
     Stability {
         /// The scene
         #[arg(default_value = "unstable_whirl")]
         scene: String,
-        #[arg(long, help = "The parameter, such as bearing[1].cyy", value_name = "PARAMETER")]
-        against: String,
+        #[arg(
+            long,
+            help = "The parameter, such as bearing[1].cyy; twice, each with its --values, for a map over two",
+            required = true,
+            value_name = "PARAMETER"
+        )]
+        against: Vec<String>,
         /// Its first and its last value, in the unit of the scene
         #[arg(long, required = true, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
         values: Vec<f64>,
-        /// How many values
+        /// How many values of each
         #[arg(long, default_value_t = 61)]
         count: u32,
         /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
@@ -249,8 +254,9 @@ fn dispatch(command: Command) -> Result<()> {
             response::response(&scene, speeds.as_deref(), steps, !linear)
         }
         Command::Stability { scene, against, values, count, speeds, steps } => {
-            let values = [values[0], values[1]];
-            let against = stability::Against { name: &against, values, count };
+            ensure!(against.len() == values.len() / 2, "--against: each parameter needs its own --values FROM TO");
+            let pairs = against.iter().zip(values.chunks(2)).map(|(name, ends)| (name, [ends[0], ends[1]]));
+            let against: Vec<_> = pairs.map(|(name, values)| stability::Against { name, values, count }).collect();
             stability::stability(&scene, &against, speeds.as_deref(), steps)
         }
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),

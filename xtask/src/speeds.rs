@@ -11,7 +11,7 @@ const HIGHER: f64 = 1.5;
 /// No rotor turns faster [rad/s].
 pub const HIGHEST: f64 = 1e9;
 
-/// So many speeds [rad/s] from the first of these to the second, and 0 where it lies between; where none are given, from 0 to beyond what the scene reaches.
+/// So many speeds [rad/s] from the first of these to the second, and 0 and the nodes of tables where they lie between; where none are given, from 0 to beyond what the scene reaches.
 pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
     let (from, to) = match ends {
@@ -22,12 +22,13 @@ pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, ste
         from.abs() <= HIGHEST && to.abs() <= HIGHEST && from < to,
         "--speeds {from} {to}: the second must be more than the first, both within ±{HIGHEST:e} rad/s"
     );
-    let mut speeds: Vec<_> = (0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1)).collect();
-    // Modes at ω and −ω are alike, and the lines of the speed's multiples bend at 0.
-    let after = speeds.partition_point(|speed| *speed < 0.0);
-    if after > 0 && speeds.get(after).is_some_and(|speed| *speed > 0.0) {
-        speeds.insert(after, 0.0);
-    }
+    let even = (0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1));
+    // Modes at ω and −ω are alike, the lines of the speed's multiples bend at 0, and coefficients bend at the nodes of their tables.
+    let bends = nodes(scene).flat_map(|node| [node, -node]).chain([0.0]);
+    let mut speeds: Vec<_> = even.chain(bends.filter(|bend| (from..to).contains(bend))).collect();
+    speeds.sort_by(f64::total_cmp);
+    // 0 and −0 are one speed.
+    speeds.dedup_by(|a, b| a == b);
     Ok(speeds)
 }
 
@@ -36,13 +37,19 @@ fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     let told = scenes::values(scene);
     let value = |name: &str| told(name).unwrap_or_default().abs();
     let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
-    let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
-    let nodes = nodes.map(|node| value(&node.name)).fold(0.0, f64::max);
-    let highest = imposed.max(nodes).max(value("start.omega.x")).max(value("motor.synchronous_speed"));
+    let highest =
+        imposed.max(nodes(scene).fold(0.0, f64::max)).max(value("start.omega.x")).max(value("motor.synchronous_speed"));
     if highest > 0.0 {
         return Ok(highest);
     }
     let modes = machine.map(|machine| machine.modes(0.0, None)).transpose()?.map_or_else(Vec::new, |(_, modes)| modes);
     let fastest = modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);
     Ok(if fastest > 0.0 { fastest } else { 1.0 })
+}
+
+/// The speeds [rad/s] of the nodes of its tables.
+fn nodes(scene: &Scene) -> impl Iterator<Item = f64> {
+    let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
+    let value = scenes::values(scene);
+    nodes.filter_map(move |node| value(&node.name))
 }

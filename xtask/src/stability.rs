@@ -1,6 +1,7 @@
-//! `stability`: where a machine begins to whirl by itself, against a parameter and the spin.
+//! `stability`: where a machine begins to whirl by itself, against one or two parameters and the spin.
 
 mod picture;
+mod plane;
 mod table;
 
 use crate::{scenes, sheets, speeds};
@@ -8,15 +9,13 @@ use anyhow::{Context, Result, ensure};
 use serde_json::json;
 use split_rotor_model::linear::{Campbell, Crossing, Machine};
 use split_rotor_model::scene::Scene;
-use split_rotor_model::variable::Role;
+use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::Variable;
 
-/// What the command found.
+/// What the command found against one parameter.
 struct Map {
     scene: Scene,
-    /// The parameter and its unit.
-    name: String,
-    unit: &'static str,
+    against: Axis,
     /// Speeds that were looked at [rad/s].
     speeds: Vec<f64>,
     /// By the parameter's value.
@@ -32,7 +31,28 @@ struct Column {
     thresholds: Vec<Crossing>,
 }
 
-impl Map {
+/// A parameter and its values.
+struct Axis {
+    name: String,
+    unit: &'static str,
+    place: Place,
+    values: Vec<f64>,
+}
+
+impl Axis {
+    /// `against` in this scene.
+    fn of(scene: &Scene, Against { name, values: [from, to], count }: &Against) -> Result<Self> {
+        ensure!(
+            from < to && from.is_finite() && to.is_finite(),
+            "--values {from} {to}: the second must be more than the first"
+        );
+        ensure!(*count >= 2, "--count {count}: at least 2 values are needed");
+        let variable = parameter(scene, name)?;
+        let value = |n: u32| from + (to - from) * f64::from(n) / f64::from(count - 1);
+        let values = (0..*count).map(value).collect();
+        Ok(Self { name: (*name).to_owned(), unit: variable.meta.unit.name, place: variable.place, values })
+    }
+
     /// Its name and unit, as a picture and a table have it.
     fn label(&self) -> String {
         format!("{} [{}]", self.name, if self.unit.is_empty() { "1" } else { self.unit })
@@ -46,50 +66,70 @@ pub struct Against<'a> {
     pub count: u32,
 }
 
-/// Finds the map of a scene against a parameter, between these speeds [rad/s], looked at so many.
-pub fn stability(scene: &str, against: &Against, ends: Option<&[f64]>, steps: u32) -> Result<()> {
+/// Finds the map of a scene against one parameter or two, between these speeds [rad/s], looked at so many.
+pub fn stability(scene: &str, against: &[Against], ends: Option<&[f64]>, steps: u32) -> Result<()> {
     let scene = scenes::find(scene)?;
-    let map = map(scene, against, ends, steps)?;
-    let (table, rows) = (table::table(&map), rows(&map));
-    let json = json!({
-        "scene": map.scene.name,
-        "title": map.scene.title,
-        "parameter": map.name,
-        "unit": map.unit,
-        "thresholds": sheets::objects(rows.clone()),
-    });
-    let folder = format!("stability/{}", map.scene.name);
-    sheets::leave(&folder, "stability", &table, &rows, &json, &[("stability.svg", picture::svg(&map)?)]).map(drop)
+    match against {
+        [one] => map(scene, one, ends, steps)?.leave(),
+        [one, other] => plane::plane(scene, [one, other], ends, steps)?.leave(),
+        _ => anyhow::bail!("--against: one parameter or two, each with its own --values FROM TO"),
+    }
+}
+
+impl Map {
+    fn leave(&self) -> Result<()> {
+        let (table, rows) = (table::table(self), rows(self));
+        let json = json!({
+            "scene": self.scene.name,
+            "title": self.scene.title,
+            "parameter": self.against.name,
+            "unit": self.against.unit,
+            "thresholds": sheets::objects(rows.clone()),
+        });
+        leave(&self.scene, &table, &rows, &json, picture::svg(self)?)
+    }
+}
+
+/// Table, rows, all of it and the picture.
+fn leave(scene: &Scene, table: &str, rows: &[sheets::Row], all: &serde_json::Value, svg: String) -> Result<()> {
+    let folder = format!("stability/{}", scene.name);
+    sheets::leave(&folder, "stability", table, rows, all, &[("stability.svg", svg)]).map(drop)
 }
 
 fn map(scene: Scene, against: &Against, ends: Option<&[f64]>, steps: u32) -> Result<Map> {
-    let Against { name, values: [from, to], count } = *against;
-    let file = scene.file.display().to_string();
-    ensure!(
-        from < to && from.is_finite() && to.is_finite(),
-        "--values {from} {to}: the second must be more than the first"
-    );
-    ensure!(count >= 2, "--count {count}: at least 2 values are needed");
-    let variable = parameter(&scene, name).with_context(|| file.clone())?;
-    let machine = |value: f64| {
-        let mut parameters = scene.parameters();
-        parameters.begin_with(variable.place, value);
-        Machine::of(&parameters).with_context(|| format!("{file}: {name} = {value:?}"))
-    };
-    let speeds = speeds::range(&scene, Some(&machine(from)?), ends, steps).with_context(|| file.clone())?;
-    let column = |n: u32| {
-        let value = from + (to - from) * f64::from(n) / f64::from(count - 1);
-        let machine = machine(value)?;
-        let here = || format!("{file}: {name} = {value:?}");
-        let campbell = Campbell::of(&machine, &speeds).with_context(here)?;
-        let points = || campbell.branches.iter().flat_map(|branch| &branch.points);
-        let grows = |speed: &f64| points().any(|point| point.speed == *speed && point.mode.grows());
-        let grows = speeds.iter().map(grows).collect();
-        Ok(Column { value, grows, thresholds: campbell.thresholds().with_context(here)? })
-    };
-    let columns = (0..count).map(column).collect::<Result<_>>()?;
-    let (name, unit) = (name.to_owned(), variable.meta.unit.name);
-    Ok(Map { name, unit, speeds, columns, scene })
+    let file = || scene.file.display().to_string();
+    let against = Axis::of(&scene, against).with_context(file)?;
+    let first = machine(&scene, &[(&against, against.values[0])])?;
+    let speeds = speeds::range(&scene, Some(&first), ends, steps).with_context(file)?;
+    let columns =
+        against.values.iter().map(|&value| column(&scene, &[(&against, value)], &speeds)).collect::<Result<_>>()?;
+    Ok(Map { against, speeds, columns, scene })
+}
+
+/// The scene's machine with these values.
+fn machine(scene: &Scene, with: &[(&Axis, f64)]) -> Result<Machine> {
+    let mut parameters = scene.parameters();
+    for (axis, value) in with {
+        parameters.begin_with(axis.place, *value);
+    }
+    Machine::of(&parameters).with_context(|| told(scene, with))
+}
+
+/// What it is that cannot be.
+fn told(scene: &Scene, with: &[(&Axis, f64)]) -> String {
+    let values: Vec<_> = with.iter().map(|(axis, value)| format!("{} = {value:?}", axis.name)).collect();
+    format!("{}: {}", scene.file.display(), values.join(", "))
+}
+
+/// Where the scene with these values, of which the first is the column's, is unstable.
+fn column(scene: &Scene, with: &[(&Axis, f64)], speeds: &[f64]) -> Result<Column> {
+    let here = || told(scene, with);
+    let machine = machine(scene, with)?;
+    let campbell = Campbell::of(&machine, speeds).with_context(here)?;
+    let points = || campbell.branches.iter().flat_map(|branch| &branch.points);
+    let grows = |speed: &f64| points().any(|point| point.speed == *speed && point.mode.grows());
+    let grows = speeds.iter().map(grows).collect();
+    Ok(Column { value: with[0].1, grows, thresholds: campbell.thresholds().with_context(here)? })
 }
 
 /// A parameter of the rotor or of its effects.
@@ -127,7 +167,7 @@ mod tests {
     const INNER: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = 2000.0\nc2 = 500.0\nd1 = 30.0\nd2 = 1.0\n\
                          [effects.rotating_damping]\nd = 10.0\n";
 
-    fn scene() -> Scene {
+    pub(super) fn scene() -> Scene {
         Scene::parse(Path::new("inner.toml"), INNER).expect("a scene")
     }
 

@@ -82,7 +82,8 @@ impl<E: Effects> Rotor<'_, E> {
         squares(change, [x, r, vx, v, along, across, by.gamma.norm_squared(), phi, work])
     }
 
-    /// [`System::roundings`]: a velocity is known no better than the place over the step allows.
+    /// [`System::roundings`]: a velocity is known no better than the place over the step allows,
+    /// a tilt no better than the way of the step.
     #[inline(always)]
     pub(super) fn roundings_of<const N: usize>(&self, y: &[f64; N], h: f64) -> Squares<N> {
         let at = Coordinates::from_slice(rigid(y));
@@ -91,9 +92,11 @@ impl<E: Effects> Rotor<'_, E> {
         // eq. 85: q² = |r|² + |γ|² Jt/m
         let q = r + gamma * (jt * self.frame.body.per_m);
         let turning = k + q * per_h * (jt * self.frame.body.m);
+        // eq. 85: |γ|² + (h |v⊥|)² m/Jt, what moments that cancel leave
+        let tilt = gamma + v * (h * h * self.frame.body.m * self.frame.body.per_jt);
         let [supplied, dissipated] = work(y);
         let work = supplied * supplied + dissipated * dissipated;
-        squares(y, [x, r, vx + x * per_h, v + q * per_h, turning, turning, gamma, at.phi * at.phi, work])
+        squares(y, [x, r, vx + x * per_h, v + q * per_h, turning, turning, tilt, at.phi * at.phi, work])
     }
 }
 

@@ -277,3 +277,25 @@ fn regress_an_exact_drift_does_not_pass_through_a_ring() {
         assert!(error < 300.0 * tolerance, "{tolerance:e}: {error:e}");
     }
 }
+
+/// A rotor that whirls on a ring, with one lever longer than the other by a last digit: its γ is rounding, and no step need follow it.
+#[test]
+fn regress_a_tilt_of_rounding_shortens_no_step() {
+    let steps = |lever: f64| {
+        let held = "kyy = 1e5, kzz = 1e5, cyy = 60.0, czz = 60.0";
+        let mut rotor = Named::started(&format!(
+            "rotor = {{ m = 5.0, Ja = 0.05, Jt = 0.08 }}\n\
+             start = {{ r_c.y = 4e-4, v_c.z = 0.112, omega.x = 280.0 }}\n[effects]\n\
+             bearing = [{{ position = -0.2, {held}, kxx = 1e5, cxx = 300.0 }}, {{ position = {lever:?}, {held} }}]\n\
+             unbalance = [{{ position = 0.0, mass = 1e-2, radius = 5e-2 }}]\n\
+             rub = [{{ position = 0.0, gap = 3e-4, stiffness = 4e5, radius = 0.05, v0 = 0.01 }}]"
+        ));
+        let reading = at(&mut rotor.simulation, 0.3);
+        let tilt = reading.motion.at.gamma.norm();
+        assert!((lever == 0.2) == (tilt == 0.0) && tilt < 1e-15, "{tilt:e}");
+        reading.cost.steps
+    };
+    let [even, odd] = [0.2, 0.2_f64.next_up()].map(steps);
+    // It was 40 times as many.
+    assert!(odd < 1.2 * even, "{odd} steps for {even}");
+}

@@ -13,7 +13,7 @@ pub fn svg(map: &Map) -> Result<String> {
     let [first, last] = [&map.columns[0], &map.columns[map.columns.len() - 1]].map(|column| column.value);
     let [slow, fast] = [map.speeds[0], map.speeds[map.speeds.len() - 1]];
     chart::square(&format!("{}: unstable where filled", map.scene.title), |area| {
-        let label = map.label();
+        let label = map.against.label();
         let mut axes = chart::axes_of(area, "", (first..last, &label), (slow..fast, "spin [rad/s]"))?;
         let half = 0.5 * (last - first) / (map.columns.len() - 1) as f64;
         for column in &map.columns {

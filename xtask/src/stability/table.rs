@@ -13,7 +13,7 @@ pub fn table(map: &Map) -> String {
     text += &format!("Balanced, drives off, the spin held; from {from} to {to} rad/s.\n\n");
     text += &format!(
         "| {} | a mode grows | threshold [rad/s] | [rpm] | whirl there [rad/s] |\n|--:|---|--:|--:|--:|\n",
-        map.label()
+        map.against.label()
     );
     for column in spread(map.columns.len(), SHOWN).map(|n| &map.columns[n]) {
         let value = rounded(column.value);
