@@ -11,6 +11,7 @@ mod integration;
 mod method;
 mod nominals;
 mod plan;
+pub(crate) mod rest;
 pub(crate) mod start;
 mod tangents;
 
@@ -470,7 +471,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     fn nominals_inside(&self) -> [f64; N] {
         let t = self.time().unwrap_or_default();
         let mut parameters = self.parameters.clone();
-        let start = Motion::<N>::at_start(&mut parameters, t);
+        let start = Motion::<N>::begins(&mut parameters, t).unwrap_or_else(|_| Motion::at_start(&mut parameters, t));
         Nominals::of(&parameters.effects, &start, t).each()
     }
 
@@ -483,7 +484,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// The start as the parameters make it, of which their effects hear, and what it shows. An error where it overflows.
     fn at_start(&self, parameters: &mut Parameters<E>, t: f64) -> Result<(Motion<N>, Instant<N>), Invalid> {
-        let mut start = Motion::at_start(parameters, t);
+        let mut start = Motion::begins(parameters, t)?;
         if self.integrator == Integrator::Host {
             start.unwrap_turns();
         }

@@ -47,6 +47,8 @@ pub struct Start {
     pub gamma: Vector2<f64>,
     /// Angular velocity ω [rad/s].
     pub omega: Vector3<f64>,
+    /// Whether the motion begins where what acts balances, sought from there.
+    pub at_rest: bool,
 }
 
 /// What an instant of the run shows.
@@ -197,6 +199,22 @@ const START: &[AlwaysRow] = &[
     parameter!(start.omega.x, &RADIAN_PER_SECOND, Some(0.0), ANY, "angular velocity at the start, x"),
     parameter!(start.omega.y, &RADIAN_PER_SECOND, Some(0.0), ANY, "angular velocity at the start, y"),
     parameter!(start.omega.z, &RADIAN_PER_SECOND, Some(0.0), ANY, "angular velocity at the start, z"),
+    Row {
+        meta: Meta {
+            kind: Kind::Boolean,
+            ..Meta::parameter(
+                "start.at_rest",
+                &ONE,
+                Some(0.0),
+                ANY,
+                "start where loads balance at the spin start.omega.x, sought from start.r_c and start.gamma",
+            )
+        },
+        access: Access::Parameter {
+            get: |setup| f64::from(setup.start.at_rest),
+            set: |setup, value| setup.start.at_rest = value != 0.0,
+        },
+    },
 ];
 
 const MOTION: &[AlwaysRow] = &[

@@ -1,27 +1,19 @@
 //! Where a balanced machine runs steadily, and its linear equations about that.
 
 use crate::body::Asymmetric;
-use crate::dual::Dual;
-use crate::effects::{All, Effects, MOST_INDICATORS};
-use crate::integrate::System;
-use crate::integrate::stiff::Differentiable;
+use crate::effects::{All, Effects};
 use crate::rotation::Tilt;
 use crate::rotor::Rotor;
 use crate::simulation::numbers_of_state;
+use crate::simulation::rest::{self, Balance, Rest, Spinning};
 use crate::simulation::start::Motion;
-use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
+use crate::state::{Coordinates, own, rigid};
 use crate::variables::Parameters;
 use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 use std::fmt;
 
 /// Numbers of the linear state: place, its rate, tilt, and the part of K across the axis, divided by their sizes.
 pub const STATES: usize = 10;
-
-/// Place (3) and tilt (2), which a steady state is sought in.
-const UNKNOWNS: usize = 5;
-
-/// Rates of v (3) and K (3), which must vanish there.
-const BALANCES: usize = 6;
 
 /// How many numbers the state of the nonlinear equations has.
 pub(super) const N: usize = numbers_of_state::<All>();
@@ -32,21 +24,8 @@ pub(super) const DRIVES: [&str; 3] = ["drive", "motor", "imposed_speed"];
 /// Its first three rows are the acceleration.
 const GRAVITY: &str = "gravity";
 
-/// What is out of balance goes onto the axis.
-const UNBALANCE: (&str, &str) = ("unbalance", "radius");
-
 /// Principal moments that differ by less than this are one \[1].
 const ROUNDING: f64 = 1e-12;
-
-/// Newton's method takes so many steps at most, each with a turn of the axis of at most so much \[rad].
-const MOST_STEPS: u32 = 60;
-const LONGEST: f64 = 0.3;
-
-/// Singular values below this part of the largest are those of directions in which nothing holds the rotor \[1].
-const UNHELD: f64 = 1e-12;
-
-/// What is left of the loads where they balance, over what they were \[1].
-const BALANCED: f64 = 1e-9;
 
 /// A machine with its drives off, and its unbalance put onto the axis.
 #[derive(Clone)]
@@ -148,21 +127,6 @@ impl fmt::Display for Obstacle {
 
 impl std::error::Error for Obstacle {}
 
-/// The equations at a state of rest but for the spin.
-struct Equations {
-    /// Rates of v over `length`, and of K over Jt but for its part along the axis [1/s²].
-    left: SVector<f64, BALANCES>,
-    /// Their derivatives by place over `length` and by tilt.
-    slopes: SMatrix<f64, BALANCES, UNKNOWNS>,
-    /// ∂f/∂y of all numbers of the state.
-    jacobian: [[f64; N]; N],
-    axis: Vector3<f64>,
-    /// ∂t/∂γ.
-    turning: Matrix3x2<f64>,
-    /// Moment about the axis [N·m].
-    moment: f64,
-}
-
 /// Switches off what drives the spin.
 pub(crate) fn stop_drives(parameters: &mut Parameters<All>) {
     parameters.effects.for_each(|block| {
@@ -176,13 +140,7 @@ pub(crate) fn stop_drives(parameters: &mut Parameters<All>) {
 pub fn balanced(parameters: &Parameters<All>) -> Parameters<All> {
     let mut parameters = parameters.clone();
     stop_drives(&mut parameters);
-    parameters.effects.for_each(|block| {
-        let kind = block.kind();
-        if kind.name == UNBALANCE.0 {
-            let is_radius = |row: &usize| (kind.meta)(*row).is_some_and(|meta| meta.name == UNBALANCE.1);
-            block.set_parameter((0..).find(is_radius).expect("it has one"), 0.0);
-        }
-    });
+    rest::balance(&mut parameters.effects);
     parameters
 }
 
@@ -220,37 +178,18 @@ impl Machine {
     pub fn steady(&self, speed: f64, near: Option<&Steady>) -> Result<Steady, Obstacle> {
         let (parameters, start) = self.spinning(speed);
         let rotor = start.frame.under(&parameters.effects);
-        let mut r = near.map_or(Coordinates::from_slice(rigid(&start.state)).r, |near| near.r);
-        let mut gamma = near.map_or(Vector2::zeros(), |near| near.gamma);
-        let (mut before, mut at_first) = (f64::INFINITY, None);
-        for _ in 0..MOST_STEPS {
-            let now = self.equations(&rotor, speed, r, gamma);
-            let all = now.slopes.svd(true, true);
-            let largest = all.singular_values[0];
-            let first = *at_first.get_or_insert(now.left.norm());
-            let Ok(step) = all.solve(&now.left, UNHELD * largest) else { break };
-            let size = step.norm();
-            // What rounding leaves shrinks no more.
-            if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) || size < 1e-15 {
-                let rounded = 1e-13 * largest * (1.0 + r.norm() / self.length);
-                if now.left.norm() > BALANCED * first + rounded {
-                    break;
-                }
-                if signs(&rotor, &self.state(&rotor, speed, r, gamma)) != signs(&rotor, &start.state) {
-                    return Err(Obstacle::Switches { speed });
-                }
-                let is_held = all.singular_values[UNKNOWNS - 1] > UNHELD * largest;
-                let (rate, matrix) = self.linear(&now);
-                let Equations { axis, turning, moment, .. } = now;
-                let attitude = Tilt::new(rotor.frame.chart, gamma).attitude(0.0);
-                return Ok(Steady { speed, r, gamma, axis, attitude, turning, torque: -moment, is_held, rate, matrix });
-            }
-            let share = if size > LONGEST { LONGEST / size } else { 1.0 };
-            r -= step.fixed_rows::<3>(0) * (share * self.length);
-            gamma -= step.fixed_rows::<2>(3) * share;
-            before = size;
+        let r = near.map_or(Coordinates::from_slice(rigid(&start.state)).r, |near| near.r);
+        let gamma = near.map_or(Vector2::zeros(), |near| near.gamma);
+        let spinning = self.spins(&rotor, speed);
+        let rest: Rest<N> = spinning.rest(r, gamma).ok_or(Obstacle::NoSteadyState { speed })?;
+        let Rest { r, gamma, is_held, balance } = rest;
+        if rest::sides::<_, N>(&rotor, &spinning.state(r, gamma)) != rest::sides(&rotor, &start.state) {
+            return Err(Obstacle::Switches { speed });
         }
-        Err(Obstacle::NoSteadyState { speed })
+        let (rate, matrix) = self.linear(&balance);
+        let Balance { axis, turning, moment, .. } = balance;
+        let attitude = Tilt::new(rotor.frame.chart, gamma).attitude(0.0);
+        Ok(Steady { speed, r, gamma, axis, attitude, turning, torque: -moment, is_held, rate, matrix })
     }
 
     /// What it is and where it starts at this speed [rad/s]: tables take their stretch from it, and axial springs their length from the
@@ -262,43 +201,13 @@ impl Machine {
         (parameters, start)
     }
 
-    /// The state of a rotor that spins about an axis at rest.
-    pub(super) fn state(&self, rotor: &Rotor<'_, All>, speed: f64, r: Vector3<f64>, gamma: Vector2<f64>) -> [f64; N] {
-        let mut state = [0.0; N];
-        let axis = Tilt::new(rotor.frame.chart, gamma).axis;
-        let k = axis * (self.about_axis * speed);
-        Coordinates { r, v: Vector3::zeros(), k, gamma, phi: 0.0 }.write(rigid_mut(&mut state));
-        state
-    }
-
-    fn equations(&self, rotor: &Rotor<'_, All>, speed: f64, r: Vector3<f64>, gamma: Vector2<f64>) -> Equations {
-        let state = self.state(rotor, speed, r, gamma);
-        let rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(0.0, &state)));
-        let jacobian = rotor.jacobian(0.0, &state);
-        let moving = Vector2::new(Dual::<2>::variable(gamma.x, 0), Dual::variable(gamma.y, 1));
-        let tilted = Tilt::new(rotor.frame.chart, moving).axis;
-        let (axis, turning) = (tilted.map(|t| t.re), Matrix3x2::from_fn(|row, column| tilted[row].eps[column]));
-        let (moment, inertia) = (rates.k.dot(&axis), self.across);
-        let across = rates.k - axis * moment;
-        let [by_place, by_tilt, by_k] = [0..3, GAMMA, 6..9].map(|of| Block { jacobian: &jacobian, of });
-        // K = Ja ω_φ t
-        let v_by_tilt = by_tilt.rates_of::<2>(3) + by_k.rates_of::<3>(3) * turning * (self.about_axis * speed);
-        let k_by_tilt = by_tilt.rates_of::<2>(6) + by_k.rates_of::<3>(6) * turning * (self.about_axis * speed);
-        let project = Matrix3::identity() - axis * axis.transpose();
-        // eq. 115: d(M − (M·t) t)
-        let turned = project * k_by_tilt - axis * (rates.k.transpose() * turning) - turning * moment;
-        let mut slopes = SMatrix::<f64, BALANCES, UNKNOWNS>::zeros();
-        slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&by_place.rates_of::<3>(3));
-        slopes.fixed_view_mut::<3, 2>(0, 3).copy_from(&(v_by_tilt / self.length));
-        slopes.fixed_view_mut::<3, 3>(3, 0).copy_from(&(project * by_place.rates_of::<3>(6) * (self.length / inertia)));
-        slopes.fixed_view_mut::<3, 2>(3, 3).copy_from(&(turned / inertia));
-        let (v, k) = (rates.v / self.length, across / inertia);
-        let left = SVector::from([v.x, v.y, v.z, k.x, k.y, k.z]);
-        Equations { left, slopes, jacobian, axis, turning, moment }
+    /// It, as it spins at this speed [rad/s].
+    pub(super) fn spins<'r>(&self, rotor: &'r Rotor<'r, All>, speed: f64) -> Spinning<'r, All> {
+        Spinning { rotor, about_axis: self.about_axis, speed }
     }
 
     /// The matrix of the linear equations over the rate, and that.
-    fn linear(&self, at: &Equations) -> (f64, SMatrix<f64, STATES, STATES>) {
+    fn linear(&self, at: &Balance<N>) -> (f64, SMatrix<f64, STATES, STATES>) {
         let across = across(&at.axis);
         // What the linear numbers are of the coordinates: r, v, K and γ.
         let mut all = SMatrix::<f64, 11, STATES>::zeros();
@@ -332,26 +241,6 @@ impl Machine {
         let [place, momentum] = [self.length, self.across * rate];
         let v = place * rate;
         SVector::from([place, place, place, v, v, v, 1.0, 1.0, momentum, momentum])
-    }
-}
-
-/// On which side each indicator is in this state.
-fn signs(rotor: &Rotor<'_, All>, state: &[f64; N]) -> [bool; MOST_INDICATORS] {
-    let mut all = [1.0; MOST_INDICATORS];
-    rotor.effects.indicators(&rotor.motion(0.0, state), &state[..own(N)], &mut all);
-    all.map(|indicator| indicator > 0.0)
-}
-
-/// The derivatives along some coordinates.
-struct Block<'a> {
-    jacobian: &'a [[f64; N]; N],
-    of: std::ops::Range<usize>,
-}
-
-impl Block<'_> {
-    /// Of three rates from the coordinate `first` on.
-    fn rates_of<const D: usize>(&self, first: usize) -> SMatrix<f64, 3, D> {
-        SMatrix::from_fn(|row, column| self.jacobian[own(N) + first + row][own(N) + self.of.start + column])
     }
 }
 

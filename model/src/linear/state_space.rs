@@ -171,7 +171,7 @@ impl Machine {
         let steady = self.steady(speed, near)?;
         let (parameters, start) = self.spinning(speed);
         let rotor: Rotor<'_, All> = start.frame.under(&parameters.effects);
-        let state = self.state(&rotor, speed, steady.r, steady.gamma);
+        let state = self.spins(&rotor, speed).state(steady.r, steady.gamma);
         let instant = Instant::new(rotor.motion(0.0, &state), state, &parameters.effects, 0.0, Cost::default());
         let standing = Standing { parameters: &parameters, instant };
         let across = across(&steady.axis);

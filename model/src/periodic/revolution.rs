@@ -123,7 +123,14 @@ impl Rotating {
         // eq. 6: ω·(e + t) = ω_φ (1 + e·t)
         let along = speed - across.dot(&axis.yz()) / (1.0 + axis.x);
         let omega = Vector3::new(along, across.x, across.y);
-        Start { r_c: place * self.length, v_c: velocity * (self.length * speed.abs()), phi: 0.0, gamma, omega }
+        Start {
+            r_c: place * self.length,
+            v_c: velocity * (self.length * speed.abs()),
+            phi: 0.0,
+            gamma,
+            omega,
+            at_rest: false,
+        }
     }
 
     fn state(&self, speed: f64, motion: &Kinematics<f64>) -> State {

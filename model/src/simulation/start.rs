@@ -2,7 +2,9 @@
 
 use super::events::Events;
 use super::nominals::Nominals;
+use super::rest;
 use crate::effects::Effects;
+use crate::error::Invalid;
 use crate::integrate::{Cost, Tolerance};
 use crate::rotation::{Angle, Chart, Tilt};
 use crate::rotor::Frame;
@@ -22,7 +24,19 @@ pub(crate) struct Motion<const N: usize> {
 }
 
 impl<const N: usize> Motion<N> {
-    /// The motion at the start, at time `t` \[s], of which the effects hear; the parameters were checked.
+    /// The motion with which a run begins at time `t` \[s]; the parameters were checked.
+    ///
+    /// # Errors
+    /// Where it is to begin at rest, and nothing balances what acts.
+    pub(super) fn begins<E: Effects>(parameters: &mut Parameters<E>, t: f64) -> Result<Self, Invalid> {
+        if !parameters.setup.start.at_rest {
+            return Ok(Self::at_start(parameters, t));
+        }
+        let rest = rest::start::<E, N>(parameters, t)?;
+        Ok(Self::elsewhere(parameters, &rest, t))
+    }
+
+    /// The motion at the start as it is given, at time `t` \[s], of which the effects hear; the parameters were checked.
     pub(crate) fn at_start<E: Effects>(parameters: &mut Parameters<E>, t: f64) -> Self {
         let (frame, mut state) = Self::placed(parameters, t);
         let motion = frame.under(&parameters.effects).motion(t, &state);

@@ -4,6 +4,7 @@ mod harness;
 
 mod arc;
 mod asymmetric;
+mod at_rest;
 mod auto;
 mod bearing;
 mod between_steps;

@@ -1,0 +1,105 @@
+//! A start at rest: where loads balance, in closed form, and that nothing moves from there but what is meant to.
+
+use crate::harness::named::Named;
+use crate::harness::{at, within};
+use split_rotor_model::simulation::Integrator;
+
+/// A rotor that two unlike bearings hold [N/m] against its weight, the first one along its axis too.
+const ROTOR: &str = "[rotor]\nm = 12.0\nJa = 0.05\nJt = 0.4\n[effects.gravity]\ng = { z = -9.81 }\n\
+    [[effects.bearing]]\nposition = -0.2\nkyy = 2e4\nkzz = 1e4\ncyy = 50.0\nczz = 50.0\nkxx = 1e5\ncxx = 100.0\n\
+    [[effects.bearing]]\nposition = 0.3\nkyy = 2e4\nkzz = 1.7e4\ncyy = 50.0\nczz = 50.0\n";
+
+fn start(rest: &str) -> String {
+    format!("{ROTOR}[start]\nat_rest = true\n{rest}\n")
+}
+
+/// z of c \[m] and t_z \[1] there: both equations are linear in them, however large the tilt.
+fn sag() -> [f64; 2] {
+    let (springs, weight) = ([(-0.2, 1e4), (0.3, 1.7e4)], 12.0 * 9.81);
+    // Σ k (z + p t_z) = −m g, Σ p k (z + p t_z) = 0
+    let [k, kp, kpp] = [0, 1, 2].map(|n| springs.iter().map(|(p, k): &(f64, f64)| k * p.powi(n)).sum::<f64>());
+    let determinant = k * kpp - kp * kp;
+    [-weight * kpp / determinant, weight * kp / determinant]
+}
+
+#[test]
+fn exact_it_starts_where_two_bearings_carry_its_weight() {
+    let [z, t_z] = sag();
+    for (spin, phi) in [(0.0, 0.0), (300.0, 1.0), (-1e4, 0.0)] {
+        let mut rotor = Named::started(&start(&format!("omega.x = {spin:?}\nphi = {phi:?}")));
+        for t in [0.0, 3.0] {
+            at(&mut rotor.simulation, t);
+            within("z", (rotor.get("r_c.z") - z).abs(), 1e-15);
+            within("t_z", (rotor.get("axis.z") - t_z).abs(), 1e-15);
+            within("y", rotor.get("r_c.y").abs(), 1e-15);
+            // The axial spring is as long as at the start that was given: x = p (1 − t_x).
+            let along = rotor.get("r_c.x") + 0.2 * (1.0 - rotor.get("axis.x"));
+            within("x", along.abs(), 1e-15);
+            within(
+                "the spin",
+                (rotor.get("omega_phi") / spin - 1.0).abs().min((rotor.get("omega_phi") - spin).abs()),
+                1e-14,
+            );
+            let [steps, turned] = [rotor.get("solver.steps"), rotor.get("phi") - phi - spin * t];
+            within("φ", turned.abs() / (1.0 + (spin * t).abs()), 1e-14);
+            assert!(steps < 100.0, "{steps} steps for a motion that rests");
+        }
+    }
+}
+
+#[test]
+fn exact_only_the_unbalance_moves_it() {
+    let unbalance = "[[effects.unbalance]]\nmass = 1e-3\nradius = 0.02\nposition = 0.05\n";
+    let mut rotor = Named::started(&format!("{}{unbalance}", start("omega.x = 50.0")));
+    // The mass on the axis, beside the rotor's own, pulls the rotor down by less than a µm more.
+    within("z", (rotor.get("r_c.z") - sag()[0]).abs(), 1e-6);
+    let mut farthest: f64 = 0.0;
+    for n in 1..=200 {
+        at(&mut rotor.simulation, f64::from(n) * 1e-2);
+        farthest = farthest.max(rotor.get("r_c.y").abs());
+    }
+    // A whirl of the order of m_u r/m = 1.7 µm, beside a sag of millimetres.
+    assert!((1e-7..1e-5).contains(&farthest), "{farthest:e} m");
+}
+
+#[test]
+fn it_rests_on_a_ring_where_the_bearings_give_way_so_far() {
+    let ring = "[[effects.rub]]\nposition = 0.0\ngap = 1e-3\nstiffness = 1e5\nradius = 0.05\nv0 = 0.01\n";
+    let mut rotor = Named::started(&format!("{}{ring}", start("")));
+    let z = rotor.get("r_c.z");
+    assert!(z < -1e-3 && z > sag()[0], "{z:e} m");
+    assert_eq!(rotor.get("rub[1].contact"), 1.0);
+    at(&mut rotor.simulation, 1.0);
+    within("it stays", (rotor.get("r_c.z") - z).abs(), 1e-15);
+}
+
+#[test]
+fn it_rests_under_an_imposed_speed_and_for_a_host_that_integrates() {
+    let imposed = "[effects.imposed_speed]\nw = 200.0\n";
+    let mut rotor = Named::started(&format!("{}{imposed}", start("")));
+    within("z", (rotor.get("r_c.z") - sag()[0]).abs(), 1e-15);
+    within("the spin", (rotor.get("omega_phi") / 200.0 - 1.0).abs(), 1e-15);
+    let mut hosted = Named::written_for(&start("omega.x = 30.0"), Integrator::Host);
+    hosted.start();
+    for rate in ["der(state.v.z)", "der(state.gamma.y)", "der(state.gamma.z)", "der(state.K.y)"] {
+        within(rate, hosted.get(rate).abs(), 1e-12);
+    }
+}
+
+#[test]
+fn what_cannot_rest_is_told() {
+    let refused = |text: &str| {
+        let mut rotor = Named::written(text);
+        rotor.simulation.start(0.0, None).expect_err("it cannot").to_string()
+    };
+    let falls = "[rotor]\nm = 1.0\nJa = 0.1\nJt = 0.1\n[effects.gravity]\ng = { z = -9.81 }\n[start]\nat_rest = true\n";
+    assert_eq!(
+        refused(falls),
+        "start.at_rest = true: nothing balances what acts on the rotor at 0 rad/s (a support or bearings must hold it where a load \
+         acts)"
+    );
+    assert_eq!(
+        refused(&start("v_c.y = 1.0")),
+        "start.at_rest = true: start.v_c, start.omega.y and start.omega.z must be 0, for only the spin is left"
+    );
+}
