@@ -39,6 +39,7 @@ mod unpacked;
 use anyhow::Result;
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
+use split_rotor_model::scene::SceneError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -221,7 +222,11 @@ fn main() -> ExitCode {
     match dispatch(Arguments::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            // A scene's errors say so themselves.
+            match error.downcast_ref::<SceneError>() {
+                Some(error) => eprintln!("{error}"),
+                None => eprintln!("error: {error:#}"),
+            }
             ExitCode::FAILURE
         }
     }

@@ -20,6 +20,8 @@ impl Effect for Gravity {
         parameter!("g.z", g.z, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along z"),
     ];
 
+    const WHERE_EMPTY: &'static [(&'static str, f64)] = &[("g.z", -9.81)];
+
     const COULD_WORK: bool = false;
 
     #[inline(always)]

@@ -38,6 +38,7 @@ mod power;
 mod random_scenes;
 mod rotation;
 mod rub;
+mod scene_errors;
 mod scenes;
 mod series;
 mod signal;
