@@ -5,6 +5,7 @@ mod experiment;
 mod moment;
 mod problem;
 mod reader;
+pub mod reference;
 mod similar;
 mod syntax;
 mod tables;

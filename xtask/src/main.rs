@@ -8,10 +8,12 @@ mod campbell;
 mod chart;
 mod copies;
 mod demo;
+mod describe;
 mod fmu;
 mod frequency;
 mod fuzz;
 mod hard_cases;
+mod known;
 mod licences;
 mod memcheck;
 mod numbers;
@@ -210,11 +212,14 @@ enum Command {
     },
     /// List the scenes and the effects that each calls for
     Scenes,
-    /// Print a scene's modelDescription.xml
+    /// Print every key that a scene knows, with its value, unit and meaning, as a scene
     Describe {
         /// The scene
         #[arg(default_value = "paper")]
         scene: String,
+        /// Instead its modelDescription.xml
+        #[arg(long)]
+        xml: bool,
     },
 }
 
@@ -261,6 +266,6 @@ fn dispatch(command: Command) -> Result<()> {
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
         Command::Scenes => scenes::list(),
-        Command::Describe { scene } => scenes::describe(&scene),
+        Command::Describe { scene, xml } => describe::describe(&scene, xml),
     }
 }

@@ -14,6 +14,8 @@ pub struct Gravity {
 }
 
 impl Effect for Gravity {
+    const LAW: &'static str = "F = m g at the mass centre of the whole";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!("g.x", g.x, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along x"),
         parameter!("g.y", g.y, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along y"),

@@ -36,7 +36,7 @@ pub(super) const KEYS: [Key; 4] = [
         name: "start",
         unit: &SECOND,
         default: "0",
-        bound: "a finite number",
+        bound: "",
         meaning: "start time",
         get: |experiment| experiment.start,
     },

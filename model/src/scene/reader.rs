@@ -513,17 +513,17 @@ fn brackets(unit: &Unit) -> String {
 }
 
 /// Whether the names of an unbalance begin so.
-fn is_unbalance(prefix: &str) -> bool {
+pub(super) fn is_unbalance(prefix: &str) -> bool {
     prefix.split('[').next() == Some(moment::EFFECT) && !prefix.contains('.')
 }
 
 /// The key of the section in the file: `effects.bearing[1]` of `bearing[1]`.
-fn in_file(place: Place, section: &str) -> String {
+pub(super) fn in_file(place: Place, section: &str) -> String {
     if place.block < Place::FIRST_EFFECT { section.to_owned() } else { format!("effects.{section}") }
 }
 
 /// What stands in the file above the keys of a section: `[effects.drag]`, `[[effects.bearing]]`.
-fn heading(section: &str) -> String {
+pub(super) fn heading(section: &str) -> String {
     match section.split_once('[') {
         Some((name, rest)) if rest.ends_with(']') => format!("[[{name}]]"),
         Some((name, rest)) => format!("[{name}{}]", rest.split_once(']').map_or("", |(_, within)| within)),
