@@ -14,7 +14,7 @@ fn main() {
     let file = std::env::var_os("SPLIT_ROTOR_SCENE").map_or("scenes/paper.toml".into(), PathBuf::from);
     println!("cargo::rerun-if-changed={}", file.display());
     match Scene::read(&file) {
-        Err(error) => println!("cargo::error={error}"),
+        Err(error) => error.to_string().lines().for_each(|line| println!("cargo::error={line}")),
         Ok(scene) => {
             tell_tests(&scene);
             let out = std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR");

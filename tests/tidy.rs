@@ -212,7 +212,7 @@ fn equation_labels_of_code_and_theory_match() {
 fn the_committed_xml_is_what_the_list_renders() {
     let scene = Scene::find("paper", &root().join("scenes")).unwrap();
     let committed = read(Path::new("modelDescription/modelDescription.xml"));
-    let remedy = "run `cargo xtask describe > modelDescription/modelDescription.xml`";
+    let remedy = "run `cargo xtask describe --xml > modelDescription/modelDescription.xml`";
     assert!(
         committed == xml::model_description(&scene),
         "modelDescription/modelDescription.xml is out of date: {remedy}"

@@ -86,6 +86,12 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
 
+    /// Its law in one line, for the reference of scenes.
+    const LAW: &'static str = "";
+
+    /// What some of its variables are where a scene calls for it and gives none.
+    const WHERE_EMPTY: &'static [(&'static str, f64)] = &[];
+
     /// Adds its share to the mass, mass centre and inertia of the body.
     fn shape(&self, _body: &mut Shape) {}
 
@@ -233,6 +239,10 @@ pub struct Info {
     pub type_path: &'static str,
     /// Its variables.
     pub metas: fn() -> Vec<Meta>,
+    /// Its law in one line.
+    pub law: &'static str,
+    /// What some of its variables are where a scene calls for it and gives none.
+    pub where_empty: &'static [(&'static str, f64)],
     /// Whether it can lose energy or be supplied with it.
     pub could_work: bool,
     /// Whether it can impose a speed.
@@ -324,6 +334,8 @@ macro_rules! catalogue {
             terminal: <$module::$type as Effect>::TERMINAL,
             type_path: concat!("split_rotor_model::effects::", stringify!($module), "::", stringify!($type)),
             metas: || <catalogue!(@largest $module $type $($nodes)?)>::ROWS.iter().map(|row| row.meta).collect(),
+            law: <$module::$type as Effect>::LAW,
+            where_empty: <$module::$type as Effect>::WHERE_EMPTY,
             could_work: <$module::$type as Effect>::COULD_WORK,
             imposes: <$module::$type as Effect>::IMPOSES,
             indicators: <$module::$type as Effect>::INDICATORS,

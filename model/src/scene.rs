@@ -1,14 +1,25 @@
-//! A scene: which effects, which values, which method. Read from TOML and checked, so that what is wrong is told with
+//! A scene: which effects, which values, which method. Read from TOML and checked, so that all that is wrong is told with
 //! file, line, key, value and what would be right.
 
+mod experiment;
+mod moment;
+mod problem;
+mod reader;
+pub mod reference;
+mod similar;
+mod syntax;
 mod tables;
-mod toml_reader;
+mod units;
+
+pub use experiment::Experiment;
+pub use problem::{Problem, SceneError};
+pub use similar::did_you_mean;
 
 use crate::effects::{All, Effects, Info};
+use crate::error::Invalid;
 use crate::variable::Place;
 use crate::variables::{Parameters, Variable};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::{Path, PathBuf};
 
 /// A scene that can be simulated.
@@ -32,42 +43,6 @@ pub struct Scene {
     pub experiment: Experiment,
 }
 
-/// The default experiment of a scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Experiment {
-    /// Start time \[s].
-    pub start: f64,
-    /// Stop time \[s].
-    pub stop: f64,
-    /// Communication step \[s].
-    pub step: f64,
-    /// Relative tolerance \[1].
-    pub tolerance: f64,
-}
-
-/// Why a scene cannot be simulated.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SceneError {
-    /// The file.
-    pub file: PathBuf,
-    /// The line, from 1, where one is to blame.
-    pub line: Option<usize>,
-    /// What is wrong, and what would be right.
-    pub message: String,
-}
-
-impl fmt::Display for SceneError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}", self.file.display())?;
-        if let Some(line) = self.line {
-            write!(f, ", line {line}")?;
-        }
-        write!(f, ": {}", self.message)
-    }
-}
-
-impl std::error::Error for SceneError {}
-
 impl Scene {
     /// The scene that a user means: a path to a TOML file, or a name in `folder`.
     pub fn find(name_or_path: &str, folder: &Path) -> Result<Self, SceneError> {
@@ -76,15 +51,19 @@ impl Scene {
         if file.is_file() {
             return Self::read(&file);
         }
-        let message = if file.is_dir() {
-            "is a folder: a scene is a TOML file".into()
+        let error = |wrong: &str, right: &str| SceneError::of_file(&file, wrong, right);
+        Err(if file.is_dir() {
+            error("this is a folder", "a scene is a TOML file")
         } else if is_path {
-            "there is no such file".into()
+            error("there is no such file", "")
         } else {
-            let names = Self::names(folder).join(", ");
-            format!("there is no such scene: give a path to a TOML file, or one of the names {names}")
-        };
-        Err(SceneError { file, line: None, message })
+            let names = Self::names(folder);
+            let meant = did_you_mean(name_or_path, names.iter().map(String::as_str));
+            let right = meant.unwrap_or_else(|| "give a path to a TOML file, or the name of a scene".into());
+            let mut error = error(&format!("there is no scene `{name_or_path}`"), &right);
+            error.problems[0].known = format!("the scenes are {}", names.join(", "));
+            error
+        })
     }
 
     /// The names of the scenes in a folder, sorted.
@@ -98,39 +77,57 @@ impl Scene {
 
     /// The scene in this file.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(file).map_err(|error| SceneError {
-            file: file.into(),
-            line: None,
-            message: format!("cannot be read: {error}"),
-        })?;
+        let text = std::fs::read_to_string(file);
+        let text = text.map_err(|error| SceneError::of_file(file, format!("it cannot be read: {error}"), ""))?;
         Self::parse(file, &text)
     }
 
     /// The scene in this text; `file` names it.
     pub fn parse(file: &Path, text: &str) -> Result<Self, SceneError> {
-        let file_error = |line, message| SceneError { file: file.into(), line, message };
-        if !is_one_line(&name_of(file)) {
-            let message = "cannot be the name of a model: a file of a scene has no control characters in its name";
-            return Err(file_error(None, message.into()));
+        let name = name_of(file);
+        if !is_one_line(&name) {
+            let right = "the file of a scene has no control characters in its name";
+            return Err(SceneError::of_file(file, "this cannot be the name of a model", right));
         }
-        let found = toml_reader::read(text).map_err(|(line, message)| file_error(line, message))?;
+        let error = |problems| SceneError { file: file.into(), text: text.to_owned(), problems };
+        let found = reader::read(text).map_err(error)?;
         let scene = Self {
             file: file.into(),
-            name: name_of(file),
-            title: found.title.unwrap_or_else(|| name_of(file)),
+            title: found.title.unwrap_or_else(|| name.clone()),
+            name,
             general: found.general,
             effects: found.effects,
             variables: found.variables,
             starts: found.starts,
             experiment: found.experiment,
         };
-        scene.parameters().check().map_err(|invalid| {
+        let place = |invalid: &Invalid| {
             // A bound on several components, such as |start.gamma|, or on a table is shown at the first that the file names.
             let name = invalid.variable.trim_matches('|').split(' ').next().unwrap_or_default();
-            let line = found.lines.iter().find(|(key, _)| key.starts_with(name)).map(|(_, line)| *line);
-            file_error(line, invalid.to_string())
-        })?;
-        Ok(scene)
+            found.places.iter().find(|(key, _)| key.starts_with(name)).map(|(_, place)| place.clone())
+        };
+        let mut problems: Vec<_> = scene.invalid().iter().map(|one| Problem::invalid(place(one), one)).collect();
+        problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
+        if problems.is_empty() { Ok(scene) } else { Err(error(problems)) }
+    }
+
+    /// What does not go together: the first of all, and what is wrong in each effect.
+    fn invalid(&self) -> Vec<Invalid> {
+        let parameters = self.parameters();
+        let mut invalid: Vec<_> = parameters.check().err().into_iter().collect();
+        if !invalid.is_empty() {
+            for block in self.effects.iter().map(|(info, index)| Place::effect_block(info.number, *index)) {
+                let mut alone = Parameters::<All>::default();
+                let is_on = !self.general || self.starts[&Place::switch(block).value_reference()] != 0.0;
+                if is_on {
+                    alone.effects.switch_on(block);
+                }
+                let own = self.starts.iter().filter(|(reference, _)| Place::of(**reference).row != Place::SWITCH);
+                own.for_each(|(reference, value)| _ = alone.begin_with(Place::of(*reference), *value));
+                invalid.extend(alone.effects.check().err().filter(|one| !invalid.contains(one)));
+            }
+        }
+        invalid
     }
 
     /// The scene's parameters, over the list of all effects.

@@ -50,7 +50,7 @@ def test_exact_fmpy_finds_no_problem(fmu):
 
 
 def test_exact_package_is_what_describe_prints(fmu, xtask):
-    described = xtask("describe", fmu.scene)
+    described = xtask("describe", "--xml", fmu.scene)
     assert described.returncode == 0, described.stderr
     packed = (fmu.directory / "modelDescription.xml").read_text(encoding="utf-8")
     assert packed == described.stdout, f"out of date: run `cargo xtask package {fmu.scene}`"

@@ -28,7 +28,7 @@ def guid(xtask, tmp_path):
     def of(text):
         scene = tmp_path / "paper.toml"
         scene.write_text(text, encoding="utf-8")
-        described = xtask("describe", scene)
+        described = xtask("describe", "--xml", scene)
         assert described.returncode == 0, described.stderr
         return re.search('guid="([^"]+)"', described.stdout)[1]
 

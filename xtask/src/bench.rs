@@ -10,7 +10,7 @@ mod spending;
 mod times;
 
 use crate::package::UNPACKED;
-use crate::paths;
+use crate::{known, paths};
 use crate::run::cargo;
 use anyhow::{Result, ensure};
 use split_rotor_model::scene::Scene;
@@ -37,7 +37,8 @@ pub fn bench(part: &str, seed: Option<u64>) -> Result<()> {
     let names = tables.map(|(name, _)| name);
     ensure!(
         names.iter().any(|name| name.contains(part)),
-        "no table's name holds {part:?}: there are {}",
+        "no table's name holds {part:?}{}: there are {}",
+        known::meant(part, names),
         names.join(", ")
     );
     for (name, print) in tables.iter().filter(|(name, _)| name.contains(part)) {

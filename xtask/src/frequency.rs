@@ -5,7 +5,7 @@ mod picture;
 mod sweep;
 mod table;
 
-use crate::{peaks, scenes, sheets, state_space};
+use crate::{known, peaks, scenes, sheets, state_space};
 use anyhow::{Context, Result, ensure};
 use nalgebra::{Complex, ComplexField};
 use serde_json::json;
@@ -95,7 +95,10 @@ fn number(option: &str, name: &str, of: &[Quantity], kind: &str) -> Result<usize
         true => format!(
             "{option} {name}: the scene has no {kind} that acts while the spin is held: call for an [[effects.port]]"
         ),
-        false => format!("{option} {name}: no such {kind}; it can be {}", known()),
+        false => {
+            let meant = known::meant(name, of.iter().map(|one| &*one.name));
+            format!("{option} {name}: no such {kind}{meant}; it can be {}", known())
+        }
     })
 }
 

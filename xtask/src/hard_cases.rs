@@ -22,7 +22,7 @@ mod top;
 mod whirl;
 mod whirling;
 
-use crate::{accuracy, package};
+use crate::{accuracy, known, package};
 use anyhow::{Result, bail, ensure};
 use bench::{Bench, Stages};
 use case::Case;
@@ -44,6 +44,7 @@ pub struct Extent {
 
 /// Packages the scenes that the gallery needs and runs it.
 pub fn hard_cases(extent: &Extent) -> Result<()> {
+    chosen(extent)?;
     package::package(&scenes().map(str::to_owned), None)?;
     run(extent)
 }
@@ -56,14 +57,8 @@ fn scenes() -> [&'static str; 7] {
 
 /// Runs the gallery with the FMUs that were packaged last; an error where a bound is broken.
 pub fn run(extent: &Extent) -> Result<()> {
+    let cases = chosen(extent)?;
     let stages = Stages::load(&scenes())?;
-    let mut cases = gallery(extent.whole);
-    cases.retain(|case| extent.part.as_ref().is_none_or(|part| case.name.contains(part)));
-    if extent.longer {
-        let shortened: Vec<_> = gallery(false).into_iter().map(|case| case.name).collect();
-        cases.retain(|case| !shortened.contains(&case.name));
-    }
-    ensure!(!cases.is_empty(), "no case is called {:?}", extent.part);
     let rows = measure(&stages, &cases, extent.mutants)?;
     files::write(&rows, extent)?;
     let broken: Vec<_> = rows.iter().filter_map(Row::complaint).collect();
@@ -71,6 +66,23 @@ pub fn run(extent: &Extent) -> Result<()> {
         bail!("{} of {} rows:\n{}", broken.len(), rows.len(), broken.join("\n"));
     }
     Ok(())
+}
+
+/// The cases that are to run; an error where there are none.
+fn chosen(extent: &Extent) -> Result<Vec<Case>> {
+    let mut cases = gallery(extent.whole);
+    let names: Vec<_> = cases.iter().map(|case| case.name.clone()).collect();
+    cases.retain(|case| extent.part.as_ref().is_none_or(|part| case.name.contains(part)));
+    if let (true, Some(part)) = (cases.is_empty(), &extent.part) {
+        let meant = known::meant(part, names.iter().map(String::as_str));
+        bail!("no case's name holds {part:?}{meant}: there are\n  {}", names.join("\n  "));
+    }
+    if extent.longer {
+        let shortened: Vec<_> = gallery(false).into_iter().map(|case| case.name).collect();
+        cases.retain(|case| !shortened.contains(&case.name));
+    }
+    ensure!(!cases.is_empty(), "no case is longer in full");
+    Ok(cases)
 }
 
 /// All cases; the long ones in full, or shortened.

@@ -8,10 +8,12 @@ mod campbell;
 mod chart;
 mod copies;
 mod demo;
+mod describe;
 mod fmu;
 mod frequency;
 mod fuzz;
 mod hard_cases;
+mod known;
 mod licences;
 mod memcheck;
 mod numbers;
@@ -39,6 +41,7 @@ mod unpacked;
 use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
+use split_rotor_model::scene::SceneError;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -214,11 +217,14 @@ enum Command {
     },
     /// List the scenes and the effects that each calls for
     Scenes,
-    /// Print a scene's modelDescription.xml
+    /// Print every key that a scene knows, with its value, unit and meaning, as a scene
     Describe {
         /// The scene
         #[arg(default_value = "paper")]
         scene: String,
+        /// Instead its modelDescription.xml
+        #[arg(long)]
+        xml: bool,
     },
 }
 
@@ -226,7 +232,11 @@ fn main() -> ExitCode {
     match dispatch(Arguments::parse().command) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error:#}");
+            // A scene's errors say so themselves.
+            match error.downcast_ref::<SceneError>() {
+                Some(error) => eprintln!("{error}"),
+                None => eprintln!("error: {error:#}"),
+            }
             ExitCode::FAILURE
         }
     }
@@ -262,6 +272,6 @@ fn dispatch(command: Command) -> Result<()> {
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
         Command::Scenes => scenes::list(),
-        Command::Describe { scene } => scenes::describe(&scene),
+        Command::Describe { scene, xml } => describe::describe(&scene, xml),
     }
 }

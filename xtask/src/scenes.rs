@@ -1,4 +1,4 @@
-//! `scenes` and `describe`: what scenes there are and what they hold.
+//! `scenes`: what scenes there are and what they hold.
 
 use crate::paths;
 use anyhow::Result;
@@ -7,7 +7,6 @@ use split_rotor_model::scene::Scene;
 use split_rotor_model::simulation::Any;
 use split_rotor_model::variable::Place;
 use split_rotor_model::variables::{Variable, numbers};
-use split_rotor_model::xml;
 
 /// The scene that the user means.
 pub fn find(name_or_path: &str) -> Result<Scene> {
@@ -41,11 +40,5 @@ pub fn list() -> Result<()> {
         let effects = if effects.is_empty() { "no effects".into() } else { effects.join(", ") };
         println!("{:width$}  {}  [{effects}]", scene.name, scene.title);
     }
-    Ok(())
-}
-
-/// Prints a scene's modelDescription.xml.
-pub fn describe(scene: &str) -> Result<()> {
-    print!("{}", xml::model_description(&find(scene)?));
     Ok(())
 }

@@ -4,7 +4,7 @@ mod picture;
 mod plane;
 mod table;
 
-use crate::{scenes, sheets, speeds};
+use crate::{known, scenes, sheets, speeds};
 use anyhow::{Context, Result, ensure};
 use serde_json::json;
 use split_rotor_model::linear::{Campbell, Crossing, Machine};
@@ -141,7 +141,8 @@ fn parameter<'s>(scene: &'s Scene, name: &str) -> Result<&'s Variable> {
     let known = || scene.variables.iter().filter(is_number);
     known().find(|variable| variable.name == name).with_context(|| {
         let names: Vec<_> = known().map(|variable| &*variable.name).collect();
-        format!("--against {name}: no such parameter; it can be {}", names.join(", "))
+        let meant = known::meant(name, names.iter().copied());
+        format!("--against {name}: no such parameter{meant}; it can be {}", names.join(", "))
     })
 }
 

@@ -2,7 +2,7 @@
 
 use crate::hard_cases::{self, Extent};
 use crate::run::{cargo, run};
-use crate::{accuracy, bench, c_host, copies, fuzz, memcheck, package, paths, python, ross, sanitize};
+use crate::{accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize};
 use anyhow::{Result, bail, ensure};
 use split_rotor_model::scene::Scene;
 use std::time::Instant;
@@ -44,7 +44,8 @@ pub fn test(part: &str, long: bool) -> Result<()> {
     // Nothing run would pass for nothing wrong.
     ensure!(
         !jobs.is_empty(),
-        "no job's name holds {part:?}: there are{}\nand with --long also{}",
+        "no job's name holds {part:?}{}: there are{}\nand with --long also{}",
+        known::meant(part, SHORT.iter().chain(&LONG).map(|(name, _)| *name)),
         names(&SHORT),
         names(&LONG)
     );

@@ -15,6 +15,8 @@ pub struct Asymmetry {
 }
 
 impl Effect for Asymmetry {
+    const LAW: &'static str = "Jt about the axis of the body that is y at φ = 0, Jt2 about that which is z; ω = J⁻¹ K";
+
     const ROWS: &'static [Row<Self>] = &[parameter!(
         Jt2,
         &KILOGRAM_METRE_SQUARED,

@@ -270,6 +270,9 @@ impl<const NODES: usize> Bearing<NODES> {
 }
 
 impl<const NODES: usize> Effect for Bearing<NODES> {
+    const LAW: &'static str =
+        "at the station, q = (y, z): F = −K q − C dq/dt, F_x = −kxx x − cxx dx/dt, M = −kt γ − ct t×dt/dt";
+
     const ROWS: &'static [Row<Self>] = Self::ALL.split_at(UNTABLED + OF_NODE * NODES).0;
 
     // A node is passed.

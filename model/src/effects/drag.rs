@@ -27,6 +27,8 @@ impl Drag {
 }
 
 impl Effect for Drag {
+    const LAW: &'static str = "M = −(linear + quadratic |ω_a|) ω_a t, ω_a = ω·t";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!(
             linear,

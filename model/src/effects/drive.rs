@@ -14,6 +14,9 @@ pub struct Drive {
 }
 
 impl Effect for Drive {
+    const LAW: &'static str =
+        "M = τ n, n = (e + t)/(1 + e·t): a torque that a constant-velocity joint passes on, of power τ ω_φ";
+
     const ROWS: &'static [Row<Self>] = &[
         input!(tau, &NEWTON_METRE, 0.0, "torque of the drive on the rotor, passed on by a constant-velocity joint"),
         output!("phi", &RADIAN, "angle of the drive, the axial angle of the rotor", |_, m| m.phi()),

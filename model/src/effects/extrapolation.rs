@@ -79,6 +79,8 @@ macro_rules! whole {
 }
 
 impl Effect for Extrapolation {
+    const LAW: &'static str = "inputs go on through a step as the polynomial through their last values";
+
     const ROWS: &'static [Row<Self>] = &[
         whole!(
             order,

@@ -14,11 +14,15 @@ pub struct Gravity {
 }
 
 impl Effect for Gravity {
+    const LAW: &'static str = "F = m g at the mass centre of the whole";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!("g.x", g.x, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along x"),
         parameter!("g.y", g.y, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along y"),
         parameter!("g.z", g.z, &METRE_PER_SECOND_SQUARED, Some(0.0), Bound::Finite, "acceleration of gravity along z"),
     ];
+
+    const WHERE_EMPTY: &'static [(&'static str, f64)] = &[("g.z", -9.81)];
 
     const COULD_WORK: bool = false;
 

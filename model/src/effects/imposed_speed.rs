@@ -101,6 +101,8 @@ impl ImposedSpeed {
 }
 
 impl Effect for ImposedSpeed {
+    const LAW: &'static str = "ω_φ = w, which goes on with the rate a; tau is the torque that this takes";
+
     const ROWS: &'static [Row<Self>] = &[
         input!(w, &RADIAN_PER_SECOND, 0.0, "axial rate that the shaft imposes"),
         input!(

@@ -56,6 +56,8 @@ impl Motor {
 }
 
 impl Effect for Motor {
+    const LAW: &'static str = "M = τ n, time_constant dτ/dt = stall_torque (command − ω_φ/synchronous_speed) − τ";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!(stall_torque, &NEWTON_METRE, Some(0.0), Bound::NotNegative, "torque at rest, at full command"),
         parameter!(

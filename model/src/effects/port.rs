@@ -27,6 +27,8 @@ impl Port {
 }
 
 impl Effect for Port {
+    const LAW: &'static str = "the force f at a station and the moment m, from outside";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
         input!(f.x, &NEWTON, 0.0, "force on the rotor at the station, x"),

@@ -12,6 +12,8 @@ pub struct Probe {
 }
 
 impl Effect for Probe {
+    const LAW: &'static str = "place and velocity of a station; no load";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
         output!("r.y", &METRE, "position of the station, y", |p, m| m.station(p.position).y),

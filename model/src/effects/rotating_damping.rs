@@ -26,6 +26,9 @@ impl RotatingDamping {
 }
 
 impl Effect for RotatingDamping {
+    const LAW: &'static str =
+        "at the station, q = (y, z): F = −d (dq/dt − Ω e×q), Ω = e·ω, and the couple −e·(q×F) along e";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!(
             d,

@@ -50,6 +50,8 @@ impl Support {
 }
 
 impl Effect for Support {
+    const LAW: &'static str = "at a = c − l t: F = −c1 r_a − d1 v_a, M = −c2 γ − d2 t×dt/dt";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!(c1, &NEWTON_PER_METRE, Some(0.0), Bound::NotNegative, "stiffness against displacement of a"),
         parameter!(c2, &NEWTON_METRE_PER_RADIAN, Some(0.0), Bound::NotNegative, "stiffness against tilt"),

@@ -20,6 +20,9 @@ pub struct Unbalance {
 }
 
 impl Effect for Unbalance {
+    const LAW: &'static str =
+        "a point mass at s = (position, radius cos(angle), radius sin(angle)) in the axes of the body";
+
     const ROWS: &'static [Row<Self>] = &[
         parameter!(mass, &KILOGRAM, Some(0.0), Bound::NotNegative, "point mass on the rotor"),
         parameter!(radius, &METRE, None, Bound::NotNegative, "distance of the point mass from the axis"),

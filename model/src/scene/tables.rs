@@ -1,8 +1,9 @@
 //! Tables of a scene: arrays, each of a column, as long as that of the speeds.
 
-use super::toml_reader::Wrong;
+use super::problem::Problem;
 use crate::effects::table::MOST_NODES;
 use crate::variables::Variable;
+use std::ops::Range;
 
 /// The column that says where the nodes are.
 const SPEED: &str = "speed";
@@ -19,41 +20,48 @@ struct Column {
     in_file: String,
     /// How many numbers it has.
     length: usize,
-    line: usize,
+    place: Range<usize>,
 }
 
 impl Columns {
-    /// One more, of which this is the first number, as long as the file has it.
-    pub(super) fn add(&mut self, first: &Variable, in_file: String, length: usize, line: usize) -> Result<(), Wrong> {
-        if !(1..=MOST_NODES).contains(&length) {
-            return Err((Some(line), format!("{in_file} must have from 1 to {MOST_NODES} numbers, not {length}")));
-        }
+    /// One more, of which this is the first number, as long as the file has it; what is wrong with that.
+    pub(super) fn add(&mut self, first: &Variable, in_file: String, length: usize, place: Range<usize>) -> Option<Problem> {
         let (name, _) = first.meta.node().expect("it stands in a table");
-        self.0.push(Column { block: first.place.block, name, in_file, length, line });
-        Ok(())
+        let is_wrong = !(1..=MOST_NODES).contains(&length);
+        let wrong = is_wrong.then(|| {
+            let right = format!("it must be from 1 to {MOST_NODES} numbers long");
+            Problem::at(place.clone(), format!("{in_file} is {length} long"), right)
+        });
+        self.0.push(Column { block: first.place.block, name, in_file, length, place });
+        wrong
     }
 
-    /// All columns of a table are as long as that of its speeds.
-    pub(super) fn check(&self) -> Result<(), Wrong> {
-        self.0.iter().try_for_each(|column| {
-            let Column { in_file, length, .. } = column;
-            let message = match self.nodes(column.block) {
-                nodes if nodes == *length => return Ok(()),
-                0 => format!("{in_file} is a table: give the speeds of its nodes in rad/s as `{SPEED} = [...]`"),
-                nodes => format!("{in_file} must have as many numbers as {SPEED}, {nodes}, not {length}"),
-            };
-            Err((Some(column.line), message))
+    /// The columns that are not as long as that of the speeds of their table.
+    pub(super) fn problems(&self) -> impl Iterator<Item = Problem> {
+        self.0.iter().filter_map(|column| {
+            let Column { in_file, length, place, .. } = column;
+            let tell = |wrong: String, right: String| Some(Problem::at(place.clone(), wrong, right));
+            match self.speeds(column.block) {
+                None => tell(
+                    format!("{in_file} is a table without speeds"),
+                    format!("give the speeds of its nodes in rad/s as `{SPEED} = [...]`"),
+                ),
+                Some(nodes) if nodes == *length || nodes == 0 => None,
+                Some(nodes) => {
+                    tell(format!("{in_file} is {length} long"), format!("it must be as long as {SPEED}, {nodes}"))
+                }
+            }
         })
     }
 
     /// Whether there is such a variable: in a table, that it has so many nodes.
     pub(super) fn hold(&self, variable: &Variable) -> bool {
-        variable.meta.node().is_none_or(|(_, node)| node <= self.nodes(variable.place.block))
+        variable.meta.node().is_none_or(|(_, node)| self.speeds(variable.place.block).is_some_and(|nodes| node <= nodes))
     }
 
-    /// How many speeds the table of a block has.
-    fn nodes(&self, block: u32) -> usize {
+    /// How many speeds the table of a block has, where it has any.
+    fn speeds(&self, block: u32) -> Option<usize> {
         let speeds = self.0.iter().find(|column| column.block == block && column.name == SPEED);
-        speeds.map_or(0, |speeds| speeds.length)
+        speeds.map(|speeds| speeds.length)
     }
 }

@@ -39,6 +39,7 @@ mod power;
 mod random_scenes;
 mod rotation;
 mod rub;
+mod scene_errors;
 mod scenes;
 mod series;
 mod signal;

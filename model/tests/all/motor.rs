@@ -1,7 +1,7 @@
 //! The motor: its law, an upright rotor in closed form, model exchange, and Sommerfeld's jump in the scene `run_up`. Where its law
 //! ends: hard_starts.rs.
 
-use crate::harness::named::Named;
+use crate::harness::named::{Named, refusal};
 use crate::harness::{Random, Scene as Plain, largest, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::extrapolation::step;
@@ -11,12 +11,10 @@ use oracles::rotation;
 use split_rotor_model::effects::motor::Motor;
 use split_rotor_model::effects::{Effect, Motion};
 use split_rotor_model::rotation::Chart;
-use split_rotor_model::scene::Scene;
 use split_rotor_model::signal::Signal;
 use split_rotor_model::simulation::{Any, Integrator};
 use split_rotor_model::state::{Coordinates, Kinematics};
 use split_rotor_model::variable::Role;
-use std::path::Path;
 
 const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n";
 
@@ -331,9 +329,8 @@ fn exact_upright_rotor_by_a_host() {
 
 // ------------------------------------------------------------------------------------------------------------ bad input
 
-fn refusal(rest: &str) -> String {
-    let scene = Scene::parse(Path::new("bad.toml"), &format!("{ROTOR}[effects.motor]\n{rest}"));
-    scene.expect_err("a scene that cannot be").to_string()
+fn refused(rest: &str) -> String {
+    refusal(&format!("{ROTOR}[effects.motor]\n{rest}"))
 }
 
 #[test]
@@ -346,13 +343,13 @@ fn messages_of_motors_that_cannot_be() {
         (8, "synchronous_speed = 5.0\n", "time_constant = -0.1", NOT_BELOW),
         (8, "synchronous_speed = 5.0\n", "stall_torque = -1.0", NOT_BELOW),
     ] {
-        let expected = format!("bad.toml, line {line}: effects.motor.{value} is not possible: {bound}");
-        assert_eq!(refusal(&format!("{rest}{value}\n")), expected);
+        let expected = format!("line {line}: effects.motor.{value} is not possible: {bound}");
+        assert_eq!(refused(&format!("{rest}{value}\n")), expected);
     }
     assert_eq!(
-        refusal("stall_torque = 1.0\n"),
-        "bad.toml: `motor.synchronous_speed` is missing: give the axial rate at which it gives no torque at full command in \
-         rad/s as `synchronous_speed = ...` under [effects.motor]"
+        refused("stall_torque = 1.0\n"),
+        "line 6: `motor.synchronous_speed` is missing: give `synchronous_speed = ...`, the axial rate at which it gives no torque at \
+         full command [rad/s]"
     );
     // By a host.
     for (name, value) in [("synchronous_speed", 0.0), ("time_constant", -1.0), ("stall_torque", f64::NAN)] {

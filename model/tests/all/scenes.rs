@@ -1,14 +1,9 @@
-//! Scenes with several effects of a kind: their names, their values, and what is said of those that cannot be.
+//! What scenes mean: several effects of a kind, numbers with units, what is left out.
 
-use crate::harness::named::{Named, ROTOR};
+use crate::harness::named::{Named, ROTOR, refusal};
 use crate::harness::within;
 use split_rotor_model::scene::Scene;
 use std::path::Path;
-
-/// What is said of a scene that has this below the rotor.
-fn error(rest: &str) -> String {
-    Scene::parse(Path::new("bad.toml"), &format!("{ROTOR}{rest}")).expect_err("a scene that cannot be").to_string()
-}
 
 #[test]
 fn several_of_a_kind_are_numbered_as_the_file_has_them() {
@@ -46,68 +41,15 @@ fn exact_each_of_a_kind_acts_with_its_own_values() {
 }
 
 #[test]
-fn messages_of_several_effects_that_cannot_be() {
-    let bearings = "[[effects.bearing]]\nposition = 0.0\n";
-    for (rest, message) in [
-        (
-            "[effects.bearing]\nposition = 0.0\n".to_owned(),
-            "bad.toml, line 6: there may be several of bearing: write [[effects.bearing]], once for each, up to 4",
-        ),
-        (bearings.repeat(5), "bad.toml, line 6: [[effects.bearing]] stands 5 times: there may be up to 4"),
-        (
-            format!("[effects.bearing]\nposition = 0.0\n{bearings}"),
-            "bad.toml, line 8: is not TOML: duplicate key `bearing`",
-        ),
-        (format!("{ROTOR}m = 1.0\n"), "bad.toml, line 6: is not TOML: duplicate key `rotor`"),
-        ("[start]\nphi = 1.0\n\"phi\" = 2.0\n".into(), "bad.toml, line 8: is not TOML: duplicate key `\"phi\"`"),
-        ("[start]\nr_c = { x = 1.0, x = 2.0 }\n".into(), "bad.toml, line 7: is not TOML: duplicate key `x`"),
-        (
-            "[[effects.support]]\nc1 = 1.0\n".into(),
-            "bad.toml, line 6: there is only one support: write [effects.support]",
-        ),
-        (
-            format!("{bearings}[[effects.bearing]]\nkyy = 1.0\n"),
-            "bad.toml: `bearing[2].position` is missing: give the place along t from c in m as `position = ...` under \
-             [[effects.bearing]]",
-        ),
-        (
-            format!("{bearings}k_yy = 1.0\n"),
-            "bad.toml, line 8: unknown key `effects.bearing[1].k_yy`: [[effects.bearing]] knows position, kyy, kyz, kzy, \
-             kzz, cyy, cyz, czy, czz, kxx, cxx, kt, ct, speed",
-        ),
-        (
-            format!("{bearings}{bearings}cyy = -1.0\n"),
-            "bad.toml, line 10: effects.bearing[2].cyy = -1.0 is not possible: it must be a finite number >= 0",
-        ),
-        (
-            format!("{bearings}cyy = 1.0\nczz = 4.0\ncyz = 2.0\nczy = 2.5\n"),
-            "bad.toml, line 10: bearing[1].cyz = 2.0 is not possible: it must be such that (cyz + czy)/2 is at most \
-             sqrt(cyy czz) = 2.0 in size, or the bearing would drive what it damps",
-        ),
-        (
-            "[effects]\nbearing = 5\n".into(),
-            "bad.toml, line 7: there may be several of bearing: write [[effects.bearing]], once for each, up to 4",
-        ),
-        (
-            "[effects]\nbearing = [5]\n".into(),
-            "bad.toml, line 7: effects.bearing[1] = 5 is not possible: it must be a table",
-        ),
-    ] {
-        assert_eq!(error(&rest), message);
-    }
-}
-
-#[test]
 fn the_support_point_need_not_be_told_where_there_is_no_support() {
     let without =
         ROTOR.lines().filter(|line| !line.starts_with("l ")).map(|line| format!("{line}\n")).collect::<String>();
     let parse = |rest: &str| Scene::parse(Path::new("bad.toml"), &format!("{without}{rest}"));
     let held = parse("[[effects.bearing]]\nposition = 0.0\n").expect("it has no support");
     assert_eq!(held.parameters().setup.rotor.l, 0.0);
-    let refused = parse("[effects.support]\nc1 = 1.0\n").expect_err("where is a?").to_string();
-    assert!(
-        refused.starts_with("bad.toml: `rotor.l` is missing: give the distance from the support point a"),
-        "{refused}"
+    assert_eq!(
+        refusal(&format!("{without}[effects.support]\nc1 = 1.0\n")),
+        "line 1: `rotor.l` is missing: give `l = ...`, the distance from the support point a to the mass centre c [m]"
     );
 }
 
@@ -116,11 +58,10 @@ fn what_no_xml_can_hold_is_refused() {
     let titled = |title: &str, file: &str| Scene::parse(Path::new(file), &format!("title = {title}\n{ROTOR}"));
     let says = "is not possible: it must be one line without control characters";
     for title in [r#""\u0001""#, r#""two\nlines""#, r#""\u007f""#, r#""\ufffe""#] {
-        let refused = titled(title, "bad.toml").expect_err("no line of XML").to_string();
-        assert_eq!(refused, format!("bad.toml, line 1: title = {title} {says}"));
+        assert_eq!(refusal(&format!("title = {title}\n{ROTOR}")), format!("line 1: title = {title} {says}"));
     }
     let refused = titled(r#""A rotor""#, "a\u{1}.toml").expect_err("no name in XML").to_string();
-    assert!(refused.ends_with("a file of a scene has no control characters in its name"), "{refused}");
+    assert!(refused.ends_with("the file of a scene has no control characters in its name"), "{refused}");
     // Any other letter is welcome.
     assert_eq!(titled(r#""Läufer φ <&> 转子""#, "läufer.toml").expect("a scene").title, "Läufer φ <&> 转子");
 }
@@ -130,7 +71,88 @@ fn a_folder_is_no_scene() {
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     let given = scenes.display().to_string();
     let refused = Scene::find(&given, &scenes).expect_err("a folder").to_string();
-    assert_eq!(refused, format!("{given}: is a folder: a scene is a TOML file"));
+    assert_eq!(refused, format!("error: this is a folder\n--> {given}\n = help: a scene is a TOML file"));
+}
+
+/// The value of a variable in the rotor with this below it.
+fn value(rest: &str, name: &str) -> f64 {
+    let scene = Scene::parse(Path::new("good.toml"), &format!("{ROTOR}{rest}")).unwrap_or_else(|error| panic!("{error}"));
+    let variable = scene.variables.iter().find(|variable| variable.name == name);
+    scene.starts[&variable.unwrap_or_else(|| panic!("{name}")).place.value_reference()]
+}
+
+#[test]
+fn exact_numbers_with_units_have_the_bits_of_those_in_si() {
+    let bearing = "[[effects.bearing]]\nposition = \"20 mm\"\nkyy = \"1e4 N/mm\"\nct = \"7 N m s/rad\"\n\
+                   speed = [0, \"60 rpm\"]\nkzz = [\"1 kN/mm\", 2e6]\n";
+    for (rest, name, si) in [
+        ("[start]\nomega = { x = \"30000 rpm\" }\n", "start.omega.x", 500.0 * std::f64::consts::TAU),
+        ("[start]\nphi = \"180 deg\"\n", "start.phi", std::f64::consts::PI),
+        ("[solver]\nstep_size = \"1 ms\"\n", "solver.step_size", 1e-3),
+        (bearing, "bearing[1].position", 0.02),
+        (bearing, "bearing[1].kyy", 1e7),
+        (bearing, "bearing[1].ct", 7.0),
+        (bearing, "bearing[1].speed[2]", std::f64::consts::TAU),
+        (bearing, "bearing[1].kzz[1]", 1e6),
+    ] {
+        assert_eq!(value(rest, name), si, "{name}");
+    }
+    let timed = format!("{ROTOR}[experiment]\nstop = \"2 min\"\nstep = \"10 ms\"\n");
+    let experiment = Scene::parse(Path::new("good.toml"), &timed).expect("a scene").experiment;
+    assert_eq!((experiment.stop, experiment.step), (120.0, 0.01));
+}
+
+#[test]
+fn each_quantity_of_a_variable_has_a_name() {
+    // What it is told by where a unit does not fit.
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/rotor.toml")).expect("it is there");
+    let scene = Scene::parse(Path::new("rotor.toml"), &text).expect("a scene");
+    let mut units = std::collections::BTreeSet::new();
+    for variable in scene.variables.iter().filter(|variable| variable.meta.has_start()) {
+        units.insert(variable.meta.unit.name);
+    }
+    assert!(units.len() > 10);
+    for unit in units.into_iter().filter(|unit| !unit.is_empty()) {
+        let found = refusal(&format!("{ROTOR}[start]\nphi = \"1 {unit}\"\nr_c = {{ x = \"1 {unit}\" }}\n"));
+        assert!(found.contains(" is a") && !found.contains(" is in "), "{unit}: {found}");
+    }
+}
+
+#[test]
+fn exact_gravity_that_is_empty_is_that_of_the_earth() {
+    let along = |rest: &str| ["x", "y", "z"].map(|axis| value(rest, &format!("gravity.g.{axis}")));
+    assert_eq!(along("[effects.gravity]\n"), [0.0, 0.0, -9.81]);
+    assert_eq!(along("[effects.gravity]\ng = { x = -9.81 }\n"), [-9.81, 0.0, 0.0]);
+    assert_eq!(along("[effects.gravity]\ng = {}\n"), [0.0; 3]);
+    // In the general scene too, and only where it is called for.
+    let general = |rest: &str| {
+        let text = format!("general = true\n{ROTOR}{rest}");
+        Named::written(&text).get("gravity.g.z")
+    };
+    assert_eq!([general("[effects.gravity]\n"), general("")], [-9.81, 0.0]);
+}
+
+/// The eccentricity of the mass centre and the axial inertia of a rotor with a moment of unbalance, relative: rounding.
+const OF_A_MOMENT: f64 = 1e-15;
+
+#[test]
+fn exact_moment_of_an_unbalance() {
+    let [moment, m, axial] = [4e-5, 5.0, 0.15625];
+    let rest = "[[effects.unbalance]]\nmoment = \"40 g mm\"\nangle = \"90 deg\"\nposition = \"5 cm\"\n";
+    let [mass, radius] = ["mass", "radius"].map(|key| value(rest, &format!("unbalance[1].{key}")));
+    within("moment", (mass * radius / moment - 1.0).abs(), OF_A_MOMENT);
+    // It changes the mass and the axial inertia by the same part, moment/(m k).
+    let part = moment / (m * (axial / m).sqrt());
+    within("mass", (mass / m / part - 1.0).abs(), OF_A_MOMENT);
+    within("inertia", (mass * radius * radius / axial / part - 1.0).abs(), OF_A_MOMENT);
+    // Not at all in the limit.
+    assert_eq!(value(&rest.replace("40", "0"), "unbalance[1].mass"), 0.0);
+    assert_eq!(
+        refusal(&format!("{ROTOR}{}mass = 0.1\n", rest)),
+        "line 10: `mass` beside a moment: a moment is mass times radius: give either the moment or both of these"
+    );
+    let negative = refusal(&format!("{ROTOR}{}", rest.replace("40", "-40")));
+    assert!(negative.starts_with("line 7: effects.unbalance[1].moment = \"-40 g mm\" is not possible"), "{negative}");
 }
 
 /// A host reads a run at so many points at most, if it takes the scene's own step.

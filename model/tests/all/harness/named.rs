@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 use oracles::machine::Machine;
 use split_rotor_model::effects::All;
-use split_rotor_model::scene::Scene;
+use split_rotor_model::scene::{Scene, SceneError};
 use split_rotor_model::simulation::{Any, Hosted, Integrator, Simulation};
 use split_rotor_model::variable::{Meta, Place, Role};
 use split_rotor_model::variables::Variable;
@@ -19,6 +19,17 @@ pub struct Named {
 
 /// The paper's rotor, as the first lines of a scene.
 pub const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.75\n";
+
+/// What is said of a scene that has this text: of each problem its line, what is wrong and what would be right.
+pub fn refusal(text: &str) -> String {
+    let SceneError { problems, .. } = Scene::parse(Path::new("bad.toml"), text).expect_err("a scene that cannot be");
+    let line = |at: usize| format!("line {}: ", text[..at].matches('\n').count() + 1);
+    let told = problems.iter().map(|problem| {
+        let line = problem.place.as_ref().map_or_else(String::new, |place| line(place.start));
+        format!("{line}{}: {}", problem.wrong, problem.right)
+    });
+    told.collect::<Vec<_>>().join("\n")
+}
 
 /// The names of all scenes.
 pub fn names() -> Vec<String> {

@@ -1,0 +1,541 @@
+//! From the text of a scene to its values. The known keys are the names of the variables; there is no second list.
+
+use super::experiment::{self, Experiment};
+use super::moment::{self, Moment};
+use super::problem::Problem;
+use super::similar::similar;
+use super::tables::Columns;
+use super::units::{self, Quantity, Unreadable};
+use super::{defaults, is_one_line, syntax};
+use crate::effects::{self, CATALOGUE, Info};
+use crate::variable::units::Unit;
+use crate::variable::{Bound, Enumeration, Kind, Meta, Place};
+use crate::variables::{self, Variable};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// Effects that had another name, and what they are called now: `shaft` since 0.2.0, for elastic shafts need the name.
+const RENAMED: &[(&str, &str)] = &[("shaft", "drive")];
+
+/// The effect that is measured from the support point a.
+const SUPPORT: &str = "support";
+
+/// What a text says.
+pub(super) struct Found {
+    pub title: Option<String>,
+    pub general: bool,
+    pub effects: Vec<(&'static Info, u32)>,
+    pub variables: Vec<Variable>,
+    pub starts: BTreeMap<u32, f64>,
+    pub experiment: Experiment,
+    /// Where the file gives each parameter that it names.
+    pub places: Vec<(String, Range<usize>)>,
+}
+
+/// The values of a scene, while they are read.
+pub(super) struct Values<'v> {
+    variables: &'v [Variable],
+    starts: BTreeMap<u32, f64>,
+    places: Vec<(String, Range<usize>)>,
+    /// Value references of what the file gives, but cannot be.
+    refused: Vec<u32>,
+    /// What stands in the file, but not as it should: a misspelt key or section, or one of another type. It is not missing besides.
+    meant: Vec<String>,
+    columns: Columns,
+    pub(super) moments: Vec<Moment>,
+}
+
+impl<'v> Values<'v> {
+    fn new(variables: &'v [Variable]) -> Self {
+        let (starts, columns) = (defaults(variables), Columns::default());
+        let (places, refused, meant, moments) = Default::default();
+        Self { variables, starts, places, refused, meant, columns, moments }
+    }
+
+    /// What a file may give a value: parameters and inputs.
+    fn settable(&self) -> impl Iterator<Item = &'v Variable> + use<'v> {
+        self.variables.iter().filter(|variable| variable.meta.has_start())
+    }
+
+    fn find(&self, name: &str) -> Option<&'v Variable> {
+        self.settable().find(|variable| variable.name == name)
+    }
+
+    /// The value of the variable of this name, if it has one so far that is possible.
+    pub(super) fn start(&self, name: &str) -> Option<f64> {
+        let reference = self.find(name)?.place.value_reference();
+        self.starts.get(&reference).copied().filter(|_| !self.refused.contains(&reference))
+    }
+
+    /// Gives the variable of this name its value, None where that is not possible; `place` is that in the file.
+    pub(super) fn give(&mut self, name: &str, value: Option<f64>, place: Range<usize>) {
+        let Some(variable) = self.find(name) else { return };
+        let reference = variable.place.value_reference();
+        match value {
+            Some(value) => _ = self.starts.insert(reference, value),
+            None => self.refused.push(reference),
+        }
+        self.places.push((name.to_owned(), place));
+    }
+
+    /// Without a support its point a need not be told: it is c.
+    fn measure_from_c(&mut self, called: &[(&'static Info, u32)]) {
+        if called.iter().all(|(info, _)| info.name != SUPPORT)
+            && let Some(l) = self.find("rotor.l")
+        {
+            self.starts.entry(l.place.value_reference()).or_insert(0.0);
+        }
+    }
+
+    /// The keys that may follow `prefix`.
+    fn keys(&self, prefix: &str) -> Vec<&'v str> {
+        let mut keys: Vec<&str> = Vec::new();
+        for variable in self.settable() {
+            if let Some(rest) = variable.name.strip_prefix(prefix).and_then(|rest| rest.strip_prefix('.')) {
+                let key = rest.split(['.', '[']).next().unwrap_or(rest);
+                if !keys.contains(&key) {
+                    keys.push(key);
+                }
+            }
+        }
+        if is_unbalance(prefix) {
+            keys.push(moment::KEY);
+        }
+        keys
+    }
+
+    /// What is said of a key that is known, but not where it stands: `prefix` is what names begin with there.
+    fn known_elsewhere(&self, prefix: &str, key: &str) -> Option<String> {
+        let is_output = |variable: &Variable| {
+            let rest = variable.name.strip_prefix(prefix).and_then(|rest| rest.strip_prefix('.'));
+            rest.is_some_and(|rest| rest.split('.').next() == Some(key))
+        };
+        let home = |variable: &Variable| {
+            let (section, rest) = variable.name.split_once('.')?;
+            (rest.split(['.', '[']).next() == Some(key)).then(|| heading(&in_file(variable.place, section)))
+        };
+        let belongs = |to: String| Some(format!("it belongs under {to}"));
+        if self.variables.iter().any(is_output) {
+            Some("it is calculated, not given".into())
+        } else if SECTIONS.contains(&key) {
+            Some("it belongs at the head of the file, above all sections".into())
+        } else if let Some(info) = effects::named(key) {
+            Some(format!("write {}", heading(&info.switch_name(1))))
+        } else if experiment::KEYS.iter().any(|known| known.name == key) {
+            belongs("[experiment]".into())
+        } else {
+            belongs(self.settable().find_map(home)?)
+        }
+    }
+
+    /// Switches on what is called for; of the rest, what has no default is zero, and counts only once it is switched on.
+    fn switch(&mut self, called: &[(&'static Info, u32)]) {
+        let called: Vec<_> = called.iter().map(|(info, index)| Place::effect_block(info.number, *index)).collect();
+        for variable in self.settable().filter(|variable| variable.place.block >= Place::FIRST_EFFECT) {
+            let (Place { block, row }, reference) = (variable.place, variable.place.value_reference());
+            let is_called = called.contains(&block);
+            if row == Place::SWITCH {
+                self.starts.insert(reference, f64::from(is_called));
+            } else if !is_called {
+                self.starts.entry(reference).or_insert(0.0);
+            }
+        }
+    }
+}
+
+/// How many of a kind a general scene has at least.
+const OF_A_KIND_IN_GENERAL: u32 = 2;
+
+/// What a general scene holds whose file calls for these.
+fn every_effect(called: &[(&Info, u32)]) -> Vec<(&'static Info, u32)> {
+    let called = |info: &Info| called.iter().filter(|(one, _)| one.number == info.number).count() as u32;
+    let number = |info: &Info| if info.several { called(info).max(OF_A_KIND_IN_GENERAL) } else { 1 };
+    CATALOGUE.iter().flat_map(|info| (1..=number(info)).map(move |index| (info, index))).collect()
+}
+
+const SECTIONS: [&str; 7] = ["title", "general", "rotor", "start", "effects", "solver", "experiment"];
+
+/// Reads a scene; else what is wrong with it, in the order of the file.
+pub(super) fn read(text: &str) -> Result<Found, Vec<Problem>> {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let (mut problems, rest_is_sound) = syntax::problems(text, &errors);
+    let mut reader = Reader { text, problems: Vec::new() };
+    let found = rest_is_sound.then(|| reader.scene(root.get_ref()));
+    // What else is wrong in a line that is no TOML follows from that.
+    let mut others = reader.problems;
+    others.retain(|other| {
+        let line = other.place.as_ref().map(|place| syntax::line_around(text, place.start));
+        !line.is_some_and(|line| problems.iter().any(|problem| syntax::within(problem, &line)))
+    });
+    problems.append(&mut others);
+    problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
+    found.filter(|_| problems.is_empty()).ok_or(problems)
+}
+
+/// Reads on where something is wrong, and remembers what.
+struct Reader<'t> {
+    text: &'t str,
+    problems: Vec<Problem>,
+}
+
+type Value<'i> = Spanned<DeValue<'i>>;
+
+impl Reader<'_> {
+    fn scene(&mut self, root: &DeTable) -> Found {
+        let title = root.get("title").and_then(|value| self.title(value));
+        let general = root.get("general").is_some_and(|value| match value.get_ref() {
+            DeValue::Boolean(given) => *given,
+            _ => self.wrong_type(value, "general", "true or false"),
+        });
+        let tables = root.get("effects").and_then(|value| self.table(value, "effects"));
+        let called = tables.map_or_else(Vec::new, |tables| self.effects(tables));
+        let names: Vec<_> = called.iter().map(|(info, index, _)| (*info, *index)).collect();
+        let (effects, mut variables) = if general {
+            let all = every_effect(&names);
+            let variables = variables::of_general(&all);
+            (all, variables)
+        } else {
+            (names.clone(), variables::of_scene(&names))
+        };
+        let mut values = Values::new(&variables);
+        self.sections(root, &mut values);
+        let mut headings = Vec::new();
+        for section in ["rotor", "start", "solver"] {
+            if let Some(value) = root.get(section) {
+                headings.push((section.to_owned(), self.place(value)));
+                self.block(value, section, section, &mut values);
+            }
+        }
+        for (info, index, value) in &called {
+            let (name, section) = (info.block_name(*index), info.switch_name(*index));
+            headings.push((name.clone(), self.place(value)));
+            values.places.push((section.clone(), self.place(value)));
+            self.block(value, &name, &section, &mut values);
+            if value.get_ref().as_table().is_some_and(|table| table.is_empty()) {
+                let given = info.where_empty.iter().map(|(key, value)| (effects::full_name(&name, key), *value));
+                given.for_each(|(name, number)| values.give(&name, Some(number), self.place(value)));
+            }
+        }
+        if general {
+            values.switch(&names);
+        }
+        values.measure_from_c(&names);
+        values.take_moments();
+        self.nothing_missing(&values, &headings);
+        self.problems.extend(values.columns.problems());
+        let Values { mut starts, places, columns, .. } = values;
+        let is_there = |variable: &Variable| columns.hold(variable);
+        variables.iter().filter(|variable| !is_there(variable)).for_each(|variable| {
+            starts.remove(&variable.place.value_reference());
+        });
+        variables.retain(is_there);
+        let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
+        let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
+        let experiment = self.experiment(root.get("experiment"), tolerance);
+        Found { title, general, effects, variables, starts, experiment, places }
+    }
+
+    fn title(&mut self, value: &Value) -> Option<String> {
+        match value.get_ref().as_str() {
+            Some(text) if is_one_line(text) => Some(text.to_owned()),
+            Some(_) => self.wrong_type(value, "title", "one line without control characters"),
+            None => self.wrong_type(value, "title", "a text in quotes"),
+        }
+    }
+
+    /// A scene has these sections and no others.
+    fn sections(&mut self, root: &DeTable, values: &mut Values) {
+        for key in root.keys().filter(|key| !SECTIONS.contains(&key.get_ref().as_ref())) {
+            let name = key.get_ref().as_ref();
+            let known = format!("a scene knows {}", SECTIONS.join(", "));
+            let problem = Problem::unknown(key.span(), "key", name, &SECTIONS, known);
+            self.problems.push(problem.or_right(values.known_elsewhere("", name)));
+            values.meant.extend(similar(name, SECTIONS).into_iter().map(str::to_owned));
+        }
+    }
+
+    /// The effects that are called for, in the order of the catalogue, those of a kind in the order of the file, each with its table.
+    fn effects<'v, 'i>(&mut self, called: &'v DeTable<'i>) -> Vec<(&'static Info, u32, &'v Value<'i>)> {
+        let most = Place::OF_A_KIND as usize;
+        let mut tables = Vec::new();
+        for (key, value) in called {
+            let name = key.get_ref().as_ref();
+            let mut tell = |wrong: String, right: String| self.problems.push(Problem::at(key.span(), wrong, right));
+            let Some(info) = effects::named(name) else {
+                if let Some((_, now)) = RENAMED.iter().find(|(once, _)| *once == name) {
+                    tell(format!("effect `{name}` has another name now"), format!("write [effects.{now}]"));
+                } else {
+                    let known: Vec<_> = CATALOGUE.iter().map(|info| info.name).collect();
+                    let list = format!("the effects are {}", known.join(", "));
+                    self.problems.push(Problem::unknown(key.span(), "effect", name, &known, list));
+                }
+                continue;
+            };
+            let several = value.get_ref().as_array().map_or(std::slice::from_ref(value), |several| &several[..]);
+            match (info.several, value.get_ref()) {
+                (false, DeValue::Array(_)) => {
+                    tell(format!("there is only one {name}"), format!("write [effects.{name}]"));
+                }
+                (true, DeValue::Array(_)) if several.len() > most => tell(
+                    format!("[[effects.{name}]] stands {} times", several.len()),
+                    format!("there may be up to {most}"),
+                ),
+                (true, DeValue::Table(_)) => tell(
+                    format!("there may be several of {name}"),
+                    format!("write [[effects.{name}]], once for each, up to {most}"),
+                ),
+                _ => {}
+            }
+            let most = if info.several { most } else { 1 };
+            tables.extend((1..).zip(several).take(most).map(|(index, value)| (info, index, value)));
+        }
+        tables.sort_by_key(|(info, index, _)| (info.number, *index));
+        tables
+    }
+
+    /// Takes the values of a table whose keys are variables beginning with `prefix`; `section` is its key in the file.
+    fn block(&mut self, value: &Value, prefix: &str, section: &str, values: &mut Values) {
+        let Some(table) = self.table(value, section) else {
+            values.meant.push(prefix.to_owned());
+            return;
+        };
+        for (key, value) in table {
+            let (name, in_file) = (format!("{prefix}.{}", key.get_ref()), format!("{section}.{}", key.get_ref()));
+            let (place, in_table) = (self.place(value), values.find(&format!("{name}[1]")));
+            if let (Some(first), Some(numbers)) = (in_table, value.get_ref().as_array()) {
+                let column = values.columns.add(first, in_file.clone(), numbers.len(), place);
+                self.problems.extend(column);
+                for (node, number) in (1..).zip(numbers.iter()) {
+                    let name = format!("{name}[{node}]");
+                    if let Some(variable) = values.find(&name) {
+                        let given = self.number(number, &variable.meta, &format!("{in_file}[{node}]"));
+                        values.give(&name, given, self.place(number));
+                    }
+                }
+            } else if let Some(variable) = values.find(&name) {
+                let given = self.number(value, &variable.meta, &in_file);
+                values.give(&name, given, place);
+            } else if let Some(first) = in_table {
+                self.wrong_type(value, &in_file, &format!("an array of numbers in {}", first.meta.unit.name))
+            } else if values.settable().any(|variable| variable.name.starts_with(&format!("{name}."))) {
+                if value.get_ref().as_table().is_some() {
+                    self.block(value, &name, &in_file, values);
+                } else {
+                    let keys = values.keys(&name);
+                    let right = format!("a table of {}, such as {{ {} = 0.1 }}", keys.join(", "), keys[0]);
+                    self.wrong_type(value, &in_file, &right)
+                }
+            } else if is_unbalance(prefix) && key.get_ref() == moment::KEY {
+                self.moment(table, value, prefix, &in_file, values);
+            } else {
+                self.unknown_key(key, prefix, section, values);
+            }
+        }
+    }
+
+    fn unknown_key(&mut self, key: &Spanned<impl AsRef<str>>, prefix: &str, section: &str, values: &mut Values) {
+        let (key, place) = (key.get_ref().as_ref(), key.span());
+        let (known, heading) = (values.keys(prefix), heading(section));
+        let list = match &known[..] {
+            [] => format!("{heading} has no keys"),
+            known => format!("{heading} knows {}", known.join(", ")),
+        };
+        if let [one] = similar(key, known.iter().copied())[..] {
+            values.meant.push(format!("{prefix}.{one}"));
+        }
+        let elsewhere = values.known_elsewhere(prefix, key);
+        let problem = Problem::unknown(place, "key", &format!("{section}.{key}"), &known, list);
+        self.problems.push(problem.or_right(elsewhere));
+    }
+
+    /// Takes the moment of an unbalance, which stands for mass and radius.
+    fn moment(&mut self, table: &DeTable, value: &Value, block: &str, in_file: &str, values: &mut Values) {
+        let meta = Meta::parameter(moment::KEY, &moment::UNIT, None, Bound::NotNegative, moment::MEANING);
+        let (mut number, place) = (self.number(value, &meta, in_file), self.place(value));
+        if let Some(other) = table.keys().find(|key| moment::INSTEAD_OF.contains(&key.get_ref().as_ref())) {
+            let right = "a moment is mass times radius: give either the moment or both of these";
+            self.problems.push(Problem::at(other.span(), format!("`{}` beside a moment", other.get_ref()), right));
+            number = None;
+        }
+        values.moments.push(Moment { block: block.to_owned(), value: number, place });
+    }
+
+    /// The value of a parameter or input, checked; None where it is not possible.
+    fn number(&mut self, value: &Value, meta: &Meta, in_file: &str) -> Option<f64> {
+        let number = match meta.kind {
+            Kind::Real => self.real(value, meta.unit, in_file),
+            Kind::Enumeration(of) => self.item(value, of, in_file),
+            Kind::Integer | Kind::Boolean => {
+                as_number(value.get_ref()).or_else(|| self.wrong_type(value, in_file, "a number"))
+            }
+        }?;
+        let Err(invalid) = meta.check(|| in_file.to_owned(), number) else { return Some(number) };
+        let (text, given) = (invalid.to_string(), self.given(value));
+        let (_, right) = text.split_once(": ").unwrap_or_default();
+        let overflows = number.is_infinite() && given.contains(|c: char| c.is_ascii_digit());
+        let right = if overflows { "it is beyond the largest number that there is, 1.797e308" } else { right };
+        self.problems.push(Problem::at(self.place(value), format!("{in_file} = {given} is not possible"), right));
+        None
+    }
+
+    /// A number, or one with its unit as a text.
+    fn real(&mut self, value: &Value, unit: &Unit, in_file: &str) -> Option<f64> {
+        let of_unit = |before: &str| if unit.name.is_empty() { String::new() } else { format!("{before}{}", unit.name) };
+        if let Some(text) = value.get_ref().as_str() {
+            let tell = |reader: &mut Self, wrong: String, right: String| {
+                reader.problems.push(Problem::at(reader.place(value), wrong, right));
+                None
+            };
+            let impossible = format!("{in_file} = {} is not possible", self.given(value));
+            let is_pure = unit.name.is_empty();
+            return match units::read(text) {
+                Ok(Quantity { value, exponents, .. }) if exponents[..3] == unit.exponents[..3] => Some(value),
+                Ok(Quantity { exponents, unit: given, .. }) => {
+                    let what = units::quantity(unit.exponents).unwrap_or("a quantity");
+                    let found = units::quantity(exponents).map_or_else(|| format!("in {given}"), str::to_owned);
+                    let right = if is_pure { "write it without a unit".into() } else { format!("give it in {}", unit.name) };
+                    tell(self, format!("{in_file} is {what}{}; \"{text}\" is {found}", brackets(unit)), right)
+                }
+                Err(Unreadable::NoNumber) => tell(self, impossible, format!("it must be a number{}", of_unit(" in "))),
+                Err(Unreadable::NoUnit) if is_pure => tell(self, impossible, "write it without quotes".into()),
+                Err(Unreadable::NoUnit) => {
+                    let right = format!("write it without quotes, or with its unit: \"{text} {}\"", unit.name);
+                    tell(self, impossible, right)
+                }
+                Err(Unreadable::Comma(right)) => {
+                    tell(self, format!("{in_file} = {} has a decimal comma", self.given(value)), format!("write \"{right}\""))
+                }
+                Err(Unreadable::Unit(what, right)) => tell(self, format!("{in_file}: `{what}` is no unit"), right),
+            };
+        }
+        as_number(value.get_ref()).or_else(|| self.wrong_type(value, in_file, &format!("a number{}", of_unit(" in "))))
+    }
+
+    /// The number of an item that is told by its name.
+    fn item(&mut self, value: &Value, of: &Enumeration, in_file: &str) -> Option<f64> {
+        let names: Vec<_> = of.items.iter().map(|item| item.1).collect();
+        let quoted: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
+        let right = format!("one of {}", quoted.join(", "));
+        let Some(name) = value.get_ref().as_str() else { return self.wrong_type(value, in_file, &right) };
+        let item = of.items.iter().find(|item| item.1 == name);
+        if item.is_none() {
+            let known = format!("it must be {right}");
+            let problem = Problem::unknown(self.place(value), in_file, name, &names, known);
+            self.problems.push(problem);
+        }
+        Some(f64::from(item?.0))
+    }
+
+    fn experiment(&mut self, value: Option<&Value>, tolerance: f64) -> Experiment {
+        let mut given = [const { None }; experiment::KEYS.len()];
+        for (key, value) in value.and_then(|value| self.table(value, "experiment")).into_iter().flatten() {
+            let name = key.get_ref().as_ref();
+            if let Some(n) = experiment::KEYS.iter().position(|known| known.name == name) {
+                let number = self.real(value, experiment::KEYS[n].unit, &format!("experiment.{name}"));
+                given[n] = number.map(|number| (number, value));
+            } else {
+                let known = experiment::KEYS.map(|known| known.name);
+                let list = format!("[experiment] knows {}", known.join(", "));
+                self.problems.push(Problem::unknown(key.span(), "key", &format!("experiment.{name}"), &known, list));
+            }
+        }
+        let (experiment, wrong) = Experiment::of(given.map(|given| given.map(|(number, _)| number)), tolerance);
+        for (n, right) in wrong {
+            if let Some((_, value)) = given[n] {
+                self.wrong_type(value, &format!("experiment.{}", experiment::KEYS[n].name), &right)
+            }
+        }
+        experiment
+    }
+
+    fn table<'v, 'i>(&mut self, value: &'v Value<'i>, key: &str) -> Option<&'v DeTable<'i>> {
+        value.get_ref().as_table().or_else(|| self.wrong_type(value, key, "a table"))
+    }
+
+    /// Tells what a value must be; what is to be read instead is the default.
+    fn wrong_type<T: Default>(&mut self, value: &Value, key: &str, right: &str) -> T {
+        let wrong = format!("{key} = {} is not possible", self.given(value));
+        self.problems.push(Problem::at(self.place(value), wrong, format!("it must be {right}")));
+        T::default()
+    }
+
+    /// Every parameter has a value.
+    fn nothing_missing(&mut self, values: &Values, headings: &[(String, Range<usize>)]) {
+        let mut missing: Vec<(&str, Vec<&Variable>)> = Vec::new();
+        for variable in values.settable() {
+            let (reference, name) = (variable.place.value_reference(), &variable.name);
+            let is_told = values.starts.contains_key(&reference) || values.refused.contains(&reference);
+            let section = name.split_once('.').map_or("", |(section, _)| section);
+            if !is_told && !values.meant.iter().any(|meant| meant == name || meant == section) {
+                match missing.last_mut().filter(|(last, _)| *last == section) {
+                    Some((_, variables)) => variables.push(variable),
+                    None => missing.push((section, vec![variable])),
+                }
+            }
+        }
+        for (section, variables) in missing {
+            let key = |variable: &Variable| {
+                let key = variable.name[section.len() + 1..].to_owned();
+                format!("`{key} = ...`, the {}{}", variable.meta.description, brackets(variable.meta.unit))
+            };
+            let (keys, at) = (variables.iter().map(|variable| key(variable)), headings.iter().find(|(of, _)| of == section));
+            if let Some((_, place)) = at {
+                let problems = variables.iter().zip(keys).map(|(variable, key)| {
+                    Problem::at(place.clone(), format!("`{}` is missing", variable.name), format!("give {key}"))
+                });
+                self.problems.extend(problems);
+            } else {
+                let heading = heading(&in_file(variables[0].place, section));
+                let right = format!("give {heading} with {}", keys.collect::<Vec<_>>().join("; "));
+                self.problems.push(Problem::of_file(format!("{heading} is missing"), right));
+            }
+        }
+    }
+
+    /// Where a value stands, the first line of it.
+    fn place(&self, value: &Value) -> Range<usize> {
+        let Range { start, end } = value.span();
+        start..end.min(syntax::line_around(self.text, start).end)
+    }
+
+    /// What the file has for a value; of several lines the first.
+    fn given(&self, value: &Value) -> String {
+        let (place, rest) = (self.place(value), value.span().end);
+        format!("{}{}", &self.text[place.clone()], if place.end < rest { " ..." } else { "" })
+    }
+}
+
+/// ` [m]`, or nothing for a pure number.
+fn brackets(unit: &Unit) -> String {
+    if unit.name.is_empty() { String::new() } else { format!(" [{}]", unit.name) }
+}
+
+/// Whether the names of an unbalance begin so.
+pub(super) fn is_unbalance(prefix: &str) -> bool {
+    prefix.split('[').next() == Some(moment::EFFECT) && !prefix.contains('.')
+}
+
+/// The key of the section in the file: `effects.bearing[1]` of `bearing[1]`.
+pub(super) fn in_file(place: Place, section: &str) -> String {
+    if place.block < Place::FIRST_EFFECT { section.to_owned() } else { format!("effects.{section}") }
+}
+
+/// What stands in the file above the keys of a section: `[effects.drag]`, `[[effects.bearing]]`.
+pub(super) fn heading(section: &str) -> String {
+    match section.split_once('[') {
+        Some((name, rest)) if rest.ends_with(']') => format!("[[{name}]]"),
+        Some((name, rest)) => format!("[{name}{}]", rest.split_once(']').map_or("", |(_, within)| within)),
+        None => format!("[{section}]"),
+    }
+}
+
+fn as_number(value: &DeValue) -> Option<f64> {
+    match value {
+        DeValue::Float(float) => float.as_str().parse().ok(),
+        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
+        DeValue::Integer(integer) => Some(i64::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64),
+        _ => None,
+    }
+}

@@ -1,0 +1,356 @@
+//! A number with its unit, as a scene may have it in quotes: `"30000 rpm"`, `"20 mm"`, `"5 N.m.s/rad"`.
+
+use super::similar::did_you_mean;
+use std::f64::consts::{PI, TAU};
+
+/// A unit as people write it.
+pub(super) struct Written {
+    /// How it is written.
+    pub name: &'static str,
+    /// Whether it may have a prefix.
+    pub prefixed: bool,
+    /// It is 10 to this power,
+    pub ten: i32,
+    /// times the first over the second, exact but for π,
+    pub ratio: [f64; 2],
+    /// of the product of kg, m, s and rad to these powers.
+    pub exponents: [i8; 4],
+}
+
+const fn si(name: &'static str, exponents: [i8; 4]) -> Written {
+    Written { name, prefixed: true, ten: 0, ratio: [1.0, 1.0], exponents }
+}
+
+const fn other(name: &'static str, ten: i32, ratio: [f64; 2], exponents: [i8; 4]) -> Written {
+    Written { name, prefixed: false, ten, ratio, exponents }
+}
+
+/// The units that a scene may write.
+pub(super) const UNITS: &[Written] = &[
+    si("m", [0, 1, 0, 0]),
+    Written { ten: -3, ..si("g", [1, 0, 0, 0]) },
+    si("s", [0, 0, 1, 0]),
+    si("rad", [0, 0, 0, 1]),
+    si("N", [1, 1, -2, 0]),
+    si("J", [1, 2, -2, 0]),
+    si("W", [1, 2, -3, 0]),
+    si("Pa", [1, -1, -2, 0]),
+    Written { ten: -1, ..si("P", [1, -1, -1, 0]) },
+    // Speeds are meant: one revolution in a second.
+    Written { ratio: [TAU, 1.0], ..si("Hz", [0, 0, -1, 1]) },
+    Written { ten: 5, ..si("bar", [1, -1, -2, 0]) },
+    other("t", 3, [1.0, 1.0], [1, 0, 0, 0]),
+    other("min", 0, [60.0, 1.0], [0, 0, 1, 0]),
+    other("h", 0, [3600.0, 1.0], [0, 0, 1, 0]),
+    other("deg", 0, [PI, 180.0], [0, 0, 0, 1]),
+    other("°", 0, [PI, 180.0], [0, 0, 0, 1]),
+    other("rev", 0, [TAU, 1.0], [0, 0, 0, 1]),
+    other("rpm", 0, [TAU, 60.0], [0, 0, -1, 1]),
+    other("in", -4, [254.0, 1.0], [0, 1, 0, 0]),
+    other("ft", -4, [3048.0, 1.0], [0, 1, 0, 0]),
+    other("oz", -12, [28_349_523_125.0, 1.0], [1, 0, 0, 0]),
+    other("lb", -8, [45_359_237.0, 1.0], [1, 0, 0, 0]),
+    other("lbf", -13, [44_482_216_152_605.0, 1.0], [1, 1, -2, 0]),
+];
+
+/// Prefixes and their powers of ten.
+pub(super) const PREFIXES: &[(&str, i32)] =
+    &[("n", -9), ("u", -6), ("µ", -6), ("μ", -6), ("m", -3), ("c", -2), ("d", -1), ("k", 3), ("M", 6), ("G", 9)];
+
+/// What quantities are called, by the powers of kg, m, s and rad.
+const QUANTITIES: &[([i8; 4], &str)] = &[
+    ([0, 0, 0, 0], "a pure number"),
+    ([1, 0, 0, 0], "a mass"),
+    ([0, 1, 0, 0], "a length"),
+    ([0, 0, 1, 0], "a time"),
+    ([0, 0, 0, 1], "an angle"),
+    ([0, 1, -1, 0], "a speed"),
+    ([0, 1, -2, 0], "an acceleration"),
+    ([0, 0, -1, 1], "an angular speed"),
+    ([0, 0, -2, 1], "an angular acceleration"),
+    ([1, 1, -2, 0], "a force"),
+    ([1, 2, -2, 0], "a torque"),
+    ([1, 2, -3, 0], "a power"),
+    ([1, 0, -2, 0], "a stiffness"),
+    ([1, 0, -1, 0], "a damping"),
+    ([1, 2, -2, -1], "a torsional stiffness"),
+    ([1, 2, -1, -1], "a torsional damping"),
+    ([1, 2, 0, -2], "a quadratic drag"),
+    ([1, 2, 0, 0], "a moment of inertia"),
+    ([1, 1, 0, 0], "a moment of unbalance"),
+    ([1, -1, -2, 0], "a pressure"),
+    ([1, -1, -1, 0], "a viscosity"),
+];
+
+/// What a quantity of these powers is called; a radian is a pure number where no name has it.
+pub(super) fn quantity(exponents: [i8; 4]) -> Option<&'static str> {
+    let named = |same: &dyn Fn([i8; 4]) -> bool| QUANTITIES.iter().find(|(of, _)| same(*of)).map(|(_, name)| *name);
+    named(&|of| of == exponents).or_else(|| named(&|of| of[..3] == exponents[..3]))
+}
+
+/// A number with its unit.
+#[derive(Debug, PartialEq)]
+pub(super) struct Quantity<'t> {
+    /// The number, in kg, m, s and rad.
+    pub value: f64,
+    /// Their powers.
+    pub exponents: [i8; 4],
+    /// How the unit is written.
+    pub unit: &'t str,
+}
+
+/// Why a text is no number with a unit.
+#[derive(Debug, PartialEq)]
+pub(super) enum Unreadable<'t> {
+    /// It does not begin with a number.
+    NoNumber,
+    /// It is nothing but a number.
+    NoUnit,
+    /// Its decimal point is a comma: how it is right.
+    Comma(String),
+    /// Its unit cannot be read: what of it, and what would be right.
+    Unit(&'t str, String),
+}
+
+/// Reads a number with its unit. What is a power of ten of SI's unit has the bits that the number has with its point shifted: 20 mm are
+/// 0.02.
+pub(super) fn read(text: &str) -> Result<Quantity<'_>, Unreadable<'_>> {
+    let text = text.trim();
+    let (mantissa, exponent, rest) = number(text).ok_or(Unreadable::NoNumber)?;
+    if let Some(decimals) = rest.strip_prefix(',').filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
+        return Err(Unreadable::Comma(format!("{}.{decimals}", &text[..text.len() - rest.len()])));
+    }
+    let unit = rest.trim_start();
+    if unit.is_empty() {
+        return Err(Unreadable::NoUnit);
+    }
+    let mut scale = Scale { ten: exponent, over: 1.0, under: 1.0, exponents: [0; 4] };
+    let rest = scale.product(unit, 1)?;
+    if !rest.is_empty() {
+        return Err(Unreadable::Unit(rest, "a unit is a product of powers, as in N.m.s2/rad2".into()));
+    }
+    // Divided first, 180 deg are π and 30 rpm half of 2π in a second.
+    let shifted = format!("{mantissa}e{}", scale.ten).parse::<f64>().map_err(|_| Unreadable::NoNumber)?;
+    Ok(Quantity { value: shifted / scale.under * scale.over, exponents: scale.exponents, unit })
+}
+
+/// The number at the beginning of a text without its power of ten, that power, and what follows.
+fn number(text: &str) -> Option<(&str, i32, &str)> {
+    let digits = |text: &str| text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let sign = usize::from(text.starts_with(['+', '-']));
+    let whole = sign + digits(&text[sign..]);
+    let end = match text[whole..].strip_prefix('.').map(digits) {
+        None => whole,
+        Some(decimals) => whole + 1 + decimals,
+    };
+    let (mantissa, rest) = text.split_at(end);
+    if !mantissa.contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let power = rest.strip_prefix(['e', 'E']).and_then(|after| {
+        let sign = usize::from(after.starts_with(['+', '-']));
+        let end = sign + digits(&after[sign..]);
+        let power = after[..end].parse().ok().filter(|power: &i32| power.abs() < 10_000)?;
+        Some((power, &after[end..]))
+    });
+    let (exponent, rest) = power.unwrap_or((0, rest));
+    Some((mantissa, exponent, rest))
+}
+
+/// 10^ten · over / under, of the product of kg, m, s and rad to the exponents.
+struct Scale {
+    ten: i32,
+    over: f64,
+    under: f64,
+    exponents: [i8; 4],
+}
+
+impl Scale {
+    /// Takes the factors at the beginning of a text to the power `sign`, 1 or -1; what is left.
+    fn product<'t>(&mut self, text: &'t str, sign: i8) -> Result<&'t str, Unreadable<'t>> {
+        let mut rest = self.factor(text, sign)?;
+        let mut divided = false;
+        loop {
+            let next = rest.trim_start();
+            if let Some(after) = next.strip_prefix('/') {
+                divided = true;
+                rest = self.factor(after.trim_start(), -sign)?;
+                continue;
+            }
+            let after = next.strip_prefix(['.', '*', '·']).map_or(next, str::trim_start);
+            if after.is_empty() || after.starts_with(')') {
+                return Ok(next);
+            }
+            if divided {
+                let right = "what follows a `/` needs brackets where it is a product: N/(m.s)";
+                return Err(Unreadable::Unit(after, right.into()));
+            }
+            rest = self.factor(after, sign)?;
+        }
+    }
+
+    /// Takes one factor: a unit with its power, 1, or a product in brackets.
+    fn factor<'t>(&mut self, text: &'t str, sign: i8) -> Result<&'t str, Unreadable<'t>> {
+        if let Some(inside) = text.strip_prefix('(') {
+            let rest = self.product(inside, sign)?;
+            return rest.strip_prefix(')').ok_or(Unreadable::Unit(text, "the bracket is not closed".into()));
+        }
+        if let Some(rest) = text.strip_prefix('1') {
+            return Ok(rest);
+        }
+        let is_letter = |c: char| c.is_alphabetic() || c == '°';
+        let end = text.find(|c: char| !is_letter(c)).unwrap_or(text.len());
+        let (name, rest) = text.split_at(end);
+        if name.is_empty() {
+            return Err(Unreadable::Unit(text, "a unit is expected here".into()));
+        }
+        let (prefix, unit) = named(name).ok_or_else(|| Unreadable::Unit(name, unknown(name)))?;
+        let (power, rest) = power(rest).ok_or_else(|| Unreadable::Unit(text, "a power is from -9 to 9".into()))?;
+        let power = power * sign;
+        for _ in 0..power.abs() {
+            let [over, under] = unit.ratio;
+            let (up, down) = if power > 0 { (over, under) } else { (under, over) };
+            (self.over, self.under) = (self.over * up, self.under * down);
+        }
+        self.ten += i32::from(power) * (prefix + unit.ten);
+        for (exponent, of_unit) in self.exponents.iter_mut().zip(unit.exponents) {
+            *exponent = exponent.saturating_add(power.saturating_mul(of_unit));
+        }
+        Ok(rest)
+    }
+}
+
+/// The power of ten of a unit's prefix, and the unit.
+fn named(name: &str) -> Option<(i32, &'static Written)> {
+    let find = |name: &str| UNITS.iter().find(|unit| unit.name == name);
+    let prefixed = |(prefix, ten): &(&str, i32)| {
+        find(name.strip_prefix(prefix)?).filter(|unit| unit.prefixed).map(|unit| (*ten, unit))
+    };
+    find(name).map(|unit| (0, unit)).or_else(|| PREFIXES.iter().find_map(prefixed))
+}
+
+/// What is said of a name that is no unit.
+fn unknown(name: &str) -> String {
+    let mut names: Vec<_> = UNITS.iter().map(|unit| unit.name.to_owned()).collect();
+    for unit in UNITS.iter().filter(|unit| unit.prefixed) {
+        names.extend(PREFIXES.iter().map(|(prefix, _)| format!("{prefix}{}", unit.name)));
+    }
+    let meant = did_you_mean(name, names.iter().map(String::as_str));
+    meant.unwrap_or_else(|| {
+        let names: Vec<_> = UNITS.iter().map(|unit| unit.name).collect();
+        format!("the units are {}", names.join(", "))
+    })
+}
+
+/// The power at the beginning of a text, 1 where there is none, and what follows: `2`, `^2`, `-1`, `²`.
+fn power(text: &str) -> Option<(i8, &str)> {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let told = text.strip_prefix('^').unwrap_or(text);
+    let (sign, digits) = match told.strip_prefix(['-', '⁻']) {
+        Some(digits) => (-1, digits),
+        None => (1, told),
+    };
+    let mut digits = digits.chars();
+    let digit = digits.next().and_then(|c| {
+        let raised = RAISED.iter().position(|raised| *raised == c).map(|digit| digit as u32);
+        c.to_digit(10).or(raised)
+    });
+    match digit {
+        Some(digit) if !digits.as_str().starts_with(|c: char| c.is_ascii_digit()) => {
+            Some((sign * digit as i8, digits.as_str()))
+        }
+        None if told.len() == text.len() && sign == 1 => Some((1, text)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        read(text).unwrap_or_else(|wrong| panic!("{text}: {wrong:?}")).value
+    }
+
+    #[test]
+    fn exact_powers_of_ten_have_the_bits_of_the_number_in_si() {
+        for (text, si) in [
+            ("20 mm", 0.02),
+            ("0.1 mm", 1e-4),
+            ("8 µm", 8e-6),
+            ("8um", 8e-6),
+            ("1e7 N/m", 1e7),
+            ("0.3 kN/mm", 3e5),
+            ("5 kg", 5.0),
+            ("78.1 kg cm2", 78.1e-4),
+            ("40 g mm", 4e-5),
+            ("12.3 g·mm", 12.3e-6),
+            ("20 cP", 0.02),
+            ("0.7 MPa", 7e5),
+            ("2 mbar", 200.0),
+            ("7 N.m.s/rad", 7.0),
+            ("7 N m s rad^-1", 7.0),
+            ("7 N·m·s²/rad²", 7.0),
+            ("7 kg/(m.s)", 7.0),
+            ("3 kg/m/s", 3.0),
+            ("-1.5e-3 t", -1.5),
+            ("2 1/s", 2.0),
+            ("3 s⁻¹", 3.0),
+        ] {
+            assert_eq!(value(text), si, "{text}");
+        }
+    }
+
+    #[test]
+    fn exact_other_units() {
+        for (text, si) in [
+            ("2 min", 120.0),
+            ("0.5 h", 1800.0),
+            ("180 deg", PI),
+            ("90°", PI / 2.0),
+            ("60 rpm", TAU),
+            ("50 Hz", 50.0 * TAU),
+            ("60 rev/min", TAU),
+            ("1 in", 0.0254),
+            ("2 ft", 0.6096),
+            ("1 lb", 0.453_592_37),
+            ("1 lbf", 4.448_221_615_260_5),
+            ("16 oz", 0.453_592_37),
+            ("180 N.m/deg", 180.0 / PI * 180.0),
+        ] {
+            assert_eq!(value(text), si, "{text}");
+        }
+    }
+
+    #[test]
+    fn powers_of_a_unit() {
+        assert_eq!(read("1 N.m.s2/rad2").unwrap().exponents, [1, 2, 0, -2]);
+        assert_eq!(read("1 kg^2").unwrap().exponents, [2, 0, 0, 0]);
+        assert_eq!(quantity([1, 2, 0, -2]), Some("a quadratic drag"));
+        assert_eq!(quantity([0, 1, 0, -1]), Some("a length"));
+        assert_eq!(quantity([2, 0, 0, 0]), None);
+    }
+
+    #[test]
+    fn what_cannot_be_read() {
+        for text in ["", "ten", "m", "-", ".", "+ m", "nan m"] {
+            assert_eq!(read(text), Err(Unreadable::NoNumber), "{text}");
+        }
+        assert_eq!(read(" 5 "), Err(Unreadable::NoUnit));
+        assert_eq!(read("5,25 kg"), Err(Unreadable::Comma("5.25 kg".into())));
+        let unit = |text| match read(text) {
+            Err(Unreadable::Unit(what, right)) => (what, right),
+            other => panic!("{text}: {other:?}"),
+        };
+        assert_eq!(unit("5 rmp"), ("rmp", "did you mean `rpm`?".into()));
+        assert_eq!(unit("5 N/m.s").0, "s");
+        assert_eq!(unit("5 N/(m.s").1, "the bracket is not closed");
+        assert_eq!(unit("5 m)").0, ")");
+        assert_eq!(unit("5 m^").1, "a power is from -9 to 9");
+        assert_eq!(unit("5 m22").1, "a power is from -9 to 9");
+        assert_eq!(unit("5 %").1, "a unit is expected here");
+        assert!(unit("5 parsec").1.starts_with("the units are m, g, s"));
+        // Nothing with a prefix that has none, nor two of them.
+        assert!(read("5 krpm").is_err() && read("5 mmm").is_err());
+    }
+}
