@@ -247,23 +247,27 @@ fn structure(out: &mut Out, scene: &Scene) -> io::Result<()> {
     let list = |wanted: &dyn Fn(&Variable) -> bool| -> Vec<usize> {
         (0..).zip(&scene.variables).filter(|(_, variable)| wanted(variable)).map(|(index, _)| index).collect()
     };
-    let unknowns = |out: &mut Out, indices: Vec<usize>, depends: &[Vec<usize>]| {
-        indices.into_iter().try_for_each(|index| unknown(out, index, &depends[index]))
+    let unknowns = |out: &mut Out, indices: Vec<usize>, depends: Option<&[Vec<usize>]>| {
+        indices.into_iter().try_for_each(|index| unknown(out, index, depends.map(|depends| &depends[index][..])))
     };
     let is_output = |variable: &Variable| matches!(variable.meta.role, Role::Output);
     let is_state = |variable: &Variable| matches!(variable.meta.role, Role::State);
     let is_derivative = |variable: &Variable| is_state(variable) && variable.name.starts_with("der(");
-    inside(out, "Outputs", |out| unknowns(out, list(&is_output), &later))?;
-    inside(out, "Derivatives", |out| unknowns(out, list(&is_derivative), &later))?;
+    inside(out, "Outputs", |out| unknowns(out, list(&is_output), Some(&later)))?;
+    inside(out, "Derivatives", |out| unknowns(out, list(&is_derivative), Some(&later)))?;
     let is_initial = |variable: &Variable| is_output(variable) || is_state(variable);
-    inside(out, "InitialUnknowns", |out| unknowns(out, list(&is_initial), &at_start))
+    // Where loads balance depends on all of them.
+    let at_start = (!scene.parameters().setup.start.at_rest).then_some(&at_start[..]);
+    inside(out, "InitialUnknowns", |out| unknowns(out, list(&is_initial), at_start))
 }
 
-/// An unknown by its index from 0, and the indices of what it depends on.
-fn unknown(out: &mut Out, index: usize, dependencies: &[usize]) -> io::Result<()> {
+/// An unknown by its index from 0, and the indices of what it depends on, where that is not all there is.
+fn unknown(out: &mut Out, index: usize, dependencies: Option<&[usize]>) -> io::Result<()> {
     let one_based = |index: &usize| (index + 1).to_string();
-    let dependencies = dependencies.iter().map(one_based).collect::<Vec<_>>().join(" ");
-    empty(out, "Unknown", &[("index", one_based(&index)), ("dependencies", dependencies)])
+    let listed = dependencies.map(|these| these.iter().map(one_based).collect::<Vec<_>>().join(" "));
+    let attributes: Vec<_> =
+        [("index", one_based(&index))].into_iter().chain(listed.map(|listed| ("dependencies", listed))).collect();
+    empty(out, "Unknown", &attributes)
 }
 
 /// A floating-point number that reads back to the same bits.

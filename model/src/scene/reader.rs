@@ -367,8 +367,10 @@ impl Reader<'_> {
         let number = match meta.kind {
             Kind::Real => self.real(value, meta.unit, in_file),
             Kind::Enumeration(of) => self.item(value, of, in_file),
-            Kind::Integer | Kind::Boolean => {
-                as_number(value.get_ref()).or_else(|| self.wrong_type(value, in_file, "a number"))
+            Kind::Integer => as_number(value.get_ref()).or_else(|| self.wrong_type(value, in_file, "a number")),
+            Kind::Boolean => {
+                let given = value.get_ref().as_bool().map(f64::from);
+                given.or_else(|| self.wrong_type(value, in_file, "true or false"))
             }
         }?;
         let Err(invalid) = meta.check(|| in_file.to_owned(), number) else { return Some(number) };
@@ -382,7 +384,8 @@ impl Reader<'_> {
 
     /// A number, or one with its unit as a text.
     fn real(&mut self, value: &Value, unit: &Unit, in_file: &str) -> Option<f64> {
-        let of_unit = |before: &str| if unit.name.is_empty() { String::new() } else { format!("{before}{}", unit.name) };
+        let of_unit =
+            |before: &str| if unit.name.is_empty() { String::new() } else { format!("{before}{}", unit.name) };
         if let Some(text) = value.get_ref().as_str() {
             let tell = |reader: &mut Self, wrong: String, right: String| {
                 reader.problems.push(Problem::at(reader.place(value), wrong, right));
@@ -395,7 +398,8 @@ impl Reader<'_> {
                 Ok(Quantity { exponents, unit: given, .. }) => {
                     let what = units::quantity(unit.exponents).unwrap_or("a quantity");
                     let found = units::quantity(exponents).map_or_else(|| format!("in {given}"), str::to_owned);
-                    let right = if is_pure { "write it without a unit".into() } else { format!("give it in {}", unit.name) };
+                    let right =
+                        if is_pure { "write it without a unit".into() } else { format!("give it in {}", unit.name) };
                     tell(self, format!("{in_file} is {what}{}; \"{text}\" is {found}", brackets(unit)), right)
                 }
                 Err(Unreadable::NoNumber) => tell(self, impossible, format!("it must be a number{}", of_unit(" in "))),
@@ -404,9 +408,11 @@ impl Reader<'_> {
                     let right = format!("write it without quotes, or with its unit: \"{text} {}\"", unit.name);
                     tell(self, impossible, right)
                 }
-                Err(Unreadable::Comma(right)) => {
-                    tell(self, format!("{in_file} = {} has a decimal comma", self.given(value)), format!("write \"{right}\""))
-                }
+                Err(Unreadable::Comma(right)) => tell(
+                    self,
+                    format!("{in_file} = {} has a decimal comma", self.given(value)),
+                    format!("write \"{right}\""),
+                ),
                 Err(Unreadable::Unit(what, right)) => tell(self, format!("{in_file}: `{what}` is no unit"), right),
             };
         }
@@ -480,7 +486,8 @@ impl Reader<'_> {
                 let key = variable.name[section.len() + 1..].to_owned();
                 format!("`{key} = ...`, the {}{}", variable.meta.description, brackets(variable.meta.unit))
             };
-            let (keys, at) = (variables.iter().map(|variable| key(variable)), headings.iter().find(|(of, _)| of == section));
+            let (keys, at) =
+                (variables.iter().map(|variable| key(variable)), headings.iter().find(|(of, _)| of == section));
             if let Some((_, place)) = at {
                 let problems = variables.iter().zip(keys).map(|(variable, key)| {
                     Problem::at(place.clone(), format!("`{}` is missing", variable.name), format!("give {key}"))

@@ -104,7 +104,10 @@ fn key(variable: &Variable, within: &str, own: &[&Variable], starts: Option<&BTr
         None => (given(variable).map(|value| written(meta, value)), false),
     };
     let bound = match (meta.role, meta.kind) {
-        (_, Kind::Enumeration(of)) => of.items.iter().map(|item| format!("\"{}\"", item.1)).collect::<Vec<_>>().join(" or "),
+        (_, Kind::Enumeration(of)) => {
+            of.items.iter().map(|item| format!("\"{}\"", item.1)).collect::<Vec<_>>().join(" or ")
+        }
+        (_, Kind::Boolean) => "true or false".into(),
         (Role::Parameter { bound: Bound::Finite, .. } | Role::Input { .. }, _) => String::new(),
         (Role::Parameter { bound, .. }, kind) => words(bound, kind),
         _ => String::new(),
@@ -155,7 +158,8 @@ fn words(bound: Bound, kind: Kind) -> String {
 fn written(meta: &Meta, value: f64) -> String {
     match meta.kind {
         Kind::Real => format!("{value:?}"),
-        Kind::Integer | Kind::Boolean => value.to_string(),
+        Kind::Integer => value.to_string(),
+        Kind::Boolean => (value != 0.0).to_string(),
         Kind::Enumeration(of) => {
             let item = of.items.iter().find(|item| f64::from(item.0) == value);
             item.map_or_else(|| value.to_string(), |item| format!("\"{}\"", item.1))

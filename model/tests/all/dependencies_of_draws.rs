@@ -41,6 +41,11 @@ fn is_possible(named: &mut Named) -> bool {
     named.simulation.parameters().check().is_ok() && named.simulation.read().is_ok()
 }
 
+/// Of an effect; with `start.at_rest` all that is shown at the start depends on all of it.
+fn is_switch(variable: &Variable) -> bool {
+    variable.place.row == Place::SWITCH
+}
+
 /// A rotor that can exist.
 pub fn somewhere(name: &str, random: &mut Random) -> Named {
     let mut named = Named::new(name, Integrator::Host);
@@ -49,7 +54,7 @@ pub fn somewhere(name: &str, random: &mut Random) -> Named {
         for variable in &variables {
             if let Some((low, high)) = range(variable) {
                 named.set(&variable.name, random.within(low, high));
-            } else if variable.meta.kind == Kind::Boolean {
+            } else if is_switch(variable) {
                 named.set(&variable.name, f64::from(random.within(0.0, 1.0) < 0.75));
             }
         }
@@ -100,7 +105,7 @@ impl Judge {
         for (index, variable) in named.scene.variables.clone().iter().enumerate() {
             let old = match range(variable) {
                 Some(_) => named.at(variable.place),
-                None if variable.meta.kind == Kind::Boolean => named.at(variable.place),
+                None if is_switch(variable) => named.at(variable.place),
                 None => continue,
             };
             let new = range(variable).map_or(1.0 - old, |(low, high)| random.within(low, high));

@@ -76,7 +76,8 @@ fn a_folder_is_no_scene() {
 
 /// The value of a variable in the rotor with this below it.
 fn value(rest: &str, name: &str) -> f64 {
-    let scene = Scene::parse(Path::new("good.toml"), &format!("{ROTOR}{rest}")).unwrap_or_else(|error| panic!("{error}"));
+    let scene =
+        Scene::parse(Path::new("good.toml"), &format!("{ROTOR}{rest}")).unwrap_or_else(|error| panic!("{error}"));
     let variable = scene.variables.iter().find(|variable| variable.name == name);
     scene.starts[&variable.unwrap_or_else(|| panic!("{name}")).place.value_reference()]
 }
@@ -105,7 +106,8 @@ fn exact_numbers_with_units_have_the_bits_of_those_in_si() {
 #[test]
 fn each_quantity_of_a_variable_has_a_name() {
     // What it is told by where a unit does not fit.
-    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/rotor.toml")).expect("it is there");
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/rotor.toml"))
+        .expect("it is there");
     let scene = Scene::parse(Path::new("rotor.toml"), &text).expect("a scene");
     let mut units = std::collections::BTreeSet::new();
     for variable in scene.variables.iter().filter(|variable| variable.meta.has_start()) {
