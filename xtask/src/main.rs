@@ -13,6 +13,7 @@ mod frequency;
 mod fuzz;
 mod hard_cases;
 mod licences;
+mod linear_fmu;
 mod memcheck;
 mod numbers;
 mod package;
