@@ -25,10 +25,10 @@ fn compiler() -> Result<Command> {
     tool(&std::env::var("CC").unwrap_or("cc".into()), "gcc")
 }
 
-/// Compiles a source of an FMU, in the folder of its headers, to a shared library of this name there.
-pub fn library(folder: &Path, source: &str, name: &str) -> Result<PathBuf> {
-    let flags = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-DFMI2_OVERRIDE_FUNCTION_PREFIX="];
-    run(compiler()?.current_dir(folder).args(flags).args([source, "-o", name]))?;
+/// Compiles a source of an FMU to a shared library of this name, both in the folder of its headers.
+pub fn library(folder: &Path, source: &str, name: &str, flags: &[&str]) -> Result<PathBuf> {
+    let always = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-DFMI2_OVERRIDE_FUNCTION_PREFIX="];
+    run(compiler()?.current_dir(folder).args(always).args(flags).args([source, "-o", name]))?;
     Ok(folder.join(name))
 }
 

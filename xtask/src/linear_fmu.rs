@@ -31,13 +31,13 @@ pub fn write(scene: &Scene, space: &StateSpace, folder: &Path) -> Result<PathBuf
     let said = |guid: &str| Ok::<_, anyhow::Error>([render("modelDescription.xml", guid)?, render(MATRICES, guid)?]);
     let guid = xml::guid_of(&said("")?.concat());
     let [description, matrices] = said(&guid)?;
-    let sources = paths::target().join("linear").join(&identifier);
+    let sources = sources(scene);
     fs::create_dir_all(&sources)?;
     for source in SOURCES {
         fs::copy(paths::root().join("modelDescription/linear").join(source), sources.join(source))?;
     }
     fs::write(sources.join(MATRICES), matrices)?;
-    let library = library(&sources, &identifier);
+    let library = package::library_path(&identifier).and_then(|path| Ok((path, fs::read(library(scene, &[])?)?)));
     let fmu = folder.join(format!("{name}.fmu"));
     package::archive(&fmu, |add| {
         add("modelDescription.xml", description.as_bytes())?;
@@ -58,11 +58,14 @@ pub fn write(scene: &Scene, space: &StateSpace, folder: &Path) -> Result<PathBuf
     Ok(fmu)
 }
 
-/// The compiled library, and its path in the FMU.
-fn library(sources: &Path, identifier: &str) -> Result<(String, Vec<u8>)> {
-    let path = package::library_path(identifier)?;
-    let library = c::library(sources, SOURCES[0], &format!("{identifier}{DLL_SUFFIX}"))?;
-    Ok((path, fs::read(library)?))
+/// Where the sources of a scene's linear FMU stand, once it was written.
+fn sources(scene: &Scene) -> PathBuf {
+    paths::target().join("linear").join(scene.identifier())
+}
+
+/// Compiles them with further flags to a shared library beside them.
+pub fn library(scene: &Scene, flags: &[&str]) -> Result<PathBuf> {
+    c::library(&sources(scene), SOURCES[0], &format!("library{DLL_SUFFIX}"), flags)
 }
 
 /// What the templates are filled in with, but for the names of the model.

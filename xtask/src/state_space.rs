@@ -9,8 +9,8 @@ use split_rotor_model::linear::{Machine, Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
 use std::path::Path;
 
-/// Writes the matrices of a scene at this speed [rad/s], or the one with which it starts, as JSON and for MATLAB into the folder `out`,
-/// or target/state-space/SCENE.
+/// Writes the matrices of a scene at this speed [rad/s], or the one with which it starts, as JSON, as an FMU and for MATLAB into the folder
+/// `out`, or target/state-space/SCENE.
 pub fn state_space(scene: &str, speed: Option<f64>, out: Option<&Path>) -> Result<()> {
     let scene = scenes::find(scene)?;
     let space = of(&scene, speed)?;
