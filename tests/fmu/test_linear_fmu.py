@@ -486,6 +486,44 @@ def test_exact_the_sources_are_c99_and_ask_for_the_c_library_only(linear, couple
     assert exported(library) == packaged
 
 
+# Counts what is allocated in steps of two sizes and in reading an output.
+ALLOCATIONS = """
+#include "fmi2.h"
+#include "matrices.h"
+#include <stdio.h>
+#define DECLARE(result, name, arguments) result fmi2##name arguments;
+FMI2_FUNCTIONS(DECLARE)
+static int count;
+void *__real_malloc(size_t), *__real_calloc(size_t, size_t);
+void *__wrap_malloc(size_t size) { count++; return __real_malloc(size); }
+void *__wrap_calloc(size_t n, size_t size) { count++; return __real_calloc(n, size); }
+int main(void)
+{
+    fmi2CallbackFunctions callbacks = {0};
+    fmi2Component one = fmi2Instantiate("one", fmi2CoSimulation, GUID, NULL, &callbacks, 0, 0);
+    fmi2ValueReference last = COLUMNS + ROWS - 1;
+    fmi2Real value;
+    int before = count;
+    fmi2EnterInitializationMode(one);
+    fmi2ExitInitializationMode(one);
+    int wrong = fmi2DoStep(one, 0.0, 0.1, 1) | fmi2DoStep(one, 0.1, 0.2, 1) | fmi2GetReal(one, &last, 1, &value);
+    printf("%d %d %d", before, count - before, wrong);
+    return 0;
+}
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="the linker's options are GNU's")
+def test_exact_a_step_allocates_nothing(linear, tmp_path):
+    host, program, sources = tmp_path / "host.c", tmp_path / "host", linear.directory / "sources"
+    host.write_text(ALLOCATIONS, encoding="utf-8")
+    wrapped = ["-Wl,--wrap=malloc,--wrap=calloc", "-DFMI2_OVERRIDE_FUNCTION_PREFIX="]
+    made = cc("-std=c99", "-I", sources, *wrapped, host, sources / "linear.c", "-o", program)
+    assert made.returncode == 0, made.stderr
+    counted = subprocess.run([program], capture_output=True, encoding="utf-8", check=True)
+    assert counted.stdout == "1 0 0"
+
+
 def exported(library):
     """What a shared library offers."""
     listed = subprocess.run(["nm", "-D", "--defined-only", library], capture_output=True, encoding="utf-8", check=True)
