@@ -24,7 +24,12 @@ pub fn model_description(scene: &Scene) -> String {
 
 /// The scene's GUID: it follows every change of the text.
 pub fn guid(scene: &Scene) -> String {
-    format!("{{{}}}", Uuid::new_v5(&NAMESPACE, render(scene, "").as_bytes()))
+    guid_of(&render(scene, ""))
+}
+
+/// The GUID of a model of which this text says everything.
+pub fn guid_of(text: &str) -> String {
+    format!("{{{}}}", Uuid::new_v5(&NAMESPACE, text.as_bytes()))
 }
 
 type Out = Writer<Vec<u8>>;
@@ -209,8 +214,8 @@ fn scalar_variable(out: &mut Out, scene: &Scene, variable: &Variable) -> io::Res
     Ok(())
 }
 
-/// What a continuous state counts with, in its unit.
-fn nominal_of(scene: &Scene, variable: &Variable) -> Option<f64> {
+/// What a continuous state counts with, in its unit; None of other variables.
+pub fn nominal_of(scene: &Scene, variable: &Variable) -> Option<f64> {
     Any::with(Integrator::Host, scene.parameters()).nominal(variable.place)
 }
 

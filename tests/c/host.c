@@ -23,7 +23,7 @@ static void usage(void)
 }
 
 /* The parts that are left out. */
-static const char *without[4];
+static const char *without[8];
 static size_t without_count = 0;
 
 static void one_part(const char *name, void (*part)(void))

@@ -18,9 +18,9 @@ MODEL_EXCHANGE, CO_SIMULATION = range(2)
 
 
 class Host:
-    """An instance of a packaged FMU. Used as a context, it frees the instance."""
+    """An instance of a packaged FMU. Used as a context, it frees the instance. Its messages are appended to `log`."""
 
-    def __init__(self, fmu, kind=CO_SIMULATION, memory_functions=True):
+    def __init__(self, fmu, kind=CO_SIMULATION, memory_functions=True, guid=None, log=None):
         self.fmu, self.kind = fmu, kind
         self.variables = fmu.variables
         self.slave = (FMU2Slave if kind == CO_SIMULATION else FMU2Model)(
@@ -31,7 +31,8 @@ class Host:
         )
         # Callbacks of its own: fmpy's default ones log through what an earlier simulate_fmu left behind.
         callbacks = fmi2CallbackFunctions()
-        callbacks.logger = fmi2CallbackLoggerTYPE(lambda *_message: None)
+        self.log = [] if log is None else log
+        callbacks.logger = fmi2CallbackLoggerTYPE(lambda *message: self.log.append(message[-1].decode("utf-8")))
         if memory_functions:
             callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
             callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
@@ -39,7 +40,7 @@ class Host:
         self.slave.component = self.slave.fmi2Instantiate(
             b"instance",
             kind,
-            fmu.description.guid.encode(),
+            (guid or fmu.description.guid).encode(),
             fmu.directory.as_uri().encode(),
             byref(callbacks),
             False,

@@ -20,17 +20,28 @@ pub fn is_installed(program: &str) -> bool {
     Command::new(program).arg("--version").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok()
 }
 
+/// The machine's own compiler, or the one that `CC` names.
+fn compiler() -> Result<Command> {
+    tool(&std::env::var("CC").unwrap_or("cc".into()), "gcc")
+}
+
+/// Compiles a source of an FMU to a shared library of this name, both in the folder of its headers.
+pub fn library(folder: &Path, source: &str, name: &str, flags: &[&str]) -> Result<PathBuf> {
+    let always = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-DFMI2_OVERRIDE_FUNCTION_PREFIX="];
+    run(compiler()?.current_dir(folder).args(always).args(flags).args([source, "-o", name]))?;
+    Ok(folder.join(name))
+}
+
 /// Compiles `sources` to target/c/`name`.
 pub fn compile(name: &str, sources: &[PathBuf], flags: &[&str]) -> Result<PathBuf> {
     let folder = paths::target().join("c");
     std::fs::create_dir_all(&folder)?;
     let program = folder.join(name);
-    let compiler = std::env::var("CC").unwrap_or("cc".into());
-    run(tool(&compiler, "gcc")?
+    run(compiler()?
         // Paths in messages are those of the project, and no path of this machine stays in the program.
         .current_dir(paths::root())
         .args(["-std=c99", "-D_GNU_SOURCE", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-pthread"])
-        .args(["-I", "tests/c"])
+        .args(["-I", "tests/c", "-I", "modelDescription/linear"])
         .args(flags)
         .args(sources)
         .arg("-o")

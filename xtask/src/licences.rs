@@ -7,12 +7,12 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-/// Our own licence, for documentation/licenses/license.txt.
-pub fn own() -> Result<String> {
+/// Our own licence, for documentation/licenses/license.txt; what it says of `others`, the licences of libraries, is a line.
+pub fn own(others: &str) -> Result<String> {
     let text = |name: &str| std::fs::read_to_string(paths::root().join(name));
     Ok(format!(
         "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n\
-         The licences of the libraries in its binary stand in third-party.txt.\n\n{}\n\n{}",
+         {others}\n\n{}\n\n{}",
         text("LICENSE-MIT")?,
         text("LICENSE-APACHE")?
     ))

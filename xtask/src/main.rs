@@ -15,6 +15,7 @@ mod fuzz;
 mod hard_cases;
 mod known;
 mod licences;
+mod linear_fmu;
 mod memcheck;
 mod numbers;
 mod package;
@@ -167,8 +168,8 @@ enum Command {
         #[arg(long, num_args = 2, value_names = ["FROM", "TO"], requires = "from")]
         frequencies: Option<Vec<f64>>,
     },
-    /// Write a scene about its steady state as matrices A, B, C and D with names and units, drives off, the spin held: JSON and MATLAB's
-    /// .mat in target/state-space/SCENE
+    /// Write a scene about its steady state as matrices A, B, C and D with names and units, drives off, the spin held: JSON, MATLAB's .mat
+    /// and an FMU, SCENE_linear.fmu, in target/state-space/SCENE
     StateSpace {
         /// The scene
         #[arg(default_value = "coupled")]

@@ -28,7 +28,7 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     side_by_side(&scenes, |builder, scene| {
         progress.set_message(format!("building {}", scene.name));
         let (library, fmu) = (build_in(paths::root(), scene, &target(builder))?, fmu(scene));
-        archive(scene, &library, &fmu).with_context(|| format!("cannot write {}", fmu.display()))?;
+        archive(&fmu, |add| fill(scene, &library, add))?;
         progress.inc(1);
         progress.suspend(|| println!("{}", fmu.display()));
         Ok(())
@@ -90,36 +90,49 @@ fn flags(root: &Path) -> Result<String> {
         .join("\x1f"))
 }
 
-/// The FMU: whole, or as it was before.
-fn archive(scene: &Scene, library: &Path, fmu: &Path) -> Result<()> {
+/// Adds a file to an FMU: its path there, and what it holds.
+pub type Add<'a> = dyn FnMut(&str, &[u8]) -> Result<()> + 'a;
+
+/// Writes an FMU of what `fill` adds: whole, or it stays as it was before.
+pub fn archive(fmu: &Path, fill: impl FnOnce(&mut Add) -> Result<()>) -> Result<()> {
     let beside = fmu.with_extension("fmu.part");
-    let written = write_archive(scene, library, &beside).and_then(|()| Ok(fs::rename(&beside, fmu)?));
+    let written = write_archive(&beside, fill).and_then(|()| Ok(fs::rename(&beside, fmu)?));
     if written.is_err() {
         // Where it cannot be removed either, what went wrong says more.
         let _ = fs::remove_file(&beside);
     }
-    written
+    written.with_context(|| format!("cannot write {}", fmu.display()))
 }
 
-fn write_archive(scene: &Scene, library: &Path, file: &Path) -> Result<()> {
+fn write_archive(file: &Path, fill: impl FnOnce(&mut Add) -> Result<()>) -> Result<()> {
     let mut zip = ZipWriter::new(File::create(file)?);
-    let mut add = |name: String, bytes: &[u8]| -> Result<()> {
+    fill(&mut |path, bytes| {
         // The options carry no time: the same source gives the same bytes.
-        zip.start_file(name, SimpleFileOptions::default())?;
+        zip.start_file(path, SimpleFileOptions::default())?;
         Ok(zip.write_all(bytes)?)
-    };
-    add("modelDescription.xml".into(), xml::model_description(scene).as_bytes())?;
-    let icon = fs::read(paths::root().join("modelDescription/model.png"))?;
-    add("model.png".into(), &icon)?;
-    add(library_path(&scene.identifier())?, &fs::read(library)?)?;
-    add("documentation/index.html".into(), page::page(scene)?.as_bytes())?;
-    add("documentation/licenses/license.txt".into(), licences::own()?.as_bytes())?;
-    add("documentation/licenses/third-party.txt".into(), licences::third_party()?.as_bytes())?;
-    add("terminalsAndIcons/terminalsAndIcons.xml".into(), terminals::terminals_and_icons(scene)?.as_bytes())?;
-    // Where FMI 3.0, which defines that file, looks for the icon.
-    add("terminalsAndIcons/icon.png".into(), &icon)?;
+    })?;
     zip.finish()?;
     Ok(())
+}
+
+/// Adds what the FMU of a scene holds.
+fn fill(scene: &Scene, library: &Path, add: &mut Add) -> Result<()> {
+    let licence = licences::own("The licences of the libraries in its binary stand in third-party.txt.")?;
+    add("modelDescription.xml", xml::model_description(scene).as_bytes())?;
+    let icon = icon()?;
+    add("model.png", &icon)?;
+    add(&library_path(&scene.identifier())?, &fs::read(library)?)?;
+    add("documentation/index.html", page::page(scene)?.as_bytes())?;
+    add("documentation/licenses/license.txt", licence.as_bytes())?;
+    add("documentation/licenses/third-party.txt", licences::third_party()?.as_bytes())?;
+    add("terminalsAndIcons/terminalsAndIcons.xml", terminals::terminals_and_icons(scene)?.as_bytes())?;
+    // Where FMI 3.0, which defines that file, looks for the icon.
+    add("terminalsAndIcons/icon.png", &icon)
+}
+
+/// The picture of an FMU, model.png.
+pub fn icon() -> Result<Vec<u8>> {
+    Ok(fs::read(paths::root().join("modelDescription/model.png"))?)
 }
 
 /// Where the library of this machine's platform lies in an FMU.
@@ -139,7 +152,7 @@ fn platform() -> Result<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{archive, paths, scenes};
+    use super::{archive, fill, paths, scenes};
     use std::fs;
 
     #[test]
@@ -148,7 +161,8 @@ mod tests {
         fs::create_dir_all(&folder).unwrap();
         let fmu = folder.join("paper.fmu");
         fs::write(&fmu, "as it was").unwrap();
-        archive(&scenes::find("paper").unwrap(), &folder.join("nosuch"), &fmu).expect_err("there is no library");
+        let scene = scenes::find("paper").unwrap();
+        archive(&fmu, |add| fill(&scene, &folder.join("nosuch"), add)).expect_err("there is no library");
         assert_eq!(fs::read_to_string(&fmu).unwrap(), "as it was");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
     }

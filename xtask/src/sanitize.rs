@@ -1,8 +1,8 @@
-//! The FMU and the C host with AddressSanitizer, the host with UndefinedBehaviorSanitizer too, and leaks looked for at the
-//! end.
+//! The FMU and the C host with AddressSanitizer, the host and the linear FMU, which is C, with UndefinedBehaviorSanitizer too, and leaks
+//! looked for at the end.
 
 use crate::run::{cargo, run, side_by_side};
-use crate::{c_host, paths, scenes, sheet, unpacked};
+use crate::{c_host, linear_fmu, paths, scenes, sheet, state_space, unpacked};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
@@ -25,15 +25,34 @@ pub fn sanitizers() -> Result<()> {
     let host = c_host::compile("host-sanitized", &FLAGS).context(
         "the C host cannot be compiled with sanitizers: GCC's are needed (Debian: apt-get install gcc libasan8 libubsan1)",
     )?;
+    linear(&host)?;
     side_by_side(&SCENES, |worker, name| {
         let (scene, folder) = (scenes::find(name)?, paths::target().join("sanitized").join(worker.to_string()));
         let library = std::fs::read(library(&scene, &folder)?)?;
         let folder = folder.join("unpacked");
         let fmu = unpacked::write(&folder, name, &sheet::sheet(&xml::model_description(&scene))?, &library)?;
-        run(c_host::arguments(&mut Command::new(&host), &fmu)?
-            .env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1")
-            .env("UBSAN_OPTIONS", "print_stacktrace=1"))
+        run(c_host::arguments(&mut strict(&host), &fmu)?)
     })
+}
+
+/// A command that runs the host.
+fn strict(host: &Path) -> Command {
+    let mut command = Command::new(host);
+    command
+        .env("ASAN_OPTIONS", "detect_leaks=1:detect_stack_use_after_return=1:strict_string_checks=1")
+        .env("UBSAN_OPTIONS", "print_stacktrace=1");
+    command
+}
+
+/// Runs the host on the linear FMU of a scene with inputs, but for what it asks of a rotor and its solver.
+fn linear(host: &Path) -> Result<()> {
+    let (scene, folder) = (scenes::find("coupled")?, paths::target().join("sanitized/linear"));
+    std::fs::create_dir_all(&folder)?;
+    let fmu = unpacked::unpack(&linear_fmu::write(&scene, &state_space::of(&scene, None)?, &folder)?)?;
+    std::fs::copy(linear_fmu::library(&scene, &FLAGS)?, &fmu.library)?;
+    let others =
+        ["cycles", "logs", "derivatives", "model_exchange", "threads"].into_iter().flat_map(|part| ["--without", part]);
+    run(strict(host).arg(&fmu.sheet).arg(&fmu.library).args(others))
 }
 
 /// The library of a scene, instrumented, built in this folder. The next scene's overwrites it.

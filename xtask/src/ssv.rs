@@ -5,7 +5,6 @@ use anyhow::{Context, Result};
 use minijinja::{Value, context};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::simulation::Any;
-use split_rotor_model::variable::units::Unit;
 use split_rotor_model::variable::{Kind, Role};
 use split_rotor_model::variables::Variable;
 use std::path::Path;
@@ -49,15 +48,6 @@ fn lacking(name: &str) -> String {
 }
 
 fn render(scene: &Scene, values: &[(&Variable, f64)]) -> Result<String> {
-    let mut units: Vec<&Unit> = values.iter().map(|(variable, _)| variable.meta.unit).collect();
-    units.retain(|unit| !unit.name.is_empty());
-    units.sort_by_key(|unit| unit.name);
-    units.dedup_by_key(|unit| unit.name);
-    let unit = |unit: &&Unit| {
-        let bases = ["kg", "m", "s", "rad"].into_iter().zip(unit.exponents).filter(|(_, exponent)| *exponent != 0);
-        let bases: Vec<_> = bases.map(|(name, exponent)| context! { name, exponent }).collect();
-        context! { name => unit.name, bases }
-    };
     let parameter = |(variable, value): &(&Variable, f64)| {
         let (kind, value) = match variable.meta.kind {
             Kind::Real => ("Real", format!("{value:?}")),
@@ -71,7 +61,7 @@ fn render(scene: &Scene, values: &[(&Variable, f64)]) -> Result<String> {
         title => &scene.title,
         version => env!("CARGO_PKG_VERSION"),
         parameters => values.iter().map(parameter).collect::<Value>(),
-        units => units.iter().map(unit).collect::<Value>(),
+        units => templates::units(values.iter().map(|(variable, _)| variable.meta.unit)),
     };
     templates::render("ssv/parameters.xml", context)
 }

@@ -1,7 +1,7 @@
 //! `state-space`: a machine about its steady state as matrices with names and units, for control design.
 
 use crate::speeds::HIGHEST;
-use crate::{paths, python, run, scenes};
+use crate::{linear_fmu, paths, python, run, scenes};
 use anyhow::{Context, Result, ensure};
 use nalgebra::{Dim, Matrix, RawStorage};
 use serde_json::{Value, json};
@@ -9,8 +9,8 @@ use split_rotor_model::linear::{Machine, Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
 use std::path::Path;
 
-/// Writes the matrices of a scene at this speed [rad/s], or the one with which it starts, as JSON and for MATLAB into the folder `out`,
-/// or target/state-space/SCENE.
+/// Writes the matrices of a scene at this speed [rad/s], or the one with which it starts, as JSON, as an FMU and for MATLAB into the folder
+/// `out`, or target/state-space/SCENE.
 pub fn state_space(scene: &str, speed: Option<f64>, out: Option<&Path>) -> Result<()> {
     let scene = scenes::find(scene)?;
     let space = of(&scene, speed)?;
@@ -19,6 +19,7 @@ pub fn state_space(scene: &str, speed: Option<f64>, out: Option<&Path>) -> Resul
     let file = folder.join("state_space.json");
     std::fs::write(&file, serde_json::to_string_pretty(&json(&scene, &space))? + "\n")?;
     println!("{}\n{}", told(&space), file.display());
+    println!("{}", linear_fmu::write(&scene, &space, &folder)?.display());
     let converter = paths::root().join("xtask/python/state_space.py");
     run::run(python::scipy()?.arg(converter).arg(std::path::absolute(&file)?))
         .with_context(|| format!("{}: there is no MATLAB file beside it", file.display()))?;

@@ -1,5 +1,6 @@
-/* The C types and the 44 functions of FMI 2.0, from the standard's text (sections 2.1, 3.2 and 4.2), in one list:
-   typedefs, a struct of pointers and the look-up by name all follow from it, so that none can be forgotten. */
+/* The C types and the 44 functions of FMI 2.0, from the standard's text (sections 2.1, 3.2 and 4.2), in one list: what
+   an FMU declares, and the pointers and the look-up by name of a host, all follow from it, so that none can be
+   forgotten. */
 #ifndef FMI2_H
 #define FMI2_H
 
@@ -91,16 +92,5 @@ typedef struct {
     F(fmi2Status,    GetBooleanStatus,       (fmi2Component, fmi2StatusKind, fmi2Boolean *)) \
     F(fmi2Status,    GetStringStatus,        (fmi2Component, fmi2StatusKind, fmi2String *))
 /* clang-format on */
-
-#define FMI2_TYPE(result, name, arguments) typedef result fmi2##name##TYPE arguments;
-FMI2_FUNCTIONS(FMI2_TYPE)
-#undef FMI2_TYPE
-
-#define FMI2_POINTER(result, name, arguments) fmi2##name##TYPE *name;
-/* The functions of one library. */
-struct fmi2 {
-    FMI2_FUNCTIONS(FMI2_POINTER)
-};
-#undef FMI2_POINTER
 
 #endif
