@@ -10,8 +10,8 @@ mod spending;
 mod times;
 
 use crate::package::UNPACKED;
-use crate::{known, paths};
 use crate::run::cargo;
+use crate::{known, paths};
 use anyhow::{Result, ensure};
 use split_rotor_model::scene::Scene;
 use std::process::Command;

@@ -1,6 +1,7 @@
 //! From the text of a scene to its values. The known keys are the names of the variables; there is no second list.
 
 use super::experiment::{self, Experiment};
+use super::input::{self, Input};
 use super::moment::{self, Moment};
 use super::problem::Problem;
 use super::similar::similar;
@@ -13,6 +14,7 @@ use crate::variable::{Bound, Enumeration, Kind, Meta, Place};
 use crate::variables::{self, Variable};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -30,6 +32,7 @@ pub(super) struct Found {
     pub variables: Vec<Variable>,
     pub starts: BTreeMap<u32, f64>,
     pub experiment: Experiment,
+    pub inputs: Vec<Input>,
     /// Where the file gives each parameter that it names.
     pub places: Vec<(String, Range<usize>)>,
 }
@@ -155,13 +158,13 @@ fn every_effect(called: &[(&Info, u32)]) -> Vec<(&'static Info, u32)> {
     CATALOGUE.iter().flat_map(|info| (1..=number(info)).map(move |index| (info, index))).collect()
 }
 
-const SECTIONS: [&str; 7] = ["title", "general", "rotor", "start", "effects", "solver", "experiment"];
+const SECTIONS: [&str; 8] = ["title", "general", "rotor", "start", "effects", "solver", "experiment", input::SECTION];
 
-/// Reads a scene; else what is wrong with it, in the order of the file.
-pub(super) fn read(text: &str) -> Result<Found, Vec<Problem>> {
+/// Reads a scene whose file is in this folder; else what is wrong with it, in the order of the file.
+pub(super) fn read(text: &str, folder: &Path) -> Result<Found, Vec<Problem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     let (mut problems, rest_is_sound) = syntax::problems(text, &errors);
-    let mut reader = Reader { text, problems: Vec::new() };
+    let mut reader = Reader { text, folder, problems: Vec::new() };
     let found = rest_is_sound.then(|| reader.scene(root.get_ref()));
     // What else is wrong in a line that is no TOML follows from that.
     let mut others = reader.problems;
@@ -175,12 +178,13 @@ pub(super) fn read(text: &str) -> Result<Found, Vec<Problem>> {
 }
 
 /// Reads on where something is wrong, and remembers what.
-struct Reader<'t> {
+pub(super) struct Reader<'t> {
     text: &'t str,
-    problems: Vec<Problem>,
+    pub(super) folder: &'t Path,
+    pub(super) problems: Vec<Problem>,
 }
 
-type Value<'i> = Spanned<DeValue<'i>>;
+pub(super) type Value<'i> = Spanned<DeValue<'i>>;
 
 impl Reader<'_> {
     fn scene(&mut self, root: &DeTable) -> Found {
@@ -234,7 +238,8 @@ impl Reader<'_> {
         let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
         let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
         let experiment = self.experiment(root.get("experiment"), tolerance);
-        Found { title, general, effects, variables, starts, experiment, places }
+        let inputs = self.inputs(root, &variables);
+        Found { title, general, effects, variables, starts, experiment, inputs, places }
     }
 
     fn title(&mut self, value: &Value) -> Option<String> {
@@ -273,7 +278,12 @@ impl Reader<'_> {
                 }
                 continue;
             };
-            let several = value.get_ref().as_array().map_or(std::slice::from_ref(value), |several| &several[..]);
+            let several = match value.get_ref() {
+                DeValue::Array(several) => &several[..],
+                DeValue::Table(_) => std::slice::from_ref(value),
+                _ if info.several => &[],
+                _ => std::slice::from_ref(value),
+            };
             match (info.several, value.get_ref()) {
                 (false, DeValue::Array(_)) => {
                     tell(format!("there is only one {name}"), format!("write [effects.{name}]"));
@@ -282,11 +292,11 @@ impl Reader<'_> {
                     format!("[[effects.{name}]] stands {} times", several.len()),
                     format!("there may be up to {most}"),
                 ),
-                (true, DeValue::Table(_)) => tell(
+                (true, DeValue::Array(_)) | (false, _) => {}
+                (true, _) => tell(
                     format!("there may be several of {name}"),
                     format!("write [[effects.{name}]], once for each, up to {most}"),
                 ),
-                _ => {}
             }
             let most = if info.several { most } else { 1 };
             tables.extend((1..).zip(several).take(most).map(|(index, value)| (info, index, value)));
@@ -381,8 +391,9 @@ impl Reader<'_> {
     }
 
     /// A number, or one with its unit as a text.
-    fn real(&mut self, value: &Value, unit: &Unit, in_file: &str) -> Option<f64> {
-        let of_unit = |before: &str| if unit.name.is_empty() { String::new() } else { format!("{before}{}", unit.name) };
+    pub(super) fn real(&mut self, value: &Value, unit: &Unit, in_file: &str) -> Option<f64> {
+        let of_unit =
+            |before: &str| if unit.name.is_empty() { String::new() } else { format!("{before}{}", unit.name) };
         if let Some(text) = value.get_ref().as_str() {
             let tell = |reader: &mut Self, wrong: String, right: String| {
                 reader.problems.push(Problem::at(reader.place(value), wrong, right));
@@ -395,7 +406,8 @@ impl Reader<'_> {
                 Ok(Quantity { exponents, unit: given, .. }) => {
                     let what = units::quantity(unit.exponents).unwrap_or("a quantity");
                     let found = units::quantity(exponents).map_or_else(|| format!("in {given}"), str::to_owned);
-                    let right = if is_pure { "write it without a unit".into() } else { format!("give it in {}", unit.name) };
+                    let right =
+                        if is_pure { "write it without a unit".into() } else { format!("give it in {}", unit.name) };
                     tell(self, format!("{in_file} is {what}{}; \"{text}\" is {found}", brackets(unit)), right)
                 }
                 Err(Unreadable::NoNumber) => tell(self, impossible, format!("it must be a number{}", of_unit(" in "))),
@@ -404,9 +416,11 @@ impl Reader<'_> {
                     let right = format!("write it without quotes, or with its unit: \"{text} {}\"", unit.name);
                     tell(self, impossible, right)
                 }
-                Err(Unreadable::Comma(right)) => {
-                    tell(self, format!("{in_file} = {} has a decimal comma", self.given(value)), format!("write \"{right}\""))
-                }
+                Err(Unreadable::Comma(right)) => tell(
+                    self,
+                    format!("{in_file} = {} has a decimal comma", self.given(value)),
+                    format!("write \"{right}\""),
+                ),
                 Err(Unreadable::Unit(what, right)) => tell(self, format!("{in_file}: `{what}` is no unit"), right),
             };
         }
@@ -450,12 +464,12 @@ impl Reader<'_> {
         experiment
     }
 
-    fn table<'v, 'i>(&mut self, value: &'v Value<'i>, key: &str) -> Option<&'v DeTable<'i>> {
+    pub(super) fn table<'v, 'i>(&mut self, value: &'v Value<'i>, key: &str) -> Option<&'v DeTable<'i>> {
         value.get_ref().as_table().or_else(|| self.wrong_type(value, key, "a table"))
     }
 
     /// Tells what a value must be; what is to be read instead is the default.
-    fn wrong_type<T: Default>(&mut self, value: &Value, key: &str, right: &str) -> T {
+    pub(super) fn wrong_type<T: Default>(&mut self, value: &Value, key: &str, right: &str) -> T {
         let wrong = format!("{key} = {} is not possible", self.given(value));
         self.problems.push(Problem::at(self.place(value), wrong, format!("it must be {right}")));
         T::default()
@@ -480,7 +494,8 @@ impl Reader<'_> {
                 let key = variable.name[section.len() + 1..].to_owned();
                 format!("`{key} = ...`, the {}{}", variable.meta.description, brackets(variable.meta.unit))
             };
-            let (keys, at) = (variables.iter().map(|variable| key(variable)), headings.iter().find(|(of, _)| of == section));
+            let (keys, at) =
+                (variables.iter().map(|variable| key(variable)), headings.iter().find(|(of, _)| of == section));
             if let Some((_, place)) = at {
                 let problems = variables.iter().zip(keys).map(|(variable, key)| {
                     Problem::at(place.clone(), format!("`{}` is missing", variable.name), format!("give {key}"))
@@ -495,7 +510,7 @@ impl Reader<'_> {
     }
 
     /// Where a value stands, the first line of it.
-    fn place(&self, value: &Value) -> Range<usize> {
+    pub(super) fn place(&self, value: &Value) -> Range<usize> {
         let Range { start, end } = value.span();
         start..end.min(syntax::line_around(self.text, start).end)
     }

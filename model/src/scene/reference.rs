@@ -104,7 +104,9 @@ fn key(variable: &Variable, within: &str, own: &[&Variable], starts: Option<&BTr
         None => (given(variable).map(|value| written(meta, value)), false),
     };
     let bound = match (meta.role, meta.kind) {
-        (_, Kind::Enumeration(of)) => of.items.iter().map(|item| format!("\"{}\"", item.1)).collect::<Vec<_>>().join(" or "),
+        (_, Kind::Enumeration(of)) => {
+            of.items.iter().map(|item| format!("\"{}\"", item.1)).collect::<Vec<_>>().join(" or ")
+        }
         (Role::Parameter { bound: Bound::Finite, .. } | Role::Input { .. }, _) => String::new(),
         (Role::Parameter { bound, .. }, kind) => words(bound, kind),
         _ => String::new(),

@@ -25,7 +25,13 @@ struct Column {
 
 impl Columns {
     /// One more, of which this is the first number, as long as the file has it; what is wrong with that.
-    pub(super) fn add(&mut self, first: &Variable, in_file: String, length: usize, place: Range<usize>) -> Option<Problem> {
+    pub(super) fn add(
+        &mut self,
+        first: &Variable,
+        in_file: String,
+        length: usize,
+        place: Range<usize>,
+    ) -> Option<Problem> {
         let (name, _) = first.meta.node().expect("it stands in a table");
         let is_wrong = !(1..=MOST_NODES).contains(&length);
         let wrong = is_wrong.then(|| {
@@ -56,7 +62,10 @@ impl Columns {
 
     /// Whether there is such a variable: in a table, that it has so many nodes.
     pub(super) fn hold(&self, variable: &Variable) -> bool {
-        variable.meta.node().is_none_or(|(_, node)| self.speeds(variable.place.block).is_some_and(|nodes| node <= nodes))
+        variable
+            .meta
+            .node()
+            .is_none_or(|(_, node)| self.speeds(variable.place.block).is_some_and(|nodes| node <= nodes))
     }
 
     /// How many speeds the table of a block has, where it has any.

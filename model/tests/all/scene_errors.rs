@@ -31,9 +31,18 @@ const CASES: &[Case] = &[
     ("section_twice", &[(MORE, "[rotor]\nm = 3.0\n[solver]")]),
     ("bearing_twice", &[(MORE, "[effects.bearing]\nposition = 0.0\n\n[effects.bearing]\nposition = 0.1\n[solver]")]),
     ("one_bearing", &[(MORE, "[effects.bearing]\npostion = 0.0\n[solver]")]),
-    ("both_kinds_of_bearing", &[(MORE, "[[effects.bearing]]\nposition = 0.0\n[effects.bearing]\nposition = 0.1\n[solver]")]),
+    (
+        "both_kinds_of_bearing",
+        &[(MORE, "[[effects.bearing]]\nposition = 0.0\n[effects.bearing]\nposition = 0.1\n[solver]")],
+    ),
     ("two_supports", &[("[effects.support]", "[[effects.support]]")]),
-    ("five_probes", &[(MORE, "[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[solver]")]),
+    (
+        "five_probes",
+        &[(
+            MORE,
+            "[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n[solver]",
+        )],
+    ),
     // Names.
     ("unknown_section", &[("[rotor]", "[rotr]")]),
     ("effect_as_section", &[("[effects.gravity]", "[gravity]")]),
@@ -44,8 +53,14 @@ const CASES: &[Case] = &[
     ("key_of_nobody", &[("m = 5.0", "mass = 5.0")]),
     ("key_of_another_section", &[("c2 =", "gamma = { y = 0.1 }\nstop = 2.0\ntitle = \"x\"\nc2 =")]),
     ("key_of_an_output", &[("c2 =", "F = { x = 1.0 }\nc2 =")]),
-    ("key_of_a_bearing", &[(MORE, "[[effects.bearing]]\nposition = 0.0\n[[effects.bearing]]\nposition = 0.0\nk_yy = 1.0\n[solver]")]),
-    ("key_of_what_has_none", &[("[effects.gravity]", "[[effects.port]]\nposition = 0.0\nf = { a = 1.0 }\n[effects.gravity]")]),
+    (
+        "key_of_a_bearing",
+        &[(MORE, "[[effects.bearing]]\nposition = 0.0\n[[effects.bearing]]\nposition = 0.0\nk_yy = 1.0\n[solver]")],
+    ),
+    (
+        "key_of_what_has_none",
+        &[("[effects.gravity]", "[[effects.port]]\nposition = 0.0\nf = { a = 1.0 }\n[effects.gravity]")],
+    ),
     ("key_of_a_component", &[("r_c = { x", "r_c = { w")]),
     ("key_of_the_experiment", &[("step =", "stpe =")]),
     ("unknown_method", &[("\"dop853\"", "\"dop835\"")]),
@@ -58,31 +73,106 @@ const CASES: &[Case] = &[
     // Types.
     ("text_for_a_number", &[("m = 5.0", "m = \"five\""), ("stop = 10.0", "stop = \"ten\"")]),
     ("number_in_quotes", &[("m = 5.0", "m = \"5\""), ("relative_tolerance = 1e-10", "relative_tolerance = \"1e-10\"")]),
-    ("number_for_a_table", &[("r_c = { x = 0.75 }", "r_c = 0.75"), ("[experiment]", "[effects]\nbearing = [5]\ndrag = 3\n[experiment]")]),
+    (
+        "number_for_a_table",
+        &[("r_c = { x = 0.75 }", "r_c = 0.75"), ("[experiment]", "[effects]\nbearing = [5]\ndrag = 3\n[experiment]")],
+    ),
     ("number_for_several", &[("[experiment]", "[effects]\nbearing = 5\n[experiment]")]),
-    ("number_for_a_text", &[("method = \"dop853\"", "method = 3"), ("title = ", "title = 5 #"), ("[rotor]", "general = 1\n[rotor]")]),
+    (
+        "number_for_a_text",
+        &[("method = \"dop853\"", "method = 3"), ("title = ", "title = 5 #"), ("[rotor]", "general = 1\n[rotor]")],
+    ),
     ("list_for_a_number", &[("m = 5.0", "m = [5.0,\n  6.0]")]),
     ("control_characters", &[("title = \"", "title = \"\\u0001")]),
     // Units.
     ("mass_for_a_length", &[("l = 0.75", "l = \"20 kg\""), ("stop = 10.0", "stop = \"10 rpm\"")]),
     ("unit_for_a_pure_number", &[("relative_tolerance = 1e-10", "relative_tolerance = \"1e-10 m\"")]),
-    ("unknown_units", &[("m = 5.0", "m = \"5 kkg\""), ("omega = { x = 50.0 }", "omega = { x = \"3000 rmp\" }"), ("c1 = 2000.0", "c1 = \"2 N/mm.s\"")]),
-    ("two_unbalances_in_one", &[(MORE, "[[effects.unbalance]]\nmoment = \"40 g mm\"\nradius = 0.1\nposition = 0.0\n[[effects.unbalance]]\nmoment = \"-3 kg\"\nposition = 0.0\n[solver]")]),
+    (
+        "unknown_units",
+        &[
+            ("m = 5.0", "m = \"5 kkg\""),
+            ("omega = { x = 50.0 }", "omega = { x = \"3000 rmp\" }"),
+            ("c1 = 2000.0", "c1 = \"2 N/mm.s\""),
+        ],
+    ),
+    (
+        "two_unbalances_in_one",
+        &[(
+            MORE,
+            "[[effects.unbalance]]\nmoment = \"40 g mm\"\nradius = 0.1\nposition = 0.0\n[[effects.unbalance]]\nmoment = \"-3 kg\"\nposition = 0.0\n[solver]",
+        )],
+    ),
     // Bounds.
     ("out_of_bounds", &[("m = 5.0", "m = -5.0"), ("c1 = 2000.0", "c1 = \"-1 N/mm\""), ("1e-10", "1.0")]),
-    ("no_numbers", &[("m = 5.0", "m = 1e400"), ("l = 0.75", "l = nan"), ("c2 = 500.0", "c2 = inf"), ("z = -9.81", "z = -99999999999999999999")]),
-    ("impossible_experiment", &[("stop = 10.0", "start = 20.0\nstop = 10.0\ntolerance = 2.0"), ("step = 0.01", "step = 0.0")]),
+    (
+        "no_numbers",
+        &[
+            ("m = 5.0", "m = 1e400"),
+            ("l = 0.75", "l = nan"),
+            ("c2 = 500.0", "c2 = inf"),
+            ("z = -9.81", "z = -99999999999999999999"),
+        ],
+    ),
+    (
+        "impossible_experiment",
+        &[("stop = 10.0", "start = 20.0\nstop = 10.0\ntolerance = 2.0"), ("step = 0.01", "step = 0.0")],
+    ),
     ("impossible_inertia", &[("Jt = 0.078125", "Jt = 0.05")]),
     ("too_large_a_tilt", &[("[start]", "[start]\ngamma = { y = 3.0, z = 4.0 }")]),
-    ("two_impossible_effects", &[(MORE, "[[effects.rub]]\nposition = 0.0\ngap = 1e-300\nv0 = 0.01\nradius = 0.1\n[[effects.bearing]]\nposition = 0.0\ncyy = 1.0\nczz = 4.0\ncyz = 2.0\nczy = 2.5\n[solver]")]),
+    (
+        "two_impossible_effects",
+        &[(
+            MORE,
+            "[[effects.rub]]\nposition = 0.0\ngap = 1e-300\nv0 = 0.01\nradius = 0.1\n[[effects.bearing]]\nposition = 0.0\ncyy = 1.0\nczz = 4.0\ncyz = 2.0\nczy = 2.5\n[solver]",
+        )],
+    ),
     ("what_excludes_each_other", &[(MORE, "[effects.drive]\n[effects.imposed_speed]\n[solver]")]),
+    // Inputs.
+    ("inputs_of_nobody", &[("[experiment]", "[[input]]\nname = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[experiment]")]),
+    (
+        "inputs",
+        &[(
+            MORE,
+            "[effects.drive]\n[[input]]\nname = \"drive.tua\"\ntime = [0]\nvalue = [1]\n[[input]]\ntime = [0]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntimes = [0]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntime = [0, \"1 m\", \"1 min\"]\nvalue = [1, nan, \"2 N/m\"]\n[solver]",
+        )],
+    ),
+    (
+        "points_of_inputs",
+        &[(
+            MORE,
+            "[effects.drive]\n[[input]]\nname = \"drive.tau\"\ntime = [0, 1]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntime = [0, 2, 1]\nvalue = [1, 2, 3]\n[[input]]\nname = \"drive.tau\"\nfile = \"nosuch.csv\"\n[solver]",
+        )],
+    ),
+    (
+        "input_twice",
+        &[(
+            MORE,
+            "[effects.drive]\n[[input]]\nname = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[solver]",
+        )],
+    ),
+    ("one_input", &[(MORE, "[effects.drive]\n[input]\nname = \"drive.tau\"\n[solver]")]),
     // Tables.
     ("table_without_speeds", &[(MORE, "[[effects.bearing]]\nposition = 0.0\nkyy = [1.0, 2.0]\n[solver]")]),
-    ("columns_of_two_lengths", &[(MORE, "[[effects.bearing]]\nposition = 0.0\nspeed = [\"0 rpm\", \"1000 rpm\"]\nkyy = [1.0, 2.0, 3.0]\nkzz = [1.0]\n[solver]")]),
-    ("tables_of_no_length", &[(MORE, "[[effects.bearing]]\nposition = 0.0\nspeed = []\nkyy = [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17]\n[solver]")]),
+    (
+        "columns_of_two_lengths",
+        &[(
+            MORE,
+            "[[effects.bearing]]\nposition = 0.0\nspeed = [\"0 rpm\", \"1000 rpm\"]\nkyy = [1.0, 2.0, 3.0]\nkzz = [1.0]\n[solver]",
+        )],
+    ),
+    (
+        "tables_of_no_length",
+        &[(
+            MORE,
+            "[[effects.bearing]]\nposition = 0.0\nspeed = []\nkyy = [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17]\n[solver]",
+        )],
+    ),
     ("number_for_a_column", &[(MORE, "[[effects.bearing]]\nposition = [0.0]\nspeed = 3.0\nkxx = [1.0]\n[solver]")]),
     ("node_that_is_none", &[(MORE, "[[effects.bearing]]\nposition = 0.0\nspeed = [0.0, inf, \"3 m\"]\n[solver]")]),
-    ("speeds_that_do_not_ascend", &[(MORE, "[[effects.bearing]]\nposition = 0.0\nspeed = [0, 2, 2]\nkyy = [1, 2, 3]\n[solver]")]),
+    (
+        "speeds_that_do_not_ascend",
+        &[(MORE, "[[effects.bearing]]\nposition = 0.0\nspeed = [0, 2, 2]\nkyy = [1, 2, 3]\n[solver]")],
+    ),
 ];
 
 fn folder() -> PathBuf {
@@ -117,7 +207,8 @@ fn golden_what_is_said_of_scenes_that_cannot_be() {
         assert_eq!(format!("{error}\n"), read(&golden), "{name}: UPDATE_GOLDEN=1 renews it");
     }
     let files = std::fs::read_dir(folder()).expect("the folder").map(|entry| entry.expect("a file").path());
-    let files: BTreeSet<_> = files.map(|file| file.file_stem().expect("a name").to_string_lossy().into_owned()).collect();
+    let files: BTreeSet<_> =
+        files.map(|file| file.file_stem().expect("a name").to_string_lossy().into_owned()).collect();
     assert_eq!(files, CASES.iter().map(|(name, _)| (*name).to_owned()).collect());
 }
 
