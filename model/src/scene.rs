@@ -4,6 +4,7 @@
 mod experiment;
 mod input;
 mod moment;
+mod number;
 mod problem;
 mod reader;
 pub mod reference;
@@ -11,6 +12,7 @@ mod similar;
 mod syntax;
 mod tables;
 mod units;
+mod values;
 
 pub use experiment::Experiment;
 pub use input::Input;
