@@ -16,7 +16,8 @@ pub fn describe(scene: &str, as_xml: bool) -> Result<()> {
 
 /// A scene whose file gives every key, those at their default in a comment.
 fn described(scene: &Scene) -> String {
-    let general = if scene.general { "general = true\n" } else { "" };
+    let general =
+        if scene.general { format!("general = true\n# Off at first: {}\n", off(scene)) } else { String::new() };
     let title = scene.title.replace('\\', r"\\").replace('"', "\\\"");
     let mut text = format!("# A line that begins with `# ` is a key at its default.\ntitle = \"{title}\"\n{general}");
     for Section { heading, effect, keys } in reference::of(scene) {
@@ -32,6 +33,13 @@ fn described(scene: &Scene) -> String {
         text += &format!("\n[[input]]\nname = \"{name}\"\ntime = {time:?}\nvalue = {value:?}\n");
     }
     text
+}
+
+/// The effects of a general scene that do not act at first.
+fn off(scene: &Scene) -> String {
+    let value = scenes::values(scene);
+    let switches = scene.effects.iter().map(|(info, index)| info.switch_name(*index));
+    switches.filter(|name| value(name) == Some(0.0)).collect::<Vec<_>>().join(", ")
 }
 
 /// The line of a key; None where the file has none.
