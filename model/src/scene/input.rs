@@ -19,7 +19,7 @@ const KEYS: [&str; 4] = ["name", "time", "value", "file"];
 pub struct Input {
     /// The full name of its variable.
     pub name: String,
-    /// Times that do not descend \[s]; at two that are equal it jumps.
+    /// Times that do not descend \[s], at least one; at two that are equal it jumps.
     pub time: Vec<f64>,
     /// Its value at each, in the unit of its variable.
     pub value: Vec<f64>,
@@ -87,7 +87,7 @@ impl Reader<'_> {
             }
             _ => self.missing(
                 whole,
-                "an input needs points",
+                "an input has either times and values or a file",
                 "give `time = [...]` and `value = [...]`, or `file = \"x.csv\"`",
             ),
         };
