@@ -2,7 +2,9 @@
 //! file, line, key, value and what would be right.
 
 mod experiment;
+mod input;
 mod moment;
+mod number;
 mod problem;
 mod reader;
 pub mod reference;
@@ -10,8 +12,10 @@ mod similar;
 mod syntax;
 mod tables;
 mod units;
+mod values;
 
 pub use experiment::Experiment;
+pub use input::Input;
 pub use problem::{Problem, SceneError};
 pub use similar::did_you_mean;
 
@@ -41,6 +45,8 @@ pub struct Scene {
     pub starts: BTreeMap<u32, f64>,
     /// When and how finely to look at it.
     pub experiment: Experiment,
+    /// What its inputs are over time, for those who run it; the FMU leaves that to its host.
+    pub inputs: Vec<Input>,
 }
 
 impl Scene {
@@ -90,7 +96,7 @@ impl Scene {
             return Err(SceneError::of_file(file, "this cannot be the name of a model", right));
         }
         let error = |problems| SceneError { file: file.into(), text: text.to_owned(), problems };
-        let found = reader::read(text).map_err(error)?;
+        let found = reader::read(text, file.parent().unwrap_or(Path::new(""))).map_err(error)?;
         let scene = Self {
             file: file.into(),
             title: found.title.unwrap_or_else(|| name.clone()),
@@ -100,6 +106,7 @@ impl Scene {
             variables: found.variables,
             starts: found.starts,
             experiment: found.experiment,
+            inputs: found.inputs,
         };
         let place = |invalid: &Invalid| {
             // A bound on several components, such as |start.gamma|, or on a table is shown at the first that the file names.

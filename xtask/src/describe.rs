@@ -3,8 +3,8 @@
 
 use crate::scenes;
 use anyhow::Result;
-use split_rotor_model::scene::Scene;
 use split_rotor_model::scene::reference::{self, Key, Section};
+use split_rotor_model::scene::{Input, Scene};
 use split_rotor_model::xml;
 
 /// Prints the keys of a scene, or its modelDescription.xml.
@@ -16,7 +16,8 @@ pub fn describe(scene: &str, as_xml: bool) -> Result<()> {
 
 /// A scene whose file gives every key, those at their default in a comment.
 fn described(scene: &Scene) -> String {
-    let general = if scene.general { "general = true\n" } else { "" };
+    let general =
+        if scene.general { format!("general = true\n# Off at first: {}\n", off(scene)) } else { String::new() };
     let title = scene.title.replace('\\', r"\\").replace('"', "\\\"");
     let mut text = format!("# A line that begins with `# ` is a key at its default.\ntitle = \"{title}\"\n{general}");
     for Section { heading, effect, keys } in reference::of(scene) {
@@ -28,7 +29,17 @@ fn described(scene: &Scene) -> String {
             text += &format!("{line:width$}  # {}\n", remark(key));
         }
     }
+    for Input { name, time, value } in &scene.inputs {
+        text += &format!("\n[[input]]\nname = \"{name}\"\ntime = {time:?}\nvalue = {value:?}\n");
+    }
     text
+}
+
+/// The effects of a general scene that do not act at first.
+fn off(scene: &Scene) -> String {
+    let value = scenes::values(scene);
+    let switches = scene.effects.iter().map(|(info, index)| info.switch_name(*index));
+    switches.filter(|name| value(name) == Some(0.0)).collect::<Vec<_>>().join(", ")
 }
 
 /// The line of a key; None where the file has none.
@@ -60,12 +71,15 @@ mod tests {
 
     #[test]
     fn exact_what_is_described_is_the_scene_again() {
-        for name in Scene::names(&paths::scenes()) {
-            let scene = scenes::find(&name).unwrap();
+        let with_inputs = "[rotor]\nm = 1\nJa = 1\nJt = 1\n[effects.drive]\n[[input]]\nname = \"drive.tau\"\ntime = [0, 1]\n\
+                           value = [\"1 N mm\", 2]\n";
+        let with_inputs = Scene::parse(Path::new("driven.toml"), with_inputs).unwrap_or_else(|error| panic!("{error}"));
+        let scenes = Scene::names(&paths::scenes()).into_iter().map(|name| scenes::find(&name).unwrap());
+        for scene in scenes.chain([with_inputs]) {
             let text = described(&scene);
             let again = Scene::parse(Path::new("again.toml"), &text).unwrap_or_else(|error| panic!("{text}\n{error}"));
             assert_eq!((&again.starts, again.experiment), (&scene.starts, scene.experiment), "{text}");
-            assert_eq!((again.title, again.general), (scene.title, scene.general));
+            assert_eq!((again.title, again.general, again.inputs), (scene.title, scene.general, scene.inputs));
             // Every line of a default is one that may be given.
             let given = text.lines().map(|line| match line.strip_prefix("# ") {
                 Some(key) if key.contains(" = ") && !key.contains("[...]") => key,

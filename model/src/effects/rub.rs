@@ -98,7 +98,7 @@ impl Rub {
 
 impl Effect for Rub {
     const LAW: &'static str =
-        "at the station, δ = |q| − gap > 0: N = stiffness δ + damping dδ/dt ≥ 0, friction · N tanh(v_t/v0) against the sliding v_t";
+        "δ = |q| − gap > 0: N = stiffness δ + damping dδ/dt ≥ 0, and friction N tanh(v_t/v0) against the sliding v_t";
 
     const ROWS: &'static [Row<Self>] = &[
         parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),

@@ -1,6 +1,6 @@
 //! `moment`: an unbalance as what a balancing machine tells of it, mass times radius.
 
-use super::reader::Values;
+use super::values::Values;
 use crate::variable::units::Unit;
 use std::ops::Range;
 

@@ -1,26 +1,24 @@
 //! From the text of a scene to its values. The known keys are the names of the variables; there is no second list.
 
 use super::experiment::{self, Experiment};
+use super::input::{self, Input};
 use super::moment::{self, Moment};
+use super::number::brackets;
 use super::problem::Problem;
 use super::similar::similar;
-use super::tables::Columns;
-use super::units::{self, Quantity, Unreadable};
-use super::{defaults, is_one_line, syntax};
+use super::values::{Values, heading, in_file, is_unbalance};
+use super::{is_one_line, syntax};
 use crate::effects::{self, CATALOGUE, Info};
-use crate::variable::units::Unit;
-use crate::variable::{Bound, Enumeration, Kind, Meta, Place};
+use crate::variable::{Bound, Meta, Place};
 use crate::variables::{self, Variable};
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::path::Path;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// Effects that had another name, and what they are called now: `shaft` since 0.2.0, for elastic shafts need the name.
 const RENAMED: &[(&str, &str)] = &[("shaft", "drive")];
-
-/// The effect that is measured from the support point a.
-const SUPPORT: &str = "support";
 
 /// What a text says.
 pub(super) struct Found {
@@ -30,119 +28,9 @@ pub(super) struct Found {
     pub variables: Vec<Variable>,
     pub starts: BTreeMap<u32, f64>,
     pub experiment: Experiment,
+    pub inputs: Vec<Input>,
     /// Where the file gives each parameter that it names.
     pub places: Vec<(String, Range<usize>)>,
-}
-
-/// The values of a scene, while they are read.
-pub(super) struct Values<'v> {
-    variables: &'v [Variable],
-    starts: BTreeMap<u32, f64>,
-    places: Vec<(String, Range<usize>)>,
-    /// Value references of what the file gives, but cannot be.
-    refused: Vec<u32>,
-    /// What stands in the file, but not as it should: a misspelt key or section, or one of another type. It is not missing besides.
-    meant: Vec<String>,
-    columns: Columns,
-    pub(super) moments: Vec<Moment>,
-}
-
-impl<'v> Values<'v> {
-    fn new(variables: &'v [Variable]) -> Self {
-        let (starts, columns) = (defaults(variables), Columns::default());
-        let (places, refused, meant, moments) = Default::default();
-        Self { variables, starts, places, refused, meant, columns, moments }
-    }
-
-    /// What a file may give a value: parameters and inputs.
-    fn settable(&self) -> impl Iterator<Item = &'v Variable> + use<'v> {
-        self.variables.iter().filter(|variable| variable.meta.has_start())
-    }
-
-    fn find(&self, name: &str) -> Option<&'v Variable> {
-        self.settable().find(|variable| variable.name == name)
-    }
-
-    /// The value of the variable of this name, if it has one so far that is possible.
-    pub(super) fn start(&self, name: &str) -> Option<f64> {
-        let reference = self.find(name)?.place.value_reference();
-        self.starts.get(&reference).copied().filter(|_| !self.refused.contains(&reference))
-    }
-
-    /// Gives the variable of this name its value, None where that is not possible; `place` is that in the file.
-    pub(super) fn give(&mut self, name: &str, value: Option<f64>, place: Range<usize>) {
-        let Some(variable) = self.find(name) else { return };
-        let reference = variable.place.value_reference();
-        match value {
-            Some(value) => _ = self.starts.insert(reference, value),
-            None => self.refused.push(reference),
-        }
-        self.places.push((name.to_owned(), place));
-    }
-
-    /// Without a support its point a need not be told: it is c.
-    fn measure_from_c(&mut self, called: &[(&'static Info, u32)]) {
-        if called.iter().all(|(info, _)| info.name != SUPPORT)
-            && let Some(l) = self.find("rotor.l")
-        {
-            self.starts.entry(l.place.value_reference()).or_insert(0.0);
-        }
-    }
-
-    /// The keys that may follow `prefix`.
-    fn keys(&self, prefix: &str) -> Vec<&'v str> {
-        let mut keys: Vec<&str> = Vec::new();
-        for variable in self.settable() {
-            if let Some(rest) = variable.name.strip_prefix(prefix).and_then(|rest| rest.strip_prefix('.')) {
-                let key = rest.split(['.', '[']).next().unwrap_or(rest);
-                if !keys.contains(&key) {
-                    keys.push(key);
-                }
-            }
-        }
-        if is_unbalance(prefix) {
-            keys.push(moment::KEY);
-        }
-        keys
-    }
-
-    /// What is said of a key that is known, but not where it stands: `prefix` is what names begin with there.
-    fn known_elsewhere(&self, prefix: &str, key: &str) -> Option<String> {
-        let is_output = |variable: &Variable| {
-            let rest = variable.name.strip_prefix(prefix).and_then(|rest| rest.strip_prefix('.'));
-            rest.is_some_and(|rest| rest.split('.').next() == Some(key))
-        };
-        let home = |variable: &Variable| {
-            let (section, rest) = variable.name.split_once('.')?;
-            (rest.split(['.', '[']).next() == Some(key)).then(|| heading(&in_file(variable.place, section)))
-        };
-        let belongs = |to: String| Some(format!("it belongs under {to}"));
-        if self.variables.iter().any(is_output) {
-            Some("it is calculated, not given".into())
-        } else if SECTIONS.contains(&key) {
-            Some("it belongs at the head of the file, above all sections".into())
-        } else if let Some(info) = effects::named(key) {
-            Some(format!("write {}", heading(&info.switch_name(1))))
-        } else if experiment::KEYS.iter().any(|known| known.name == key) {
-            belongs("[experiment]".into())
-        } else {
-            belongs(self.settable().find_map(home)?)
-        }
-    }
-
-    /// Switches on what is called for; of the rest, what has no default is zero, and counts only once it is switched on.
-    fn switch(&mut self, called: &[(&'static Info, u32)]) {
-        let called: Vec<_> = called.iter().map(|(info, index)| Place::effect_block(info.number, *index)).collect();
-        for variable in self.settable().filter(|variable| variable.place.block >= Place::FIRST_EFFECT) {
-            let (Place { block, row }, reference) = (variable.place, variable.place.value_reference());
-            let is_called = called.contains(&block);
-            if row == Place::SWITCH {
-                self.starts.insert(reference, f64::from(is_called));
-            } else if !is_called {
-                self.starts.entry(reference).or_insert(0.0);
-            }
-        }
-    }
 }
 
 /// How many of a kind a general scene has at least.
@@ -155,13 +43,15 @@ fn every_effect(called: &[(&Info, u32)]) -> Vec<(&'static Info, u32)> {
     CATALOGUE.iter().flat_map(|info| (1..=number(info)).map(move |index| (info, index))).collect()
 }
 
-const SECTIONS: [&str; 7] = ["title", "general", "rotor", "start", "effects", "solver", "experiment"];
+/// The keys at the head of a file, and its sections.
+pub(super) const SECTIONS: [&str; 8] =
+    ["title", "general", "rotor", "start", "effects", "solver", "experiment", input::SECTION];
 
-/// Reads a scene; else what is wrong with it, in the order of the file.
-pub(super) fn read(text: &str) -> Result<Found, Vec<Problem>> {
+/// Reads a scene whose file is in this folder; else what is wrong with it, in the order of the file.
+pub(super) fn read(text: &str, folder: &Path) -> Result<Found, Vec<Problem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     let (mut problems, rest_is_sound) = syntax::problems(text, &errors);
-    let mut reader = Reader { text, problems: Vec::new() };
+    let mut reader = Reader { text, folder, problems: Vec::new() };
     let found = rest_is_sound.then(|| reader.scene(root.get_ref()));
     // What else is wrong in a line that is no TOML follows from that.
     let mut others = reader.problems;
@@ -175,12 +65,13 @@ pub(super) fn read(text: &str) -> Result<Found, Vec<Problem>> {
 }
 
 /// Reads on where something is wrong, and remembers what.
-struct Reader<'t> {
+pub(super) struct Reader<'t> {
     text: &'t str,
-    problems: Vec<Problem>,
+    pub(super) folder: &'t Path,
+    pub(super) problems: Vec<Problem>,
 }
 
-type Value<'i> = Spanned<DeValue<'i>>;
+pub(super) type Value<'i> = Spanned<DeValue<'i>>;
 
 impl Reader<'_> {
     fn scene(&mut self, root: &DeTable) -> Found {
@@ -234,7 +125,8 @@ impl Reader<'_> {
         let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
         let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
         let experiment = self.experiment(root.get("experiment"), tolerance);
-        Found { title, general, effects, variables, starts, experiment, places }
+        let inputs = self.inputs(root, &variables);
+        Found { title, general, effects, variables, starts, experiment, inputs, places }
     }
 
     fn title(&mut self, value: &Value) -> Option<String> {
@@ -273,7 +165,12 @@ impl Reader<'_> {
                 }
                 continue;
             };
-            let several = value.get_ref().as_array().map_or(std::slice::from_ref(value), |several| &several[..]);
+            let several = match value.get_ref() {
+                DeValue::Array(several) => &several[..],
+                DeValue::Table(_) => std::slice::from_ref(value),
+                _ if info.several => &[],
+                _ => std::slice::from_ref(value),
+            };
             match (info.several, value.get_ref()) {
                 (false, DeValue::Array(_)) => {
                     tell(format!("there is only one {name}"), format!("write [effects.{name}]"));
@@ -282,11 +179,11 @@ impl Reader<'_> {
                     format!("[[effects.{name}]] stands {} times", several.len()),
                     format!("there may be up to {most}"),
                 ),
-                (true, DeValue::Table(_)) => tell(
+                (true, DeValue::Array(_)) | (false, _) => {}
+                (true, _) => tell(
                     format!("there may be several of {name}"),
                     format!("write [[effects.{name}]], once for each, up to {most}"),
                 ),
-                _ => {}
             }
             let most = if info.several { most } else { 1 };
             tables.extend((1..).zip(several).take(most).map(|(index, value)| (info, index, value)));
@@ -362,78 +259,6 @@ impl Reader<'_> {
         values.moments.push(Moment { block: block.to_owned(), value: number, place });
     }
 
-    /// The value of a parameter or input, checked; None where it is not possible.
-    fn number(&mut self, value: &Value, meta: &Meta, in_file: &str) -> Option<f64> {
-        let number = match meta.kind {
-            Kind::Real => self.real(value, meta.unit, in_file),
-            Kind::Enumeration(of) => self.item(value, of, in_file),
-            Kind::Integer => as_number(value.get_ref()).or_else(|| self.wrong_type(value, in_file, "a number")),
-            Kind::Boolean => {
-                let given = value.get_ref().as_bool().map(f64::from);
-                given.or_else(|| self.wrong_type(value, in_file, "true or false"))
-            }
-        }?;
-        let Err(invalid) = meta.check(|| in_file.to_owned(), number) else { return Some(number) };
-        let (text, given) = (invalid.to_string(), self.given(value));
-        let (_, right) = text.split_once(": ").unwrap_or_default();
-        let overflows = number.is_infinite() && given.contains(|c: char| c.is_ascii_digit());
-        let right = if overflows { "it is beyond the largest number that there is, 1.797e308" } else { right };
-        self.problems.push(Problem::at(self.place(value), format!("{in_file} = {given} is not possible"), right));
-        None
-    }
-
-    /// A number, or one with its unit as a text.
-    fn real(&mut self, value: &Value, unit: &Unit, in_file: &str) -> Option<f64> {
-        let of_unit =
-            |before: &str| if unit.name.is_empty() { String::new() } else { format!("{before}{}", unit.name) };
-        if let Some(text) = value.get_ref().as_str() {
-            let tell = |reader: &mut Self, wrong: String, right: String| {
-                reader.problems.push(Problem::at(reader.place(value), wrong, right));
-                None
-            };
-            let impossible = format!("{in_file} = {} is not possible", self.given(value));
-            let is_pure = unit.name.is_empty();
-            return match units::read(text) {
-                Ok(Quantity { value, exponents, .. }) if exponents[..3] == unit.exponents[..3] => Some(value),
-                Ok(Quantity { exponents, unit: given, .. }) => {
-                    let what = units::quantity(unit.exponents).unwrap_or("a quantity");
-                    let found = units::quantity(exponents).map_or_else(|| format!("in {given}"), str::to_owned);
-                    let right =
-                        if is_pure { "write it without a unit".into() } else { format!("give it in {}", unit.name) };
-                    tell(self, format!("{in_file} is {what}{}; \"{text}\" is {found}", brackets(unit)), right)
-                }
-                Err(Unreadable::NoNumber) => tell(self, impossible, format!("it must be a number{}", of_unit(" in "))),
-                Err(Unreadable::NoUnit) if is_pure => tell(self, impossible, "write it without quotes".into()),
-                Err(Unreadable::NoUnit) => {
-                    let right = format!("write it without quotes, or with its unit: \"{text} {}\"", unit.name);
-                    tell(self, impossible, right)
-                }
-                Err(Unreadable::Comma(right)) => tell(
-                    self,
-                    format!("{in_file} = {} has a decimal comma", self.given(value)),
-                    format!("write \"{right}\""),
-                ),
-                Err(Unreadable::Unit(what, right)) => tell(self, format!("{in_file}: `{what}` is no unit"), right),
-            };
-        }
-        as_number(value.get_ref()).or_else(|| self.wrong_type(value, in_file, &format!("a number{}", of_unit(" in "))))
-    }
-
-    /// The number of an item that is told by its name.
-    fn item(&mut self, value: &Value, of: &Enumeration, in_file: &str) -> Option<f64> {
-        let names: Vec<_> = of.items.iter().map(|item| item.1).collect();
-        let quoted: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
-        let right = format!("one of {}", quoted.join(", "));
-        let Some(name) = value.get_ref().as_str() else { return self.wrong_type(value, in_file, &right) };
-        let item = of.items.iter().find(|item| item.1 == name);
-        if item.is_none() {
-            let known = format!("it must be {right}");
-            let problem = Problem::unknown(self.place(value), in_file, name, &names, known);
-            self.problems.push(problem);
-        }
-        Some(f64::from(item?.0))
-    }
-
     fn experiment(&mut self, value: Option<&Value>, tolerance: f64) -> Experiment {
         let mut given = [const { None }; experiment::KEYS.len()];
         for (key, value) in value.and_then(|value| self.table(value, "experiment")).into_iter().flatten() {
@@ -456,12 +281,12 @@ impl Reader<'_> {
         experiment
     }
 
-    fn table<'v, 'i>(&mut self, value: &'v Value<'i>, key: &str) -> Option<&'v DeTable<'i>> {
+    pub(super) fn table<'v, 'i>(&mut self, value: &'v Value<'i>, key: &str) -> Option<&'v DeTable<'i>> {
         value.get_ref().as_table().or_else(|| self.wrong_type(value, key, "a table"))
     }
 
     /// Tells what a value must be; what is to be read instead is the default.
-    fn wrong_type<T: Default>(&mut self, value: &Value, key: &str, right: &str) -> T {
+    pub(super) fn wrong_type<T: Default>(&mut self, value: &Value, key: &str, right: &str) -> T {
         let wrong = format!("{key} = {} is not possible", self.given(value));
         self.problems.push(Problem::at(self.place(value), wrong, format!("it must be {right}")));
         T::default()
@@ -502,47 +327,14 @@ impl Reader<'_> {
     }
 
     /// Where a value stands, the first line of it.
-    fn place(&self, value: &Value) -> Range<usize> {
+    pub(super) fn place(&self, value: &Value) -> Range<usize> {
         let Range { start, end } = value.span();
         start..end.min(syntax::line_around(self.text, start).end)
     }
 
     /// What the file has for a value; of several lines the first.
-    fn given(&self, value: &Value) -> String {
+    pub(super) fn given(&self, value: &Value) -> String {
         let (place, rest) = (self.place(value), value.span().end);
         format!("{}{}", &self.text[place.clone()], if place.end < rest { " ..." } else { "" })
-    }
-}
-
-/// ` [m]`, or nothing for a pure number.
-fn brackets(unit: &Unit) -> String {
-    if unit.name.is_empty() { String::new() } else { format!(" [{}]", unit.name) }
-}
-
-/// Whether the names of an unbalance begin so.
-pub(super) fn is_unbalance(prefix: &str) -> bool {
-    prefix.split('[').next() == Some(moment::EFFECT) && !prefix.contains('.')
-}
-
-/// The key of the section in the file: `effects.bearing[1]` of `bearing[1]`.
-pub(super) fn in_file(place: Place, section: &str) -> String {
-    if place.block < Place::FIRST_EFFECT { section.to_owned() } else { format!("effects.{section}") }
-}
-
-/// What stands in the file above the keys of a section: `[effects.drag]`, `[[effects.bearing]]`.
-pub(super) fn heading(section: &str) -> String {
-    match section.split_once('[') {
-        Some((name, rest)) if rest.ends_with(']') => format!("[[{name}]]"),
-        Some((name, rest)) => format!("[{name}{}]", rest.split_once(']').map_or("", |(_, within)| within)),
-        None => format!("[{section}]"),
-    }
-}
-
-fn as_number(value: &DeValue) -> Option<f64> {
-    match value {
-        DeValue::Float(float) => float.as_str().parse().ok(),
-        DeValue::Integer(integer) if integer.radix() == 10 => integer.as_str().parse().ok(),
-        DeValue::Integer(integer) => Some(i64::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64),
-        _ => None,
     }
 }

@@ -1,8 +1,8 @@
 //! The keys of scenes, section by section, as the list of variables has them.
 
 use super::experiment::{self, Experiment};
-use super::reader::{heading, in_file, is_unbalance};
 use super::units::{PREFIXES, UNITS};
+use super::values::{heading, in_file, is_unbalance};
 use super::{Scene, moment};
 use crate::effects::{CATALOGUE, Info};
 use crate::variable::units::Unit;

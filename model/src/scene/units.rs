@@ -1,7 +1,7 @@
 //! A number with its unit, as a scene may have it in quotes: `"30000 rpm"`, `"20 mm"`, `"5 N.m.s/rad"`.
 
 use super::similar::did_you_mean;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// A unit as people write it.
 pub(super) struct Written {
@@ -11,18 +11,25 @@ pub(super) struct Written {
     pub prefixed: bool,
     /// It is 10 to this power,
     pub ten: i32,
-    /// times the first over the second, exact but for π,
+    /// times the first whole number over the second,
     pub ratio: [f64; 2],
+    /// times π to this power,
+    pub pi: i8,
     /// of the product of kg, m, s and rad to these powers.
     pub exponents: [i8; 4],
 }
 
 const fn si(name: &'static str, exponents: [i8; 4]) -> Written {
-    Written { name, prefixed: true, ten: 0, ratio: [1.0, 1.0], exponents }
+    Written { name, prefixed: true, ten: 0, ratio: [1.0, 1.0], pi: 0, exponents }
 }
 
-const fn other(name: &'static str, ten: i32, ratio: [f64; 2], exponents: [i8; 4]) -> Written {
-    Written { name, prefixed: false, ten, ratio, exponents }
+const fn other(name: &'static str, ratio: [f64; 2], exponents: [i8; 4]) -> Written {
+    Written { ratio, prefixed: false, ..si(name, exponents) }
+}
+
+/// An angle of this part of a half turn, or a speed.
+const fn turn(name: &'static str, ratio: [f64; 2], exponents: [i8; 4]) -> Written {
+    Written { pi: 1, ..other(name, ratio, exponents) }
 }
 
 /// The units that a scene may write.
@@ -37,20 +44,20 @@ pub(super) const UNITS: &[Written] = &[
     si("Pa", [1, -1, -2, 0]),
     Written { ten: -1, ..si("P", [1, -1, -1, 0]) },
     // Speeds are meant: one revolution in a second.
-    Written { ratio: [TAU, 1.0], ..si("Hz", [0, 0, -1, 1]) },
+    Written { prefixed: true, ..turn("Hz", [2.0, 1.0], [0, 0, -1, 1]) },
     Written { ten: 5, ..si("bar", [1, -1, -2, 0]) },
-    other("t", 3, [1.0, 1.0], [1, 0, 0, 0]),
-    other("min", 0, [60.0, 1.0], [0, 0, 1, 0]),
-    other("h", 0, [3600.0, 1.0], [0, 0, 1, 0]),
-    other("deg", 0, [PI, 180.0], [0, 0, 0, 1]),
-    other("°", 0, [PI, 180.0], [0, 0, 0, 1]),
-    other("rev", 0, [TAU, 1.0], [0, 0, 0, 1]),
-    other("rpm", 0, [TAU, 60.0], [0, 0, -1, 1]),
-    other("in", -4, [254.0, 1.0], [0, 1, 0, 0]),
-    other("ft", -4, [3048.0, 1.0], [0, 1, 0, 0]),
-    other("oz", -12, [28_349_523_125.0, 1.0], [1, 0, 0, 0]),
-    other("lb", -8, [45_359_237.0, 1.0], [1, 0, 0, 0]),
-    other("lbf", -13, [44_482_216_152_605.0, 1.0], [1, 1, -2, 0]),
+    other("t", [1e3, 1.0], [1, 0, 0, 0]),
+    other("min", [60.0, 1.0], [0, 0, 1, 0]),
+    other("h", [3600.0, 1.0], [0, 0, 1, 0]),
+    turn("deg", [1.0, 180.0], [0, 0, 0, 1]),
+    turn("°", [1.0, 180.0], [0, 0, 0, 1]),
+    turn("rev", [2.0, 1.0], [0, 0, 0, 1]),
+    turn("rpm", [2.0, 60.0], [0, 0, -1, 1]),
+    other("in", [254.0, 1e4], [0, 1, 0, 0]),
+    other("ft", [3048.0, 1e4], [0, 1, 0, 0]),
+    other("oz", [28_349_523_125.0, 1e12], [1, 0, 0, 0]),
+    other("lb", [45_359_237.0, 1e8], [1, 0, 0, 0]),
+    other("lbf", [44_482_216_152_605.0, 1e13], [1, 1, -2, 0]),
 ];
 
 /// Prefixes and their powers of ten.
@@ -124,14 +131,16 @@ pub(super) fn read(text: &str) -> Result<Quantity<'_>, Unreadable<'_>> {
     if unit.is_empty() {
         return Err(Unreadable::NoUnit);
     }
-    let mut scale = Scale { ten: exponent, over: 1.0, under: 1.0, exponents: [0; 4] };
+    let mut scale = Scale { ten: exponent, over: 1.0, under: 1.0, pi: 0, exponents: [0; 4] };
     let rest = scale.product(unit, 1)?;
     if !rest.is_empty() {
         return Err(Unreadable::Unit(rest, "a unit is a product of powers, as in N.m.s2/rad2".into()));
     }
-    // Divided first, 180 deg are π and 30 rpm half of 2π in a second.
     let shifted = format!("{mantissa}e{}", scale.ten).parse::<f64>().map_err(|_| Unreadable::NoNumber)?;
-    Ok(Quantity { value: shifted / scale.under * scale.over, exponents: scale.exponents, unit })
+    // π last: 180 deg are π, 30 rpm are π in a second.
+    let ratio = shifted * scale.over / scale.under;
+    let value = (0..scale.pi.abs()).fold(ratio, |value, _| if scale.pi > 0 { value * PI } else { value / PI });
+    Ok(Quantity { value, exponents: scale.exponents, unit })
 }
 
 /// The number at the beginning of a text without its power of ten, that power, and what follows.
@@ -157,11 +166,12 @@ fn number(text: &str) -> Option<(&str, i32, &str)> {
     Some((mantissa, exponent, rest))
 }
 
-/// 10^ten · over / under, of the product of kg, m, s and rad to the exponents.
+/// 10^ten · over / under · π^pi, of the product of kg, m, s and rad to the exponents.
 struct Scale {
     ten: i32,
     over: f64,
     under: f64,
+    pi: i8,
     exponents: [i8; 4],
 }
 
@@ -213,6 +223,7 @@ impl Scale {
             (self.over, self.under) = (self.over * up, self.under * down);
         }
         self.ten += i32::from(power) * (prefix + unit.ten);
+        self.pi = self.pi.saturating_add(power.saturating_mul(unit.pi));
         for (exponent, of_unit) in self.exponents.iter_mut().zip(unit.exponents) {
             *exponent = exponent.saturating_add(power.saturating_mul(of_unit));
         }
@@ -308,15 +319,15 @@ mod tests {
             ("0.5 h", 1800.0),
             ("180 deg", PI),
             ("90°", PI / 2.0),
-            ("60 rpm", TAU),
-            ("50 Hz", 50.0 * TAU),
-            ("60 rev/min", TAU),
+            ("60 rpm", 2.0 * PI),
+            ("50 Hz", 100.0 * PI),
+            ("60 rev/min", 2.0 * PI),
             ("1 in", 0.0254),
             ("2 ft", 0.6096),
             ("1 lb", 0.453_592_37),
             ("1 lbf", 4.448_221_615_260_5),
             ("16 oz", 0.453_592_37),
-            ("180 N.m/deg", 180.0 / PI * 180.0),
+            ("180 N.m/deg", 32400.0 / PI),
         ] {
             assert_eq!(value(text), si, "{text}");
         }

@@ -127,6 +127,30 @@ const CASES: &[Case] = &[
         )],
     ),
     ("what_excludes_each_other", &[(MORE, "[effects.drive]\n[effects.imposed_speed]\n[solver]")]),
+    // Inputs.
+    ("inputs_of_nobody", &[("[experiment]", "[[input]]\nname = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[experiment]")]),
+    (
+        "inputs",
+        &[(
+            MORE,
+            "[effects.drive]\n[[input]]\nname = \"drive.tua\"\ntime = [0]\nvalue = [1]\n[[input]]\ntime = [0]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntimes = [0]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntime = [0, \"1 m\", \"1 min\"]\nvalue = [1, nan, \"2 N/m\"]\n[solver]",
+        )],
+    ),
+    (
+        "points_of_inputs",
+        &[(
+            MORE,
+            "[effects.drive]\n[[input]]\nname = \"drive.tau\"\ntime = [0, 1]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntime = [0, 2, 1]\nvalue = [1, 2, 3]\n[[input]]\nname = \"drive.tau\"\nfile = \"nosuch.csv\"\n[solver]",
+        )],
+    ),
+    (
+        "input_twice",
+        &[(
+            MORE,
+            "[effects.drive]\n[[input]]\nname = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[[input]]\nname = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[solver]",
+        )],
+    ),
+    ("one_input", &[(MORE, "[effects.drive]\n[input]\nname = \"drive.tau\"\n[solver]")]),
     // Tables.
     ("table_without_speeds", &[(MORE, "[[effects.bearing]]\nposition = 0.0\nkyy = [1.0, 2.0]\n[solver]")]),
     (

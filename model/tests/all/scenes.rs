@@ -157,6 +157,33 @@ fn exact_moment_of_an_unbalance() {
     assert!(negative.starts_with("line 7: effects.unbalance[1].moment = \"-40 g mm\" is not possible"), "{negative}");
 }
 
+#[test]
+fn inputs_over_time_from_the_scene_or_a_csv() {
+    let folder = std::env::temp_dir().join(format!("split_rotor_inputs_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder for what is tried");
+    let parse = |points: &str| {
+        let text = format!("{ROTOR}[effects.drive]\n[[input]]\nname = \"drive.tau\"\n{points}\n");
+        Scene::parse(&folder.join("good.toml"), &text).map(|scene| scene.inputs)
+    };
+    let told = parse("time = [0, \"100 ms\", 0.1]\nvalue = [0, \"1 kN mm\", 2.5]").expect("a scene");
+    assert_eq!(
+        (&*told[0].name, &*told[0].time, &*told[0].value),
+        ("drive.tau", &[0.0, 0.1, 0.1][..], &[0.0, 1.0, 2.5][..])
+    );
+    for csv in ["time,tau\n0,0\n0.1,1.0\n0.1,2.5\n", "0, 0\r\n0.1, 1\r\n\r\n0.1, 2.5\r\n"] {
+        std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
+        assert_eq!(parse("file = \"x.csv\"").expect("a scene"), told);
+    }
+    for (csv, wrong) in
+        [("t,x\n0,1\n1\n", "x.csv, line 3: 1"), ("0,1\n1,nan\n", "x.csv, line 2: 1,nan"), ("", "input[1] has 0 times")]
+    {
+        std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
+        let problems = parse("file = \"x.csv\"").expect_err("no points").problems;
+        assert!(problems[0].wrong.starts_with(wrong), "{problems:?}");
+    }
+    std::fs::remove_dir_all(&folder).expect("it is there");
+}
+
 /// A host reads a run at so many points at most, if it takes the scene's own step.
 const POINTS: f64 = 1e4;
 

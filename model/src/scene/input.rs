@@ -1,0 +1,195 @@
+//! `[[input]]`: an input over time, from the file of the scene or from a CSV beside it.
+
+use super::problem::Problem;
+use super::reader::{Reader, Value};
+use super::similar::did_you_mean;
+use crate::variable::Role;
+use crate::variable::units::{SECOND, Unit};
+use crate::variables::Variable;
+use std::ops::Range;
+use std::path::Path;
+use toml::de::DeTable;
+
+/// The key of the section in the file, and its keys.
+pub(super) const SECTION: &str = "input";
+const KEYS: [&str; 4] = ["name", "time", "value", "file"];
+
+/// An input over time: linear between its points, held before and after them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Input {
+    /// The full name of its variable.
+    pub name: String,
+    /// Times that do not descend \[s], at least one; at two that are equal it jumps.
+    pub time: Vec<f64>,
+    /// Its value at each, in the unit of its variable.
+    pub value: Vec<f64>,
+}
+
+impl Input {
+    /// Its value at time `t` \[s]; where it jumps, that after the jump.
+    pub fn at(&self, t: f64) -> f64 {
+        let after = self.time.partition_point(|time| *time <= t);
+        let [from, to] = [after.saturating_sub(1), after.min(self.time.len() - 1)];
+        let span = self.time[to] - self.time[from];
+        if from == to || span <= 0.0 {
+            return self.value[from];
+        }
+        let part = (t - self.time[from]) / span;
+        self.value[from] * (1.0 - part) + self.value[to] * part
+    }
+}
+
+impl Reader<'_> {
+    /// The inputs of a scene with these variables.
+    pub(super) fn inputs(&mut self, root: &DeTable, variables: &[Variable]) -> Vec<Input> {
+        let Some(value) = root.get(SECTION) else { return Vec::new() };
+        let Some(tables) = value.get_ref().as_array() else {
+            self.problems.push(Problem::at(
+                self.place(value),
+                "there may be several inputs",
+                "write [[input]] above each",
+            ));
+            return Vec::new();
+        };
+        let mut inputs: Vec<Input> = Vec::new();
+        for (value, number) in tables.iter().zip(1..) {
+            let section = format!("{SECTION}[{number}]");
+            let Some(table) = self.table(value, &section) else { continue };
+            if let Some(input) = self.input(table, value, &section, variables) {
+                if inputs.iter().any(|other| other.name == input.name) {
+                    let wrong = format!("the input {} stands twice", input.name);
+                    self.problems.push(Problem::at(self.place(value), wrong, "keep one [[input]] of each name"));
+                }
+                inputs.push(input);
+            }
+        }
+        inputs
+    }
+
+    fn input(&mut self, table: &DeTable, whole: &Value, section: &str, variables: &[Variable]) -> Option<Input> {
+        let before = self.problems.len();
+        for key in table.keys().filter(|key| !KEYS.contains(&key.get_ref().as_ref())) {
+            let known = format!("[[input]] knows {}", KEYS.join(", "));
+            let name = format!("{section}.{}", key.get_ref());
+            self.problems.push(Problem::unknown(key.span(), "key", &name, &KEYS, known));
+        }
+        let variable = match table.get("name") {
+            None => self.missing(whole, "an input without a name", "give `name = ...`, such as \"drive.tau\""),
+            Some(name) => self.variable(name, section, variables),
+        };
+        let unit = variable.map(|variable| variable.meta.unit);
+        let points = match [table.get("file"), table.get("time"), table.get("value")] {
+            [Some(file), None, None] => self.of_file(file, section),
+            [None, Some(time), Some(value)] => {
+                let times = self.numbers(time, &SECOND, &format!("{section}.time"));
+                let values = unit.and_then(|unit| self.numbers(value, unit, &format!("{section}.value")));
+                times.zip(values).map(|(times, values)| (times, values, self.place(value)))
+            }
+            _ => self.missing(
+                whole,
+                "an input has either times and values or a file",
+                "give `time = [...]` and `value = [...]`, or `file = \"x.csv\"`",
+            ),
+        };
+        let (time, value, place) = points?;
+        if time.len() != value.len() || time.is_empty() {
+            let wrong = format!("{section} has {} times and {} values", time.len(), value.len());
+            self.problems.push(Problem::at(place.clone(), wrong, "there must be as many of both, at least one"));
+        } else if let Some(n) = (1..time.len()).find(|n| time[*n] < time[n - 1]) {
+            let wrong = format!("{section}: the time {:?} s comes after {:?} s", time[n], time[n - 1]);
+            self.problems.push(Problem::at(place, wrong, "times must not descend"));
+        }
+        let name = variable?.name.clone();
+        (self.problems.len() == before).then_some(Input { name, time, value })
+    }
+
+    fn missing<T>(&mut self, whole: &Value, wrong: &str, right: &str) -> Option<T> {
+        self.problems.push(Problem::at(self.place(whole), wrong, right));
+        None
+    }
+
+    /// The input of this name.
+    fn variable<'v>(&mut self, value: &Value, section: &str, variables: &'v [Variable]) -> Option<&'v Variable> {
+        let Some(name) = value.get_ref().as_str() else {
+            return self.wrong_type(value, &format!("{section}.name"), "a name in quotes");
+        };
+        let inputs = || variables.iter().filter(|variable| matches!(variable.meta.role, Role::Input { .. }));
+        let found = inputs().find(|variable| variable.name == name);
+        if found.is_none() {
+            let names: Vec<_> = inputs().map(|variable| &*variable.name).collect();
+            let known = match &names[..] {
+                [] => "the effects of this scene have no inputs".into(),
+                names => format!("the inputs are {}", names.join(", ")),
+            };
+            let right = did_you_mean(name, names.iter().copied()).unwrap_or_default();
+            let problem = Problem::at(self.place(value), format!("unknown input `{name}`"), right);
+            self.problems.push(Problem { known, ..problem });
+        }
+        found
+    }
+
+    /// An array of finite numbers.
+    fn numbers(&mut self, value: &Value, unit: &Unit, in_file: &str) -> Option<Vec<f64>> {
+        let Some(numbers) = value.get_ref().as_array() else {
+            return self.wrong_type(value, in_file, "an array of numbers");
+        };
+        let numbers: Vec<_> =
+            numbers.iter().zip(1..).map(|(number, n)| self.finite(number, unit, &format!("{in_file}[{n}]"))).collect();
+        numbers.into_iter().collect()
+    }
+
+    fn finite(&mut self, value: &Value, unit: &Unit, in_file: &str) -> Option<f64> {
+        match self.real(value, unit, in_file)? {
+            number if number.is_finite() => Some(number),
+            _ => self.wrong_type(value, in_file, "a finite number"),
+        }
+    }
+
+    /// The points of a CSV: a time \[s] and a value in a line, below a line of names where there is one.
+    fn of_file(&mut self, value: &Value, section: &str) -> Option<(Vec<f64>, Vec<f64>, Range<usize>)> {
+        let Some(name) = value.get_ref().as_str() else {
+            return self.wrong_type(value, &format!("{section}.file"), "the path of a CSV in quotes");
+        };
+        let place = self.place(value);
+        match points(&self.folder.join(name)) {
+            Ok((times, values)) => Some((times, values, place)),
+            Err((wrong, right)) => {
+                self.problems.push(Problem::at(place, format!("{name}{wrong}"), right));
+                None
+            }
+        }
+    }
+}
+
+/// The points in a CSV, or what is wrong with it and what would be right.
+fn points(file: &Path) -> Result<(Vec<f64>, Vec<f64>), (String, String)> {
+    if !file.is_file() {
+        return Err((" is not there".into(), "the path counts from the folder of the scene".into()));
+    }
+    let text = std::fs::read_to_string(file).map_err(|error| (format!(" cannot be read: {error}"), String::new()))?;
+    let number = |cell: &str| cell.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+    let point = |line: &str| line.split_once(',').and_then(|(time, value)| Some((number(time)?, number(value)?)));
+    let lines = text.lines().zip(1..).filter(|(line, _)| !line.trim().is_empty());
+    let has_names = |line: &str| line.split(',').all(|cell| cell.trim().parse::<f64>().is_err());
+    let lines = lines.filter(|(line, number)| *number != 1 || !has_names(line));
+    let points = lines.map(|(line, number)| {
+        let right = "a line has a time in s and a value, two finite numbers with a comma between them";
+        point(line).ok_or_else(|| (format!(", line {number}: {line}"), right.to_owned()))
+    });
+    Ok(points.collect::<Result<Vec<_>, _>>()?.into_iter().unzip())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Input;
+
+    #[test]
+    fn exact_linear_between_points_and_jumps() {
+        let input = Input { name: String::new(), time: vec![1.0, 2.0, 2.0, 4.0], value: vec![0.0, 1.0, 5.0, 6.0] };
+        for (t, value) in [(0.0, 0.0), (1.0, 0.0), (1.5, 0.5), (2.0, 5.0), (3.0, 5.5), (4.0, 6.0), (9.0, 6.0)] {
+            assert_eq!(input.at(t), value, "{t}");
+        }
+        let constant = Input { name: String::new(), time: vec![1.0], value: vec![7.0] };
+        assert_eq!([0.0, 1.0, 2.0].map(|t| constant.at(t)), [7.0; 3]);
+    }
+}
