@@ -59,7 +59,8 @@ pub fn stability(scene: &str, against: &Against, ends: Option<&[f64]>, steps: u3
         "thresholds": sheets::objects(rows.clone()),
     });
     let folder = format!("stability/{}", map.scene.name);
-    sheets::leave(&folder, "stability", &table, &rows, &json, &[("stability.svg", picture::svg(&map)?)]).map(drop)
+    sheets::leave(&folder, "stability", &table, &rows, &json, &[("stability.svg", picture::svg(&map)?)])?.show();
+    Ok(())
 }
 
 fn map(scene: Scene, against: &Against, ends: Option<&[f64]>, steps: u32) -> Result<Map> {

@@ -1,0 +1,51 @@
+"""Places along the axis, and how they move across it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+HOLDING = ("bearing", "journal", "ball", "magnetic", "squeeze_film", "seal", "rub")
+"""Effects that hold the rotor at a station, by their blocks' names."""
+
+
+@dataclass(frozen=True)
+class Station:
+    """A place on the axis."""
+
+    name: str
+    position: float
+    """From the mass centre c along the axis [m]."""
+
+    def offset(self, result):
+        """y + i z, across the x axis [m]."""
+        axis = result["axis.y"] + 1j * result["axis.z"]
+        return result["r_c.y"] + 1j * result["r_c.z"] + self.position * axis
+
+    def velocity(self, result):
+        """The rate of the offset [m/s]."""
+        ω, t = ([result[f"{name}.{c}"] for c in "xyz"] for name in ("omega", "axis"))
+        turning = (ω[2] * t[0] - ω[0] * t[2]) + 1j * (ω[0] * t[1] - ω[1] * t[0])
+        return result["v_c.y"] + 1j * result["v_c.z"] + self.position * turning
+
+
+def all_of(scene, *kinds):
+    """The stations of these kinds of blocks, in the scene's order."""
+    return [Station(name, scene.value(f"{name}.position")) for name in scene.blocks(*kinds)]
+
+
+MOST = 4
+"""Stations that one picture shows."""
+
+
+def looked_at(scene):
+    """Where vibration is looked at: at the probes and where the rotor is held, a place once, else at c."""
+    places = {}
+    for station in all_of(scene, "probe") + all_of(scene, *HOLDING):
+        places.setdefault(station.position, station)
+    return list(places.values())[:MOST] or [Station("c", 0.0)]
+
+
+def largest_offset(scene, result):
+    """How far any station goes from the x axis [m]."""
+    places = [Station("c", 0.0), *all_of(scene, "probe", *HOLDING)]
+    return max(np.abs(place.offset(result)).max() for place in places)
