@@ -10,7 +10,7 @@ turns     the motion turn by turn: orbits, whirls, orders
 spectrum  its frequencies
 paper     the claims of the paper and the exact answer for its rotor
 machine   what the drawing of the rotor needs
-panels    the pictures, as data
+panels    the pictures, as data; vibration and attitude have theirs, plots the forms of plots
 findings  the results that stand first
 page      everything on one HTML page; web/ has its template, style sheet and scripts, and uPlot
 deliver   the report, a summary, and whether the energy adds up

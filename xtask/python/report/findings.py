@@ -6,7 +6,7 @@ import numpy as np
 
 from . import linear, measure, stations
 from .notation import number, quantity, rpm
-from .panels import is_machine, loads
+from .panels import loads
 from .turns import turns
 
 MOST = 5
@@ -64,7 +64,7 @@ def _stability(result, view):
 def _motion(result):
     columns = result.columns
     tilt = measure.tilt(columns)
-    if is_machine(result.scene) and tilt.max() <= measure.SMALL_TILT:
+    if stations.is_machine(result.scene) and tilt.max() <= measure.SMALL_TILT:
         seen = [(station, turns(station, columns)) for station in stations.looked_at(result.scene)]
         whirls = [(t.whirl[1:].max(), t, station) for station, t in seen if t]
         if whirls:
@@ -75,9 +75,11 @@ def _motion(result):
             return
     distance = np.hypot(columns["r_c.y"], columns["r_c.z"])
     if distance.max() > 0.0:
-        yield Finding(quantity(distance.max(), "m"), f"largest distance of c from the x axis, at {number(columns['time'][distance.argmax()])}\u00a0s")
+        when = number(columns["time"][distance.argmax()])
+        yield Finding(quantity(distance.max(), "m"), f"largest distance of c from the x axis, at {when}\u00a0s")
     if tilt.max() > 0.0:
-        yield Finding(f"{number(np.degrees(tilt.max()), 3)}°", f"largest tilt θ, at {number(columns['time'][tilt.argmax()])}\u00a0s")
+        when = number(columns["time"][tilt.argmax()])
+        yield Finding(f"{number(np.degrees(tilt.max()), 3)}°", f"largest tilt θ, at {when}\u00a0s")
 
 
 def _load(result):

@@ -45,7 +45,8 @@ def _body(scene):
     m, axial, across = (scene.value(f"rotor.{name}") for name in ("m", "Ja", "Jt"))
     other = scene.value("asymmetry.Jt2") if scene.blocks("asymmetry") else across
     # (width along an axis)² of a box is 6 (sum of the inertias about the two others − its own)/m.
-    along, y, z = (np.sqrt(max(0.0, 6.0 * s / m)) for s in (across + other - axial, axial + other - across, axial + across - other))
+    sums = (across + other - axial, axial + other - across, axial + across - other)
+    along, y, z = (np.sqrt(max(0.0, 6.0 * s / m)) for s in sums)
     if other == across:
         radius = np.sqrt(2.0 * axial / m)
         angles = 2.0 * np.pi * np.arange(SIDES) / SIDES

@@ -28,6 +28,11 @@ class Station:
         return result["v_c.y"] + 1j * result["v_c.z"] + self.position * turning
 
 
+def is_machine(scene):
+    """Whether the rotor is out of balance or held at stations: its vibration is what one looks at."""
+    return bool(scene.blocks("unbalance", *HOLDING))
+
+
 def all_of(scene, *kinds):
     """The stations of these kinds of blocks, in the scene's order."""
     return [Station(name, scene.value(f"{name}.position")) for name in scene.blocks(*kinds)]
