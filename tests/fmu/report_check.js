@@ -21,12 +21,18 @@ const coloured = (canvas) => {
 const changed = (before, after) => before.reduce((count, byte, i) => count + (byte !== after[i]), 0);
 
 const rotor = document.querySelector(".rotor canvas"), sphere = document.querySelector(".sphere canvas");
-const moved = (selector, fraction) => {
-  const slider = document.querySelector(selector);
-  const before = [rotor, sphere].map((canvas) => canvas && pixels(canvas));
-  slider.value = Number(slider.min) + fraction * (slider.max - slider.min);
+const set = (slider, value) => {
+  slider.value = value;
   slider.dispatchEvent(new Event("input", { bubbles: true }));
-  return [rotor, sphere].map((canvas, i) => canvas && changed(before[i], pixels(canvas)));
+};
+// How many bytes of the drawings change with a slider, which then goes back.
+const moved = (selector, fraction) => {
+  const slider = document.querySelector(selector), own = slider.value;
+  const before = [rotor, sphere].map((canvas) => canvas && pixels(canvas));
+  set(slider, Number(slider.min) + fraction * (slider.max - slider.min));
+  const counts = [rotor, sphere].map((canvas, i) => canvas && changed(before[i], pixels(canvas)));
+  set(slider, own);
+  return counts;
 };
 
 // uPlot draws when the scripts rest.
@@ -41,6 +47,12 @@ const found = {
   time: moved(".rotor .time", 0.37),
   exaggeration: moved(".rotor .exaggeration", 0.9)[0],
 };
+const button = document.querySelector(".rotor button"), told = () => document.querySelector(".rotor output").textContent;
+const before = told();
+button.click();
+await new Promise((resume) => setTimeout(resume, 300));
+button.click();
+found.plays = told() !== before && button.textContent === "Play";
 // Paper: the colours of light, and everything drawn anew.
 dispatchEvent(new Event("beforeprint"));
 await rest();

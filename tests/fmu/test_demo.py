@@ -79,7 +79,7 @@ def run(monkeypatch, tmp_path):
     return call
 
 
-def test_exact_energy_that_does_not_add_up_is_an_error(paper, run, monkeypatch, capsys):
+def test_exact_energy_that_does_not_add_up_is_an_error(paper, run, monkeypatch, capsys, tmp_path):
     from report import measure
 
     monkeypatch.setattr(measure, "BOUND_FACTOR", 0.0)
@@ -88,6 +88,8 @@ def test_exact_energy_that_does_not_add_up_is_an_error(paper, run, monkeypatch, 
     assert re.fullmatch(
         r"error: the energy of paper does not add up: the largest residual, \S+ J, exceeds its bound, 0 J\n", error
     )
+    page = (tmp_path / "demo" / "report.html").read_text(encoding="utf-8")
+    assert 'in play; bound 0\u00a0J: it does not hold</dt><dd class="bad">' in page
 
 
 def test_exact_a_run_that_ends_early_is_an_error(paper, run, monkeypatch, capsys):

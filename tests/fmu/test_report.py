@@ -44,7 +44,7 @@ def _shows(page, folder):
         empty = [title for title, counts in zip(found["titles"], found["canvases"], strict=True) if min(counts, default=0) < LEAST]
         assert empty == [] and all(found["titles"])
         assert all(count is None or count > LEAST for count in found["time"]), "the slider moves the drawings"
-        assert found["exaggeration"] > LEAST
+        assert found["exaggeration"] > LEAST and found["plays"]
         assert found["paper"] == "rgb(255, 255, 255)" and min(found["printed"]) >= LEAST
 
 
@@ -95,6 +95,18 @@ def test_a_run_without_an_fmu_is_reported_alike(folder, demo):
     assert "0.07 % at 2.7 s" in page, "the largest of samples 0.01 s apart"
     assert "exact: 499.977124 rad" in page
     assert "CPU time" not in page and "CPU time" in demo("paper").read_text(encoding="utf-8")
+
+
+def test_report_says_why_it_has_no_orbits(demo, fmus, tmp_path):
+    """At the steps of its experiment a run-up has too few samples; at those of the demo it has enough."""
+    scene = fmus["film_bearings"]
+    (tmp_path / "modelDescription.xml").write_bytes((scene.directory / "modelDescription.xml").read_bytes())
+    (tmp_path / "result.csv").write_bytes((demo("film_bearings").parent / "trajectory.csv").read_bytes())
+    assert _report(tmp_path).returncode == 0
+    pages = [path.read_text(encoding="utf-8") for path in (tmp_path / "report.html", demo("film_bearings"))]
+    said = "No orbits, run-up and frequencies: three turns in one sense and 6 samples a turn are needed; the fastest turn of this run has 1.9."
+    assert [said in page for page in pages] == [True, False]
+    assert ['"title":"Orbits"' in page for page in pages] == [False, True]
 
 
 def test_a_folder_without_a_run_is_an_error(folder):

@@ -10,7 +10,7 @@ import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from . import paper
+from . import paper, vibration
 from .findings import findings
 from .linear import Linear
 from .notation import count, number
@@ -38,7 +38,7 @@ def render(result, view):
         step=np.median(np.diff(result.columns["time"])),
         findings=findings(result, linear),
         panels=shown,
-        no_linear_view=None if linear else view,
+        left_out=_left_out(result, view),
         comparisons=list(paper.comparisons(result.columns)) if scene.identifier == paper.IDENTIFIER else [],
         costs=_costs(result),
         blocks=[(name, list(rows)) for name, rows in groupby(scene.parameters.values(), lambda p: p.block)],
@@ -50,6 +50,15 @@ def render(result, view):
         # What could end the element that holds it is written as an escape.
         data=Markup(json.dumps(shown, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")),
     )
+
+
+def _left_out(result, view):
+    """(what, why) of pictures that one would look for."""
+    why = vibration.unseen(result)
+    return [
+        *([] if isinstance(view, Linear) else [("critical speeds and no Campbell diagram", view)]),
+        *([("orbits, run-up and frequencies", why)] if why else []),
+    ]
 
 
 def _costs(result):

@@ -37,11 +37,16 @@ class Turns:
         return (self.offset * np.exp(-1j * multiple * angles)).mean(axis=1)
 
 
+def samples(result):
+    """How many samples the fastest turn of a run has."""
+    return 2.0 * np.pi / max(np.abs(np.diff(result["phi"])).max(), 1e-300)
+
+
 def turns(station, result):
     """The turns of a run; None where it has fewer than three, turns back, or is sampled too seldom."""
     sense = np.sign(result["phi"][-1] - result["phi"][0])
     angle, time = sense * result["phi"], result["time"]
-    if not np.all(np.diff(angle) > 0.0) or np.diff(angle).max() > 2.0 * np.pi / LEAST_SAMPLES:
+    if not np.all(np.diff(angle) > 0.0) or samples(result) < LEAST_SAMPLES:
         return None
     first, last = np.ceil(angle[0] / (2.0 * np.pi)), np.floor(angle[-1] / (2.0 * np.pi))
     count = int(last - first)

@@ -8,7 +8,7 @@ from . import spectrum, stations
 from .notation import RPM, multiple, number, rpm
 from .pack import packed
 from .plots import curve, lines, paths
-from .turns import turns
+from .turns import LEAST_SAMPLES, samples, turns
 
 LAST = 3
 """Turns of an orbit."""
@@ -22,6 +22,14 @@ def _seen(result):
     """(station, turns) of the stations that can be looked at turn by turn."""
     places = ((station, turns(station, result.columns)) for station in stations.looked_at(result.scene))
     return [(station, seen) for station, seen in places if seen]
+
+
+def unseen(result):
+    """Why a rotor that vibrates has no orbits and its frequencies would be wrong, or None."""
+    if not stations.is_machine(result.scene) or _seen(result):
+        return None
+    needed = f"three turns in one sense and {LEAST_SAMPLES:g} samples a turn are needed"
+    return f"{needed}; the fastest turn of this run has {number(samples(result.columns), 2)}."
 
 
 def _sweeps(seen):
@@ -105,7 +113,7 @@ def whirls(result, view):
     station = stations.looked_at(result.scene)[0]
     time, offset = result.columns["time"], station.offset(result.columns)
     moving = np.abs(offset - offset.mean()).max() > FLAT * stations.largest_offset(result.scene, result.columns)
-    if _sweeps(_seen(result)) or not moving:
+    if _sweeps(_seen(result)) or unseen(result) or not moving:
         return None
     frequency, amplitude = spectrum.full(time, offset)
     turning = np.abs(result.columns["omega_phi"][-1]) / math.tau

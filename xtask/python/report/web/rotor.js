@@ -6,7 +6,6 @@ drawnBy.rotor = (box, { machine }, moment) => {
   const redraw = () => draw(space, machine, moment, exaggeration());
   const space = new Space(canvas, 0.62, redraw);
   moment.addEventListener("change", () => { slider.value = moment.time; redraw(); });
-  box.addEventListener("input", redraw);
   return redraw;
 };
 
@@ -23,7 +22,7 @@ function controls(box, canvas, machine, moment) {
     <label for="pace">pace</label>
     <select id="pace"><option value="turn">a turn in 2 s</option><option value="run">the run in 20 s</option></select>
     <label for="exaggeration">motion ×</label>
-    <input type="range" class="exaggeration" id="exaggeration" min="0" max="${most}" value="${most - 3}">
+    <input type="range" class="exaggeration" id="exaggeration" min="0" max="${most}">
     <output></output>`;
   box.replaceChildren(canvas, panel);
   canvas.setAttribute("role", "img");
@@ -38,7 +37,7 @@ function controls(box, canvas, machine, moment) {
       `t = ${text(moment.time)} s, ${text(moment.value("omega_phi") * 30 / Math.PI)} rpm, c ${text(Math.hypot(y, z) / length, 3)} ${unit} off the x axis; motion × ${exaggeration()}`;
   };
   slider.addEventListener("input", () => moment.show(Number(slider.value)));
-  exaggerate.addEventListener("input", tell);
+  exaggerate.addEventListener("input", () => moment.show(moment.time));
   moment.addEventListener("change", tell);
   play(panel.querySelector("button"), panel.querySelector("select"), moment);
   tell();
