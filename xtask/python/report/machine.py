@@ -11,15 +11,15 @@ SIDES = 48
 """Of the polygon that stands for a circle."""
 SHOWN = 0.2
 """Of the drawing's length the largest motion shall be so much."""
-RINGS = {"rub": "gap", "journal": "clearance", "squeeze_film": "clearance"}
-"""What a rotor can go no farther than, where an effect has it."""
+RINGS = ("gap", "clearance")
+"""What an effect calls how far the rotor can go in it."""
 
 
 def machine(result):
     """The rotor of a `Result` to scale, as JSON: lengths in m, positions along the axis from c."""
     scene, columns = result.scene, result.columns
     body = _body(scene)
-    held = [_holder(scene, station) for station in stations.all_of(scene, *stations.HOLDING)]
+    held = [_holder(scene, station) for station in stations.held(scene)]
     probes = [vars(station) for station in stations.all_of(scene, "probe", "port")]
     supported = bool(scene.blocks("support"))
     reach = [body["length"] / 2.0, *(one["position"] for one in held + probes)]
@@ -58,8 +58,8 @@ def _body(scene):
 
 
 def _holder(scene, station):
-    ring = RINGS.get(station.name.partition("[")[0])
-    return vars(station) | {"ring": scene.value(f"{station.name}.{ring}") if ring else None}
+    ring = sum(scene.value(f"{station.name}.{ring}") for ring in RINGS)
+    return vars(station) | {"ring": ring or None}
 
 
 def _unbalance(scene, name):

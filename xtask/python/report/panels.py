@@ -12,7 +12,6 @@ from . import attitude, linear, measure, paper, vibration
 from .machine import machine
 from .notation import RPM, multiple, quantity
 from .plots import COLOURS, curve, lines
-from .stations import HOLDING
 
 FLAT = 1e-9
 """Loads and energies that change by less than this part of themselves are constant."""
@@ -74,7 +73,7 @@ def _growth_in_a_turn(result, view):
 def loads(result):
     """Of everything that holds the rotor its force on it [N], by name; a force of always nothing left out."""
     columns, found = result.columns, {}
-    for block in result.scene.blocks("support", *HOLDING):
+    for block in result.scene.blocks():
         parts = [columns[f"{block}.F.{c}"] for c in "xyz" if f"{block}.F.{c}" in columns.dtype.names]
         if np.any(parts):
             found[block] = np.sqrt(sum(part**2 for part in parts))

@@ -63,8 +63,9 @@ class Scene:
         return float(self.parameters[name].value) if name in self.parameters else 0.0
 
     def blocks(self, *kinds):
-        """The blocks of these kinds that act: bearing[1], bearing[2], …; a general FMU has switches for them."""
-        names = dict.fromkeys(p.block for p in self.parameters.values() if p.block.partition("[")[0] in kinds)
+        """The blocks of these kinds that act: bearing[1], bearing[2], …; a general FMU has switches for them. All, if no kind is named."""
+        every = dict.fromkeys(p.block for p in self.parameters.values())
+        names = [name for name in every if not kinds or name.partition("[")[0] in kinds]
         off = {p.name.partition(".")[2] for p in self.parameters.values() if p.block == "effects" and p.value == "false"}
         return [name for name in names if name not in off]
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-HOLDING = ("bearing", "journal", "ball", "magnetic", "squeeze_film", "seal", "rub")
-"""Effects that hold the rotor at a station, by their blocks' names."""
+MOST = 4
+"""Stations that one picture shows."""
 
 
 @dataclass(frozen=True)
@@ -28,29 +28,30 @@ class Station:
         return result["v_c.y"] + 1j * result["v_c.z"] + self.position * turning
 
 
-def is_machine(scene):
-    """Whether the rotor is out of balance or held at stations: its vibration is what one looks at."""
-    return bool(scene.blocks("unbalance", *HOLDING))
-
-
 def all_of(scene, *kinds):
     """The stations of these kinds of blocks, in the scene's order."""
     return [Station(name, scene.value(f"{name}.position")) for name in scene.blocks(*kinds)]
 
 
-MOST = 4
-"""Stations that one picture shows."""
+def held(scene):
+    """Where the rotor is held: all that has a place and a force, such as a bearing."""
+    return [s for s in all_of(scene) if f"{s.name}.position" in scene.parameters and f"{s.name}.F.y" in scene.outputs]
+
+
+def is_machine(scene):
+    """Whether the rotor is out of balance or held at stations: its vibration is what one looks at."""
+    return bool(scene.blocks("unbalance") or held(scene))
 
 
 def looked_at(scene):
     """Where vibration is looked at: at the probes and where the rotor is held, a place once, else at c."""
     places = {}
-    for station in all_of(scene, "probe") + all_of(scene, *HOLDING):
+    for station in all_of(scene, "probe") + held(scene):
         places.setdefault(station.position, station)
     return list(places.values())[:MOST] or [Station("c", 0.0)]
 
 
 def largest_offset(scene, result):
     """How far any station goes from the x axis [m]."""
-    places = [Station("c", 0.0), *all_of(scene, "probe", *HOLDING)]
+    places = [Station("c", 0.0), *all_of(scene, "probe"), *held(scene)]
     return max(np.abs(place.offset(result)).max() for place in places)
