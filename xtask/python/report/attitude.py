@@ -27,8 +27,8 @@ def spin(result, view):
     curves = [curve("this run", deviation.values, "blue")]
     if scene.identifier == paper.IDENTIFIER:
         bound = np.full(len(spin), paper.SPIN_BOUND)
-        claim = f"the paper: within {paper.SPIN_BOUND:g} %"
-        curves += [curve(claim, side, "orange", dash=True) for side in (bound, -bound)]
+        sides = (("+", bound), ("−", -bound))
+        curves += [curve(f"the paper: {sign}{paper.SPIN_BOUND:g} %", side, "orange", dash=True) for sign, side in sides]
     quantity_ = "ω<sub>φ</sub>/ω<sub>φ</sub>(0) − 1" if deviation.unit == "%" else "ω<sub>φ</sub> − ω<sub>φ</sub>(0)"
     caption = Markup(
         f"The axial rate ω<sub>φ</sub> = dφ/dt beside its start value, {quantity_}; at its largest "
