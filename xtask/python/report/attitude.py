@@ -76,7 +76,7 @@ def passage(result, view):
 
 def path(result, view):
     """The way of c across the x axis (the paper's Figure 5)."""
-    if stations.is_machine(result.scene):
+    if stations.is_machine(result.scene) or not stations.is_followed(result.columns):
         return None
     rows = result.columns[:: -(-len(result.columns) // LONGEST_PATH)]
     y, z = rows["r_c.y"], rows["r_c.z"]

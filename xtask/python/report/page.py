@@ -57,7 +57,7 @@ def _left_out(result, view):
     why = vibration.unseen(result)
     return [
         *([] if isinstance(view, Linear) else [("critical speeds and no Campbell diagram", view)]),
-        *([("orbits, run-up and frequencies", why)] if why else []),
+        *([("orbits, paths and frequencies", why)] if why else []),
     ]
 
 

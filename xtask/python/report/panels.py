@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from . import attitude, linear, measure, paper, vibration
+from . import attitude, linear, measure, paper, stations, vibration
 from .machine import machine
 from .notation import RPM, multiple, quantity
 from .plots import COLOURS, curve, lines
@@ -28,6 +28,8 @@ def _rotor(result, view):
     drawn = machine(result)
     what = "box" if len(drawn["body"]["outline"]) == 4 else "cylinder"
     caption = f"To scale along and across the axis. The body is the {what} of even density with the rotor’s mass and inertia."
+    if not stations.is_followed(result.columns):
+        caption += " The samples are too far apart to follow it: only at them it stands as drawn."
     return {"kind": "rotor", "title": "The rotor", "caption": caption, "machine": drawn}
 
 

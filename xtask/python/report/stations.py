@@ -28,6 +28,18 @@ class Station:
         return result["v_c.y"] + 1j * result["v_c.z"] + self.position * turning
 
 
+FOLLOWED = 0.1
+"""Samples follow a motion where the mean of the rates at two of them tells the way between to this part of the whole."""
+
+
+def is_followed(result):
+    """Whether the samples are close enough to tell how c moves, across the x axis."""
+    c = Station("c", 0.0)
+    offset, rate = c.offset(result), c.velocity(result)
+    told = np.diff(result["time"]) * (rate[1:] + rate[:-1]) / 2.0
+    return np.abs(np.diff(offset) - told).max() <= FOLLOWED * np.abs(offset - offset.mean()).max()
+
+
 def all_of(scene, *kinds):
     """The stations of these kinds of blocks, in the scene's order."""
     return [Station(name, scene.value(f"{name}.position")) for name in scene.blocks(*kinds)]

@@ -10,6 +10,8 @@ from .pack import packed
 from .plots import curve, lines, paths
 from .turns import LEAST_SAMPLES, samples, turns
 
+LASTING = 1e-3
+"""A vibration lasts where its middle turn has this part of its largest."""
 LAST = 3
 """Turns of an orbit."""
 SWEPT = 0.2
@@ -25,8 +27,10 @@ def _seen(result):
 
 
 def unseen(result):
-    """Why a rotor that vibrates has no orbits and its frequencies would be wrong, or None."""
-    if not stations.is_machine(result.scene) or _seen(result):
+    """Why the ways and frequencies of a run would be wrong, or None."""
+    if not stations.is_machine(result.scene):
+        return None if stations.is_followed(result.columns) else "the samples are too far apart to follow the motion."
+    if _seen(result):
         return None
     needed = f"three turns in one sense and {LEAST_SAMPLES:g} samples a turn are needed"
     return f"{needed}; the fastest turn of this run has {number(samples(result.columns), 2)}."
@@ -84,7 +88,7 @@ def _amplitude(seen):
 def waterfall(result, view):
     """Frequencies against the time, of a run whose speed changes."""
     seen = _seen(result)
-    if not _sweeps(seen):
+    if not _sweeps(seen) or np.median(seen[0][1].whirl) < LASTING * seen[0][1].whirl.max():
         return None
     station, t = seen[0]
     time, offset = result.columns["time"], station.offset(result.columns)
