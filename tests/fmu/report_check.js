@@ -38,26 +38,30 @@ const moved = (selector, fraction) => {
 // uPlot draws when the scripts rest.
 const rest = () => new Promise((resume) => setTimeout(resume, 50));
 
-await rest();
-const found = {
-  width: innerWidth,
-  scrolls: document.documentElement.scrollWidth,
-  titles: [...document.querySelectorAll("main figure h2")].map((title) => title.textContent),
-  canvases: [...document.querySelectorAll("main figure")].map((figure) => [...figure.querySelectorAll("canvas")].map(coloured)),
-  time: moved(".rotor .time", 0.37),
-  exaggeration: moved(".rotor .exaggeration", 0.9)[0],
-};
-const button = document.querySelector(".rotor button"), told = () => document.querySelector(".rotor output").textContent;
-const before = told();
-button.click();
-await new Promise((resume) => setTimeout(resume, 300));
-button.click();
-found.plays = told() !== before && button.textContent === "Play";
-// Paper: the colours of light, and everything drawn anew.
-dispatchEvent(new Event("beforeprint"));
-await rest();
-found.paper = getComputedStyle(document.body).backgroundColor;
-found.printed = [...document.querySelectorAll("main figure canvas")].map(coloured);
-dispatchEvent(new Event("afterprint"));
-found.faults = faults;
+async function check() {
+  await rest();
+  const found = {
+    width: innerWidth,
+    scrolls: document.documentElement.scrollWidth,
+    titles: [...document.querySelectorAll("main figure h2")].map((title) => title.textContent),
+    canvases: [...document.querySelectorAll("main figure")].map((figure) => [...figure.querySelectorAll("canvas")].map(coloured)),
+    time: moved(".rotor .time", 0.37),
+    exaggeration: moved(".rotor .exaggeration", 0.9)[0],
+  };
+  const button = document.querySelector(".rotor button"), told = () => document.querySelector(".rotor output").textContent;
+  const before = told();
+  button.click();
+  await new Promise((resume) => setTimeout(resume, 300));
+  button.click();
+  found.plays = told() !== before && button.textContent === "Play";
+  // Paper: the colours of light, and everything drawn anew.
+  dispatchEvent(new Event("beforeprint"));
+  await rest();
+  found.paper = [getComputedStyle(document.body).backgroundColor, document.body.offsetWidth];
+  found.printed = [...document.querySelectorAll("main figure canvas")].map(coloured);
+  dispatchEvent(new Event("afterprint"));
+  return { ...found, faults };
+}
+
+const found = await check().catch((fault) => ({ faults: [...faults, String(fault)] }));
 parent.document.body.append(Object.assign(document.createElement("pre"), { id: "check", textContent: JSON.stringify(found) }));

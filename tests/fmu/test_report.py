@@ -45,7 +45,7 @@ def _shows(page, folder):
         assert empty == [] and all(found["titles"])
         assert all(count is None or count > LEAST for count in found["time"]), "the slider moves the drawings"
         assert found["exaggeration"] > LEAST and found["plays"]
-        assert found["paper"] == "rgb(255, 255, 255)" and min(found["printed"]) >= LEAST
+        assert found["paper"] == ["rgb(255, 255, 255)", 680] and min(found["printed"]) >= LEAST
 
 
 @needs_browser
