@@ -1,4 +1,4 @@
-"""Draws scenes/SCENE.svg: of each packaged scene the picture of its report that shows best what it teaches.
+"""Draws scenes/SCENE.svg: of each packaged scene the picture that shows best what it teaches.
 
 Needs what the demo needs:  cargo xtask package SCENE ... && python gallery.py [SCENE ...]
 """
@@ -10,8 +10,8 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "xtask" / "python"))
 
+import figures  # noqa: E402
 from fmpy import read_model_description  # noqa: E402
-from report import figures  # noqa: E402
 from report.scene import Scene  # noqa: E402
 from report.simulate import respond, simulate  # noqa: E402
 
@@ -50,7 +50,7 @@ def picture(name):
         run = simulate(fmu, description, scene)
         # What is quick in these would be lost between the steps of the experiment.
         is_quick = draw in (figures.portrait, figures.passage)
-        result = run.result if is_quick else run.experiment[:: max(1, len(run.experiment) // MOST)]
+        result = run.columns if is_quick else run.at_steps[:: max(1, len(run.at_steps) // MOST)]
     return draw(result, scene)
 
 

@@ -19,8 +19,11 @@ struct Diagram<'m> {
     thresholds: Vec<Crossing>,
 }
 
+/// Speeds that are looked at, unless the user says how many.
+pub const STEPS: u32 = 201;
+
 /// Draws the diagram of a scene between these speeds [rad/s], at so many of them.
-pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64]) -> Result<()> {
+pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64]) -> Result<sheets::Left> {
     let scene = scenes::find(scene)?;
     ensure!(orders.iter().all(|order| *order > 0.0), "--orders: each must be more than 0");
     let file = || scene.file.display().to_string();
@@ -36,11 +39,11 @@ pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64])
     write(&Diagram { scene, campbell, critical, thresholds })
 }
 
-fn write(diagram: &Diagram) -> Result<()> {
+fn write(diagram: &Diagram) -> Result<sheets::Left> {
     let table = table::table(diagram);
     let folder = format!("campbell/{}", diagram.scene.name);
     let pictures = [("campbell.svg", picture::svg(diagram)?)];
-    sheets::leave(&folder, "campbell", &table, &rows(diagram), &json(diagram), &pictures).map(drop)
+    sheets::leave(&folder, "campbell", &table, &rows(diagram), &json(diagram), &pictures)
 }
 
 /// A mode's number, as people count.

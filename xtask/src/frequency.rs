@@ -115,7 +115,8 @@ fn write(found: &Found) -> Result<()> {
         "responses": sheets::objects(rows.clone()),
     });
     let pictures = [("frequency.svg", picture::bode(found)?), ("polar.svg", picture::polar(found)?)];
-    sheets::leave(&format!("response/{}", found.scene.name), "frequency", &table, &rows, &json, &pictures).map(drop)
+    sheets::leave(&format!("response/{}", found.scene.name), "frequency", &table, &rows, &json, &pictures)?.show();
+    Ok(())
 }
 
 /// A row for each frequency at which the answer has a bound.

@@ -23,6 +23,7 @@ mod page;
 mod paths;
 mod peaks;
 mod python;
+mod report;
 mod response;
 mod ross;
 mod run;
@@ -56,7 +57,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Package a scene, simulate the FMU with fmpy, check its energy and write a report with pictures
+    /// Package a scene, simulate the FMU with fmpy, check its energy and write an interactive report, one HTML file
     Demo {
         /// The scene
         #[arg(default_value = "paper")]
@@ -129,7 +130,7 @@ enum Command {
         #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
         speeds: Option<Vec<f64>>,
         /// How many speeds
-        #[arg(long, default_value_t = 201)]
+        #[arg(long, default_value_t = campbell::STEPS)]
         steps: u32,
         /// Lines of the speed's multiples, whose crossings are critical speeds
         #[arg(long, num_args = 1.., value_name = "X", default_values_t = [1.0, 2.0])]
@@ -256,7 +257,7 @@ fn dispatch(command: Command) -> Result<()> {
         }
         Command::Bench { part, seed } => bench::bench(&part, seed),
         Command::Campbell { scene, speeds, steps, orders } => {
-            campbell::campbell(&scene, speeds.as_deref(), steps, &orders)
+            campbell::campbell(&scene, speeds.as_deref(), steps, &orders).map(|left| left.show())
         }
         Command::Response { scene, from: Some(from), to: Some(to), speed, frequencies, steps, .. } => {
             frequency::frequency(&scene, speed, [&from, &to], frequencies.as_deref(), steps)

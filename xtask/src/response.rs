@@ -133,8 +133,10 @@ fn write(found: &Found) -> Result<()> {
         "nonlinear": sheets::objects(nonlinear.clone()),
     });
     let (folder, pictures) = (format!("response/{}", found.scene.name), [("response.svg", picture::svg(found)?)]);
-    let folder = sheets::leave(&folder, "response", &table, &linear, &json, &pictures)?;
-    Ok(std::fs::write(folder.join("nonlinear.csv"), sheets::csv(&nonlinear))?)
+    let left = sheets::leave(&folder, "response", &table, &linear, &json, &pictures)?;
+    std::fs::write(left.folder.join("nonlinear.csv"), sheets::csv(&nonlinear))?;
+    left.show();
+    Ok(())
 }
 
 /// A station's harmonic that goes round with the spin, as columns.

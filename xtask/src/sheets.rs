@@ -19,7 +19,7 @@ pub fn write(folder: &str, files: [(&str, &str); 3]) -> Result<PathBuf> {
 }
 
 /// What a command that looks at a machine leaves in a folder of target/: its table, rows and all of it as NAME.md, .csv and .json, and
-/// pictures by their files' names. Prints the table and where the pictures are.
+/// pictures by their files' names.
 pub fn leave(
     folder: &str,
     name: &str,
@@ -27,17 +27,34 @@ pub fn leave(
     rows: &[Row],
     all: &Value,
     pictures: &[(&str, String)],
-) -> Result<PathBuf> {
+) -> Result<Left> {
     let [md, csv_name, json_name] = ["md", "csv", "json"].map(|form| format!("{name}.{form}"));
     let (csv, all) = (csv(rows), serde_json::to_string_pretty(all)? + "\n");
     let folder = write(folder, [(&md, table), (&csv_name, &csv), (&json_name, &all)])?;
-    println!("{table}");
+    let mut files = Vec::new();
     for (name, picture) in pictures {
-        let file = folder.join(name);
-        std::fs::write(&file, picture)?;
-        println!("{}", file.display());
+        files.push(folder.join(name));
+        std::fs::write(folder.join(name), picture)?;
     }
-    Ok(folder)
+    Ok(Left { folder, table: table.to_owned(), pictures: files })
+}
+
+/// What a command left behind.
+pub struct Left {
+    /// Where it is.
+    pub folder: PathBuf,
+    table: String,
+    pictures: Vec<PathBuf>,
+}
+
+impl Left {
+    /// Prints the table and where the pictures are.
+    pub fn show(&self) {
+        println!("{}", self.table);
+        for file in &self.pictures {
+            println!("{}", file.display());
+        }
+    }
 }
 
 /// Rows as objects of JSON.

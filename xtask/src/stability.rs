@@ -93,7 +93,8 @@ impl Map {
 /// Table, rows, all of it and the picture.
 fn leave(scene: &Scene, table: &str, rows: &[sheets::Row], all: &serde_json::Value, svg: String) -> Result<()> {
     let folder = format!("stability/{}", scene.name);
-    sheets::leave(&folder, "stability", table, rows, all, &[("stability.svg", svg)]).map(drop)
+    sheets::leave(&folder, "stability", table, rows, all, &[("stability.svg", svg)])?.show();
+    Ok(())
 }
 
 fn map(scene: Scene, against: &Against, ends: Option<&[f64]>, steps: u32) -> Result<Map> {

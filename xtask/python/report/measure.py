@@ -1,4 +1,4 @@
-"""Numbers taken from a run. `result` is fmpy's structured array, SI units."""
+"""Numbers taken from a run. `result` is a structured array, `time` and the outputs, in SI units."""
 
 from dataclasses import dataclass
 
@@ -65,6 +65,10 @@ def spin_deviation(result):
     return Deviation(difference, "rad/s")
 
 
+SMALL_TILT = 0.2
+"""The axis of a machine in its bearings leans by less than this [rad]."""
+
+
 def around_largest_tilt(result):
     """The slice of the run in which the axis leans by more than a right angle without a break, the largest tilt in it."""
     theta = tilt(result)
@@ -77,15 +81,3 @@ def around_largest_tilt(result):
 def tilt(result):
     """θ = |γ|, the angle between rotor axis and reference axis [rad]."""
     return np.hypot(result["gamma.y"], result["gamma.z"])
-
-
-def tilt_rate(result):
-    """dθ/dt = −e·(ω×t)/sin θ [rad/s], not a number where θ = 0."""
-    sine = np.hypot(result["axis.y"], result["axis.z"])
-    along = result["omega.y"] * result["axis.z"] - result["omega.z"] * result["axis.y"]
-    return np.divide(-along, sine, out=np.full_like(sine, np.nan), where=sine > 0.0)
-
-
-def probes(result):
-    """The names of the probes: `probe[1]`, …"""
-    return [f"probe[{index}]" for index in range(1, 5) if f"probe[{index}].r.y" in result.dtype.names]

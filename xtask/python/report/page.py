@@ -1,5 +1,6 @@
 """The whole report on one HTML page that needs nothing beside it."""
 
+import json
 import platform
 from itertools import groupby
 from pathlib import Path
@@ -9,66 +10,76 @@ import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from . import figures, measure, paper
+from . import paper, vibration
+from .findings import findings
+from .linear import Linear
 from .notation import count, number
+from .panels import panels
+
+WEB = Path(__file__).parent / "web"
+SCRIPTS = ("numbers", "colours", "plot", "lines", "paths", "waterfall", "space", "moment", "rotor", "sphere", "page")
+"""The page's own scripts, each after those that it uses."""
 
 
-def render(scene, run):
-    """The report of a `simulate.Run` of `scene`, as HTML text."""
+def render(result, view):
+    """The report of a `Result`, as HTML text; `view` is its `Linear`, or why it has none."""
     templates = Environment(
-        loader=FileSystemLoader(Path(__file__).parent),
+        loader=FileSystemLoader(WEB),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    scene, linear = result.scene, view if isinstance(view, Linear) else None
+    shown = panels(result, linear)
     return templates.get_template("report.html.j2").render(
         scene=scene,
-        step=run.step,
+        by=result.by,
+        step=np.median(np.diff(result.columns["time"])),
+        findings=findings(result, linear),
+        panels=shown,
+        left_out=_left_out(result, view),
+        comparisons=list(paper.comparisons(result.columns)) if scene.identifier == paper.IDENTIFIER else [],
+        costs=_costs(result),
         blocks=[(name, list(rows)) for name, rows in groupby(scene.parameters.values(), lambda p: p.block)],
-        figures={draw.__name__: Markup(draw(result, scene)) for draw, result in _drawn(scene, run)},
-        energy=measure.energy_balance(run.result, scene.relative_tolerance),
-        largest_tilt=measure.tilt(run.result).max(),
-        comparisons=list(paper.comparisons(run.result)) if scene.identifier == paper.IDENTIFIER else [],
-        costs=_costs(scene, run),
         versions=_versions(scene),
-        log=run.log,
+        log=result.log,
         number=number,
+        file=lambda name: Markup((WEB / name).read_text(encoding="utf-8")),
+        scripts=SCRIPTS,
+        # What could end the element that holds it is written as an escape.
+        data=Markup(json.dumps(shown, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")),
     )
 
 
-LEANING = 0.2
-"""A top that leans by more than this [rad] shows its nutation."""
-
-
-def _drawn(scene, run):
-    """The figures that suit the run, each with what it shows."""
-    drawn = [figures.trajectory, figures.spin, figures.energy, figures.attitude]
-    if measure.probes(run.result):
-        drawn.append(figures.orbits)
-    if "rotating_damping.d" in scene.parameters:
-        drawn.append(figures.growth)
-    if measure.tilt(run.result).max() > LEANING:
-        drawn.append(figures.portrait)
-    if measure.tilt(run.result).max() > np.pi / 2.0:
-        drawn.append(figures.passage)
-    shown = [(draw, run.result) for draw in drawn]
-    return shown if run.response is None else [*shown, (figures.response, run.response)]
-
-
-def _costs(scene, run):
-    """What the solver spent: (what, value, unit)."""
-    last = run.result[-1]
+def _left_out(result, view):
+    """(what, why) of pictures that one would look for."""
+    why = vibration.unseen(result)
     return [
+        *([] if isinstance(view, Linear) else [("critical speeds and no Campbell diagram", view)]),
+        *([("orbits, paths and frequencies", why)] if why else []),
+    ]
+
+
+def _costs(result):
+    """What the solver spent: (what, value, unit)."""
+    scene, last, spent = result.scene, result.columns[-1], result.timings
+    rows = [
         ("method", scene.method, ""),
         ("relative tolerance", number(scene.relative_tolerance), ""),
         ("steps", count(last["solver.steps"]), ""),
         ("rejected steps", count(last["solver.rejected"]), ""),
         ("evaluations of the right-hand side, those for sampling included", count(last["solver.evaluations"]), ""),
         ("sum of the local error estimates", number(last["solver.error_estimate"], 2), ""),
-        ("wall time, fmpy’s own work included", number(run.wall_time, 2), "s"),
-        ("simulated time over wall time", number((scene.stop - scene.start) / run.wall_time, 3), ""),
     ]
+    if spent:
+        rows += [
+            ("CPU time within fmi2DoStep", number(spent.solver, 2), "s"),
+            ("CPU time of the whole run, fmpy’s own work included", number(spent.total, 2), "s"),
+            ("wall time of the whole run", number(spent.wall, 2), "s"),
+            ("simulated time over wall time", number((scene.stop - scene.start) / spent.wall, 3), ""),
+        ]
+    return rows
 
 
 def _versions(scene):

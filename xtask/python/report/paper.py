@@ -32,6 +32,11 @@ class Comparison:
     found: str
 
 
+def figure(result, number_):
+    """What a caption adds of the paper's rotor: in which of its figures the paper shows the same."""
+    return f" (the paper’s Figure {number_})" if result.scene.identifier == IDENTIFIER else ""
+
+
 def comparisons(result):
     """The claims first, then the exact answer at 10 s; each only as far as the run reaches."""
     reached = result["time"][-1]

@@ -29,6 +29,7 @@ class Scene:
     step: float
     method: str
     parameters: dict[str, Parameter]
+    outputs: tuple[str, ...]
     fmi_version: str
     version: str
     guid: str
@@ -46,6 +47,7 @@ class Scene:
             step=float(experiment.stepSize),
             method=_method(description),
             parameters={p.name: p for p in parameters},
+            outputs=tuple(v.name for v in description.modelVariables if v.causality == "output"),
             fmi_version=description.fmiVersion,
             version=description.version or "–",
             guid=description.guid,
@@ -54,7 +56,18 @@ class Scene:
     @property
     def relative_tolerance(self):
         """The relative tolerance of the adaptive methods [-]."""
-        return float(self.parameters["solver.relative_tolerance"].value)
+        return self.value("solver.relative_tolerance")
+
+    def value(self, name):
+        """A parameter's number in its SI unit, 0 where the scene has no such parameter."""
+        return float(self.parameters[name].value) if name in self.parameters else 0.0
+
+    def blocks(self, *kinds):
+        """The blocks of these kinds that act: bearing[1], bearing[2], …; a general FMU has switches for them. All, if no kind is named."""
+        every = dict.fromkeys(p.block for p in self.parameters.values())
+        names = [name for name in every if not kinds or name.partition("[")[0] in kinds]
+        off = {p.name.partition(".")[2] for p in self.parameters.values() if p.block == "effects" and p.value == "false"}
+        return [name for name in names if name not in off]
 
 
 def _method(description):

@@ -1,14 +1,15 @@
 """One run of an FMU with fmpy: co-simulation from the start to the stop of its default experiment."""
 
 import math
-from dataclasses import dataclass
 from tempfile import TemporaryDirectory
-from time import perf_counter
+from time import perf_counter, thread_time
 
 import numpy as np
 from fmpy import extract, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.simulation import instantiate_fmu
+
+from .result import Result, Timings
 
 LEAST_POINTS = 10_000
 """A run is looked at this often or more: a maximum between samples is then missed by little."""
@@ -20,32 +21,8 @@ class SimulationFailed(Exception):
     """The FMU refused a call or stopped before its stop time; the text carries its last log lines."""
 
 
-@dataclass(frozen=True)
-class Run:
-    """What a run left behind."""
-
-    result: np.ndarray
-    """Structured: `time` [s] and every output, a row a communication point."""
-    step: float
-    """Between two communication points [s]."""
-    stride: int
-    """How many of them make a step of the scene's experiment."""
-    wall_time: float
-    """From the set-up of the experiment to its end, fmpy's own work included [s]."""
-    log: list[str]
-    """What the FMU logged, `status category: message`."""
-    response: np.ndarray | None = None
-    """Of a scene that answers to an imposed speed, columns `speed` [rad/s] and `radius` [m] of the whirl that lasts."""
-
-    @property
-    def experiment(self):
-        """The result at the steps of the scene's experiment, and at its end."""
-        rows = np.arange(0, len(self.result), self.stride)
-        return self.result[np.union1d(rows, len(self.result) - 1)]
-
-
 def simulate(fmu_path, description, scene):
-    """Run the FMU at `fmu_path`; `description` is fmpy's ModelDescription of it."""
+    """Run the FMU at `fmu_path`; `description` is fmpy's ModelDescription of it. Returns a `Result`."""
     log = []
     stride = max(1, math.ceil(LEAST_POINTS * scene.step / (scene.stop - scene.start) * (1.0 - 1e-9)))
     step = scene.step / stride
@@ -60,8 +37,9 @@ def simulate(fmu_path, description, scene):
         except Exception as failure:  # fmpy raises nothing narrower here
             raise _failed(str(failure), log) from failure
         try:
-            began = perf_counter()
-            result = simulate_fmu(
+            spent = _time_steps(fmu)
+            began, cpu_began = perf_counter(), thread_time()
+            columns = simulate_fmu(
                 directory,
                 validate=True,
                 fmu_instance=fmu,
@@ -70,16 +48,31 @@ def simulate(fmu_path, description, scene):
                 stop_time=scene.stop,
                 output_interval=step,
             )
-            wall_time = perf_counter() - began
+            timings = Timings(sum(spent), thread_time() - cpu_began, perf_counter() - began)
         except FMICallException as failure:
             raise _failed(str(failure), log) from failure
         finally:
             fmu.freeInstance()
 
-    reached = result["time"][-1]
+    reached = columns["time"][-1]
     if not np.isclose(reached, scene.stop):
         raise _failed(f"the FMU stopped at {reached:g} s of {scene.stop:g} s", log)
-    return Run(result, step, stride, wall_time, log)
+    return Result(scene, np.asarray(columns), "as a co-simulation by fmpy", timings, tuple(log))
+
+
+def _time_steps(fmu):
+    """The list to which each call of fmi2DoStep adds the CPU time that it takes [s]."""
+    spent, step = [], fmu.doStep
+
+    def timed(*words, **named):
+        began = thread_time()
+        try:
+            return step(*words, **named)
+        finally:
+            spent.append(thread_time() - began)
+
+    fmu.doStep = timed
+    return spent
 
 
 SPEED = "imposed_speed.w"

@@ -31,7 +31,7 @@ struct Turning {
 }
 
 /// Draws the exponents of a scene between these speeds [rad/s], at so many of them.
-pub fn turning(scene: Scene, ends: Option<&[f64]>, steps: u32) -> Result<()> {
+pub fn turning(scene: Scene, ends: Option<&[f64]>, steps: u32) -> Result<sheets::Left> {
     let file = || scene.file.display().to_string();
     let all = speeds::range(&scene, None, ends, steps).with_context(file)?;
     let fastest = all.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
@@ -66,7 +66,7 @@ fn threshold(rotating: &Rotating, pair: &[Orbit]) -> Result<f64, Obstacle> {
     Ok(0.5 * (from.speed + to.speed))
 }
 
-fn write(turning: &Turning) -> Result<()> {
+fn write(turning: &Turning) -> Result<sheets::Left> {
     let (table, rows) = (table(turning), rows(turning));
     let json = json!({
         "scene": turning.scene.name,
@@ -76,7 +76,7 @@ fn write(turning: &Turning) -> Result<()> {
         "modes": sheets::objects(rows.clone()),
     });
     let folder = format!("campbell/{}", turning.scene.name);
-    sheets::leave(&folder, "campbell", &table, &rows, &json, &[("campbell.svg", svg(turning)?)]).map(drop)
+    sheets::leave(&folder, "campbell", &table, &rows, &json, &[("campbell.svg", svg(turning)?)])
 }
 
 /// The exponents that count once, the fastest growth first.

@@ -1,6 +1,6 @@
-"""The run as pictures: each function returns an SVG element to stand in an HTML page.
+"""Pictures of runs for the gallery: each function returns an SVG, as text.
 
-`result` is fmpy's structured array, `scene` a `scene.Scene`.
+`result` is a structured array, `time` and the outputs in SI units, `scene` a `report.scene.Scene`.
 """
 
 import io
@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 
-from . import measure, paper
-from .notation import number
+from report import measure, paper
+from report.notation import number
 
 # Okabe and Ito's palette: told apart by colour-blind readers too.
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, BLACK = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#222222"
@@ -138,7 +138,7 @@ def passage(figure, result, scene):
 @_inline(3.7, "Phase portrait of the tilt: its rate against the tilt")
 def portrait(figure, result, scene):
     """The tilt θ and its rate: a nutating top goes round a loop."""
-    theta, rate = measure.tilt(result), measure.tilt_rate(result)
+    theta, rate = measure.tilt(result), _tilt_rate(result)
     axes = figure.add_subplot()
     axes.plot(theta, rate, color=BLUE, linewidth=0.7)
     axes.plot(theta[0], rate[0], "o", color=BLACK, markersize=8, markerfacecolor="none", label="start")
@@ -149,7 +149,7 @@ def portrait(figure, result, scene):
 @_inline(3.4, "Orbits of the stations that probes look at")
 def orbits(figure, result, scene):
     """The path of each probe's station across the x axis."""
-    probes = measure.probes(result)
+    probes = _probes(result)
     panels = figure.subplots(1, len(probes), squeeze=False)[0]
     for panel, probe in zip(panels, probes):
         y, z = result[f"{probe}.r.y"], result[f"{probe}.r.z"]
@@ -220,3 +220,15 @@ def energy(figure, result, scene):
     rest.plot(time, residual, color=PURPLE, linewidth=0.8)
     rest.set(xlabel="time [s]", ylabel="residual [J]", ylim=_limits(residual, floor=1e-17 * turnover or 1.0))
     figure.align_ylabels()
+
+
+def _tilt_rate(result):
+    """dθ/dt = −e·(ω×t)/sin θ [rad/s], not a number where θ = 0."""
+    sine = np.hypot(result["axis.y"], result["axis.z"])
+    along = result["omega.y"] * result["axis.z"] - result["omega.z"] * result["axis.y"]
+    return np.divide(-along, sine, out=np.full_like(sine, np.nan), where=sine > 0.0)
+
+
+def _probes(result):
+    """The names of the probes: `probe[1]`, …"""
+    return [f"probe[{index}]" for index in range(1, 5) if f"probe[{index}].r.y" in result.dtype.names]

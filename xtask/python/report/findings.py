@@ -1,0 +1,106 @@
+"""The results that stand first: a few numbers of a run and of its linear view."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import linear, measure, stations
+from .notation import number, quantity, rpm
+from .panels import loads
+from .turns import turns
+
+MOST = 5
+"""Critical speeds that are named."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A number, what it is, and whether it is `good`, `bad` or neither."""
+
+    value: str
+    what: str
+    judged: str = ""
+
+
+def findings(result, view):
+    """All that this run and its linear view have."""
+    found = [_critical(view), _stability(result, view), *_motion(result), _load(result), _time(result), _energy(result)]
+    return [finding for finding in found if finding]
+
+
+def _critical(view):
+    if view is None or view.floquet:
+        return None
+    highest = max(row["speed_rad_s"] for row in view.modes)
+    if not view.critical:
+        return Finding("none", f"critical speeds (1×), looked for up to {rpm(highest)}")
+    # Modes in two planes of a round machine cross at one speed.
+    speeds = list(dict.fromkeys(rpm(crossing["speed_rad_s"]).removesuffix("\u00a0rpm") for crossing in view.critical))
+    more = f", the first {MOST} of {len(speeds)}" if len(speeds) > MOST else f", up to {rpm(highest)}"
+    return Finding(" · ".join(speeds[:MOST]) + "\u00a0rpm", f"critical speeds (1×){more}")
+
+
+def _stability(result, view):
+    if view is None:
+        return None
+    spin = np.abs(result.columns["omega_phi"])
+    if view.floquet:
+        speed, rate = view.nearest_growth(spin[0])
+        what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet)"
+        return Finding("unstable", what, "bad") if rate > linear.NEITHER else Finding("nothing grows", what)
+    row = view.least_damped((spin.min(), spin.max()))
+    ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
+    range_ = f"{rpm(spin.min())} to {rpm(spin.max())}" if np.ptp(spin) > 0.01 * spin.max() else rpm(spin.max())
+    if abs(ratio) <= linear.NEITHER:
+        return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}")
+    size = linear.decrement(ratio)
+    how = f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
+    if ratio < 0.0:
+        bounds = "".join(f"; threshold {rpm(speed)}" for speed in view.thresholds)
+        return Finding("unstable", f"{row['direction']} mode grows {at}, {how}{bounds}", "bad")
+    return Finding("stable", f"at {range_}; least {how}, {row['direction']} mode {at}", "good")
+
+
+def _motion(result):
+    columns = result.columns
+    tilt = measure.tilt(columns)
+    if stations.is_machine(result.scene) and tilt.max() <= measure.SMALL_TILT:
+        seen = [(station, turns(station, columns)) for station in stations.looked_at(result.scene)]
+        whirls = [(t.whirl[1:].max(), t, station) for station, t in seen if t]
+        if whirls:
+            largest, t, station = max(whirls, key=lambda whirl: whirl[0])
+            when = 1 + t.whirl[1:].argmax()
+            at = f"at {number(t.time[when], 3)}\u00a0s, {rpm(t.speed[when])}"
+            yield Finding(quantity(largest, "m"), f"largest whirl, {station.name}, {at}; from the second turn on")
+            return
+    distance = np.hypot(columns["r_c.y"], columns["r_c.z"])
+    if distance.max() > 0.0:
+        when = number(columns["time"][distance.argmax()])
+        yield Finding(quantity(distance.max(), "m"), f"largest distance of c from the x axis, at {when}\u00a0s")
+    if tilt.max() > 0.0:
+        when = number(columns["time"][tilt.argmax()])
+        yield Finding(f"{number(np.degrees(tilt.max()), 3)}°", f"largest tilt θ, at {when}\u00a0s")
+
+
+def _load(result):
+    found = loads(result)
+    if not found:
+        return None
+    name = max(found, key=lambda name: found[name].max())
+    when = result.columns["time"][found[name].argmax()]
+    return Finding(quantity(found[name].max(), "N"), f"largest load, {name}, at {number(when)}\u00a0s")
+
+
+def _time(result):
+    if result.timings is None:
+        return None
+    spent = result.timings
+    return Finding(quantity(spent.solver, "s"), f"CPU time of the solver, of {quantity(spent.total, 's')} with fmpy’s own work")
+
+
+def _energy(result):
+    balance = measure.energy_balance(result.columns, result.scene.relative_tolerance)
+    bound = f"energy residual, of {quantity(balance.turnover, 'J')} in play; bound {quantity(balance.bound, 'J')}: "
+    if balance.holds:
+        return Finding(quantity(balance.residual, "J"), bound + "it holds", "good")
+    return Finding(quantity(balance.residual, "J"), bound + "it does not hold", "bad")

@@ -1,0 +1,66 @@
+"""One run, wherever it comes from: all that the report knows of it."""
+
+import csv
+from dataclasses import dataclass
+
+import numpy as np
+from fmpy import read_model_description
+
+from .scene import Scene
+
+
+class NotAResult(Exception):
+    """A folder does not hold a run; the text names the file and what is wrong with it."""
+
+
+@dataclass(frozen=True)
+class Timings:
+    """What a run took [s]."""
+
+    solver: float
+    """CPU time within fmi2DoStep."""
+    total: float
+    """CPU time from the set-up of the experiment to its end, the host's own work included."""
+    wall: float
+    """Wall time of the same."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run left behind."""
+
+    scene: Scene
+    columns: np.ndarray
+    """Structured: `time` [s] and every output in its SI unit, a row a sample."""
+    by: str
+    """What ran it, as the page shall say."""
+    timings: Timings | None = None
+    """None where nobody measured."""
+    log: tuple[str, ...] = ()
+    """What the FMU logged, `status category: message`."""
+    response: np.ndarray | None = None
+    """Of a scene that answers to an imposed speed, columns `speed` [rad/s] and `radius` [m] of the whirl that lasts."""
+
+    @property
+    def at_steps(self):
+        """The columns at the steps of the scene's experiment, and at its end."""
+        time = self.columns["time"]
+        stride = max(1, round(self.scene.step / (time[1] - time[0])))
+        return self.columns[np.union1d(np.arange(0, len(time), stride), len(time) - 1)]
+
+
+def read(folder):
+    """The run in `folder`: its modelDescription.xml and its result.csv, `time` and a column an output."""
+    try:
+        scene = Scene.of(read_model_description(str(folder / "modelDescription.xml")))
+        with (folder / "result.csv").open(encoding="utf-8", newline="") as file:
+            rows = csv.reader(file)
+            names = next(rows, [])
+            values = [tuple(map(float, row)) for row in rows]
+    except (OSError, ValueError) as failure:
+        raise NotAResult(f"{folder}: {failure}") from failure
+    if missing := {"time", *scene.outputs} - set(names):
+        raise NotAResult(f"{folder / 'result.csv'}: no column {', '.join(sorted(missing))}")
+    if len(values) < 2 or any(len(row) != len(names) for row in values):
+        raise NotAResult(f"{folder / 'result.csv'}: at least two rows are needed, all as long as the header")
+    return Result(scene, np.array(values, dtype=[(name, float) for name in names]), "without an FMU, by cargo xtask run")

@@ -1,0 +1,159 @@
+"""Pictures of a rotor that vibrates: orbits, the run-up, frequencies, what an unbalance does."""
+
+import math
+
+import numpy as np
+
+from . import spectrum, stations
+from .notation import RPM, multiple, number, rpm
+from .pack import packed
+from .plots import curve, lines, paths
+from .turns import LEAST_SAMPLES, samples, turns
+
+LASTING = 1e-3
+"""A vibration lasts where its middle turn has this part of its largest."""
+LAST = 3
+"""Turns of an orbit."""
+SWEPT = 0.2
+"""A run whose speed changes by this part of its highest is a run-up, or a run-down."""
+FLAT = 1e-9
+"""Vibrations of less than this part of the largest distance are rounding."""
+
+
+def _seen(result):
+    """(station, turns) of the stations that can be looked at turn by turn."""
+    places = ((station, turns(station, result.columns)) for station in stations.looked_at(result.scene))
+    return [(station, seen) for station, seen in places if seen]
+
+
+def unseen(result):
+    """Why the ways and frequencies of a run would be wrong, or None."""
+    if not stations.is_machine(result.scene):
+        return None if stations.is_followed(result.columns) else "the samples are too far apart to follow the motion."
+    if _seen(result):
+        return None
+    needed = f"three turns in one sense and {LEAST_SAMPLES:g} samples a turn are needed"
+    return f"{needed}; the fastest turn of this run has {number(samples(result.columns), 2)}."
+
+
+def _sweeps(seen):
+    speed = seen[0][1].speed if seen else np.zeros(1)
+    return np.ptp(speed) > SWEPT * speed.max() and len(speed) >= 20
+
+
+def orbits(result, view):
+    """The last turns of each station."""
+    seen = _seen(result) if stations.is_machine(result.scene) else []
+    last = [(station, t.offset[-LAST:].ravel()) for station, t in seen]
+    largest = max((np.abs(q - q.mean()).max() for _, q in last), default=0.0)
+    if largest <= FLAT * stations.largest_offset(result.scene, result.columns):
+        return None
+    unit, size = multiple(largest, "m")
+    ways = []
+    for station, q in last:
+        q = (q - q.mean()) / size
+        ways.append((station.name, q.real, q.imag, [{"x": z.real, "y": z.imag} for z in q[:: len(q) // LAST]]))
+    caption = f"The last {LAST} turns about their middle, at {rpm(seen[0][1].speed[-1])}. A dot marks where φ passes a whole turn."
+    return paths("Orbits", caption, f"y [{unit}]", (f"z [{unit}]", ways), equal=True)
+
+
+def run_up(result, view):
+    """Amplitude and phase of the part that goes round with the rotor, against the speed (Bode)."""
+    seen = _seen(result) if result.scene.blocks("unbalance") else []
+    if not _sweeps(seen):
+        return None
+    amplitudes, phases = [], []
+    unit, size = multiple(max(_amplitude(t).max() for _, t in seen), "m")
+    for station, t in seen:
+        speed, amplitude = t.speed[1:] * RPM, _amplitude(t)[1:] / size
+        top = amplitude.argmax()
+        label = f"{number(amplitude[top], 3)} {unit} at {rpm(t.speed[1 + top])}"
+        mark = {"x": speed[top], "y": amplitude[top], "label": label}
+        amplitudes.append((station.name, speed, amplitude, [mark]))
+        phase = np.degrees(np.unwrap(np.angle(t.order(1)[1:])))
+        phase -= 360.0 * round(phase[top] / 360.0)
+        phases.append((station.name, speed, np.where(amplitude > 0.02 * amplitude.max(), phase, np.nan)))
+    caption = (
+        "The part of the motion that goes round once in a turn, turn by turn: the longer half axis of its orbit, and by how much "
+        "its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out."
+    )
+    return paths("Run-up", caption, "speed [rpm]", (f"amplitude 1× [{unit}]", amplitudes), ("phase [°]", phases))
+
+
+def _amplitude(seen):
+    """The longer half axis of the synchronous orbit in each turn [m]."""
+    return np.abs(seen.order(1)) + np.abs(seen.order(-1))
+
+
+def waterfall(result, view):
+    """Frequencies against the time, of a run whose speed changes."""
+    seen = _seen(result)
+    if not _sweeps(seen) or np.median(seen[0][1].whirl) < LASTING * seen[0][1].whirl.max():
+        return None
+    station, t = seen[0]
+    time, offset = result.columns["time"], station.offset(result.columns)
+    fastest = np.abs(result.columns["omega_phi"]).max() / math.tau
+    highest = min(2.5 * fastest, 0.5 / (time[1] - time[0]))
+    # The window at which the line of a run-up is as wide as it is steep.
+    width = 2.0 * math.sqrt((time[-1] - time[0]) / fastest)
+    times, frequencies, amplitude = spectrum.waterfall(time, offset, highest, width)
+    unit, size = multiple(amplitude.max(), "m")
+    decibels = 20.0 * np.log10(np.maximum(amplitude / amplitude.max(), 1e-3))
+    return {
+        "kind": "waterfall",
+        "title": f"Waterfall, {station.name}",
+        "caption": f"Amplitudes of whirls, forward above and backward below 0 Hz; the brightest is {number(amplitude.max() / size, 3)} "
+        f"{unit}, black 60 dB below. Dashed: once and twice a turn.",
+        "x": [float(times[0]), float(times[-1])],
+        "y": float(frequencies[-1]),
+        "levels": np.round(decibels + 60.0).astype(int).tolist(),
+        "time": packed(t.time),
+        "turning": packed(t.speed / math.tau),
+    }
+
+
+def whirls(result, view):
+    """Frequencies of a run whose speed does not."""
+    station = stations.looked_at(result.scene)[0]
+    time, offset = result.columns["time"], station.offset(result.columns)
+    moving = np.abs(offset - offset.mean()).max() > FLAT * stations.largest_offset(result.scene, result.columns)
+    if _sweeps(_seen(result)) or unseen(result) or not moving:
+        return None
+    frequency, amplitude = spectrum.full(time, offset)
+    turning = np.abs(result.columns["omega_phi"][-1]) / math.tau
+    loud = np.abs(frequency[amplitude > 1e-3 * amplitude.max()]).max()
+    highest = 1.2 * turning if loud < turning < min(4.0 * loud, frequency[-1]) else 1.2 * loud
+    inside = np.abs(frequency) <= highest
+    unit, size = multiple(amplitude.max(), "m")
+    shown = np.maximum(amplitude[inside], 1e-4 * amplitude.max()) / size
+    caption = f"Whirls in the second half of the run, forward at positive and backward at negative frequencies; {station.name}."
+    if turning < frequency[-1]:
+        caption += f" One turn: {number(turning)} Hz."
+    drawn = curve("amplitude", shown, "blue")
+    marks = [{"x": turning, "label": "1×"}] if turning < highest else []
+    plot = (f"amplitude [{unit}]", [drawn], {"log": True, "lines": marks})
+    return lines(f"Spectrum, {station.name}", caption, ("frequency [Hz]", frequency[inside]), plot)
+
+
+def growth(result, view):
+    """How a whirl that damping in the rotor may drive grows or dies."""
+    if not result.scene.blocks("rotating_damping"):
+        return None
+    station = stations.looked_at(result.scene)[0]
+    distance = np.abs(station.offset(result.columns))
+    unit, size = multiple(distance.max(), "m")
+    caption = f"Distance of {station.name} from the x axis. A whirl that grows or dies by itself is a straight line here."
+    distance = np.maximum(distance, 1e-9 * distance.max()) / size
+    plot = (f"distance [{unit}]", [curve("distance", distance, "blue")], {"log": True})
+    return lines("Growth", caption, ("time [s]", result.columns["time"]), plot)
+
+
+def response(result, view):
+    """The whirl that lasts, against an imposed speed."""
+    if result.response is None:
+        return None
+    speed, radius = result.response["speed"] * RPM, result.response["radius"]
+    unit, size = multiple(radius.max(), "m")
+    caption = "The radius of the whirl that lasts, one run at each imposed speed."
+    drawn = curve("radius", radius / size, "blue", points=True)
+    return lines("Response to unbalance", caption, ("speed [rpm]", speed), (f"radius [{unit}]", [drawn], {}))
