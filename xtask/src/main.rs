@@ -12,6 +12,7 @@ mod fmu;
 mod frequency;
 mod fuzz;
 mod hard_cases;
+mod library;
 mod licences;
 mod memcheck;
 mod numbers;

@@ -39,6 +39,7 @@ mod random_scenes;
 mod rotation;
 mod rub;
 mod scenes;
+mod section;
 mod series;
 mod signal;
 mod state_space;
