@@ -61,6 +61,17 @@ pub fn filled(mut library: Vec<u8>, scene: &Scene) -> Result<Vec<u8>> {
     Ok(library)
 }
 
+/// On macOS a library is signed when it is linked, and one that was changed since is not loaded unless it is signed anew.
+pub fn signed(library: Vec<u8>) -> Result<Vec<u8>> {
+    if !cfg!(target_os = "macos") {
+        return Ok(library);
+    }
+    let file = paths::target().join("package").join(format!("{:?}", std::thread::current().id()));
+    fs::write(&file, library)?;
+    run(Command::new("codesign").args(["--force", "--sign", "-"]).arg(&file))?;
+    Ok(fs::read(&file)?)
+}
+
 /// Says to a build which list of effects it is for.
 pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
     command.env("SPLIT_ROTOR_LIST", scene.list()).env("SPLIT_ROTOR_ROOM", scene.room().to_string())
@@ -149,4 +160,80 @@ fn fingerprint(sources: &[String]) -> Result<String> {
         }
     }
     Ok(format!("{:016x}", all.finish()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MANIFESTS, filled, fingerprint, fs, is_fresh, is_older, paths, sources};
+    use crate::scenes;
+    use split_rotor_model::section;
+    use std::path::PathBuf;
+    use std::time::{Duration, SystemTime};
+
+    #[test]
+    fn exact_the_sources_of_a_library_are_what_cargo_lists_and_the_manifests() {
+        let made = paths::target().join("package/0/fmu/build/out/list.rs");
+        let listed = format!("/a/libx.so: /a/build.rs /a/with\\ space.rs {} /a/effects\n", made.display());
+        let manifests = MANIFESTS.map(|name| paths::root().join(name).display().to_string());
+        let expected = ["/a/build.rs", "/a/with space.rs", "/a/effects"].map(str::to_owned);
+        assert_eq!(sources(&listed), [&expected[..], &manifests].concat());
+        assert!(manifests.iter().all(|file| fs::exists(file).unwrap()));
+    }
+
+    /// A folder with two files, one in a folder within, as a list of sources.
+    fn made(name: &str) -> (PathBuf, Vec<String>) {
+        let folder = paths::target().join("tests").join(name);
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(folder.join("effects")).unwrap();
+        fs::write(folder.join("lib.rs"), "one").unwrap();
+        fs::write(folder.join("effects/drag.rs"), "two").unwrap();
+        let sources = ["lib.rs", "effects", "effects/drag.rs"].map(|file| folder.join(file).display().to_string());
+        (folder, sources.to_vec())
+    }
+
+    #[test]
+    fn a_kept_library_is_stale_where_any_source_changes_comes_or_goes() {
+        let (folder, sources) = made("stamp");
+        let stamp = folder.join("stamp");
+        assert!(!is_fresh(&stamp), "none was written");
+        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources).unwrap(), sources.join("\n"))).unwrap();
+        let changes: [(&str, Option<&str>); 4] = [
+            ("lib.rs", Some("One")),
+            ("effects/drag.rs", Some("")),
+            ("effects/new.rs", Some("new")),
+            ("effects/drag.rs", None),
+        ];
+        for (file, text) in changes {
+            assert!(is_fresh(&stamp), "before {file} changes");
+            let (file, before) = (folder.join(file), fs::read(folder.join(file)));
+            match text {
+                Some(text) => fs::write(&file, text).unwrap(),
+                None => fs::remove_file(&file).unwrap(),
+            }
+            assert!(!is_fresh(&stamp), "{} is {text:?}", file.display());
+            match before {
+                Ok(before) => fs::write(&file, before).unwrap(),
+                Err(_) => fs::remove_file(&file).unwrap(),
+            }
+        }
+        assert!(is_fresh(&stamp), "all is as it was");
+    }
+
+    #[test]
+    fn a_source_that_changed_during_the_build_is_no_older() {
+        let (_, sources) = made("during");
+        let (now, second) = (SystemTime::now(), Duration::from_secs(100));
+        assert!(sources.iter().all(|file| is_older(file, now + second) && !is_older(file, now - second)));
+        assert!(!is_older("nosuchfile", now + second));
+    }
+
+    #[test]
+    fn a_library_is_filled_for_scenes_of_its_list_only() {
+        let [paper, top, free] = ["paper", "heavy_top", "free_top"].map(|name| scenes::find(name).unwrap());
+        let library = section::blank(&paper.list(), paper.room());
+        let [of_paper, of_top] = [&paper, &top].map(|scene| filled(library.clone(), scene).unwrap());
+        assert!(of_paper != of_top && of_paper.len() == of_top.len());
+        let refused = filled(library, &free).unwrap_err().to_string();
+        assert!(refused.contains("free_top.toml: it is that of another list of effects"), "{refused}");
+    }
 }

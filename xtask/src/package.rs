@@ -30,7 +30,8 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
         progress.set_message(format!("building {}", scenes[0].name));
         let library = library::of(scenes[0], builder)?;
         scenes.iter().try_for_each(|scene| {
-            let (library, fmu) = (library::filled(library.clone(), scene)?, fmu(scene));
+            let library = library::signed(library::filled(library.clone(), scene)?)?;
+            let fmu = fmu(scene);
             archive(scene, &library, &licences, &fmu).with_context(|| format!("cannot write {}", fmu.display()))?;
             progress.inc(1);
             progress.suspend(|| println!("{}", fmu.display()));
