@@ -1,24 +1,40 @@
-//! Compiles the chosen scene in: its effects become a type, its GUID and start values constants.
+//! Compiles a list of effects in as a type, and the section that holds the values of a scene.
 //!
-//! The scene is the TOML file in the environment variable `SPLIT_ROTOR_SCENE`, which `cargo xtask package` sets for its
-//! own child; without it, `scenes/paper.toml`.
+//! The scene is the TOML file in the environment variable `SPLIT_ROTOR_SCENE`; without it, `scenes/paper.toml`, or with the feature `driven`
+//! `scenes/driven.toml`. `cargo xtask package`
+//! names in its place a list, `SPLIT_ROTOR_LIST`, and for how many start values there must be room, `SPLIT_ROTOR_ROOM`: it writes the
+//! values of each scene into copies of that library.
 
 use split_rotor_model::scene::Scene;
-use split_rotor_model::variable::{Place, Role};
-use split_rotor_model::xml;
-use std::fmt::Write;
+use split_rotor_model::variable::Role;
+use split_rotor_model::{section, xml};
 use std::path::{Path, PathBuf};
 
 fn main() {
-    println!("cargo::rerun-if-env-changed=SPLIT_ROTOR_SCENE");
-    let file = std::env::var_os("SPLIT_ROTOR_SCENE").map_or("scenes/paper.toml".into(), PathBuf::from);
+    for variable in ["LIST", "ROOM", "SCENE"] {
+        println!("cargo::rerun-if-env-changed=SPLIT_ROTOR_{variable}");
+    }
+    match std::env::var("SPLIT_ROTOR_LIST") {
+        Ok(list) => {
+            let room = std::env::var("SPLIT_ROTOR_ROOM").ok().and_then(|room| room.parse().ok());
+            write(&list, &section::blank(&list, room.expect("SPLIT_ROTOR_ROOM is a whole number")));
+        }
+        Err(_) => {
+            let usual = if cfg!(feature = "driven") { "scenes/driven.toml" } else { "scenes/paper.toml" };
+            of_scene(&std::env::var_os("SPLIT_ROTOR_SCENE").map_or(usual.into(), PathBuf::from));
+        }
+    }
+}
+
+fn of_scene(file: &Path) {
     println!("cargo::rerun-if-changed={}", file.display());
-    match Scene::read(&file) {
+    match Scene::read(file) {
         Err(error) => error.to_string().lines().for_each(|line| println!("cargo::error={line}")),
         Ok(scene) => {
             tell_tests(&scene);
-            let out = std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR");
-            std::fs::write(Path::new(&out).join("scene.rs"), source(&scene)).expect("OUT_DIR can be written");
+            let mut section = section::blank(&scene.list(), scene.room());
+            section::fill(&mut section, &xml::guid(&scene), &scene.starts);
+            write(&scene.list(), &section);
         }
     }
 }
@@ -40,26 +56,9 @@ fn tell_tests(scene: &Scene) {
 }
 
 /// What `src/scene.rs` includes.
-fn source(scene: &Scene) -> String {
-    let member = if scene.general { "Switched" } else { "Called" };
-    let list = scene.effects.iter().rev().fold("()".to_owned(), |rest, (info, index)| {
-        let nodes = match scene.nodes(Place::effect_block(info.number, *index)) {
-            0 => String::new(),
-            nodes => format!("<{nodes}>"),
-        };
-        format!("(split_rotor_model::effects::{member}<{}{nodes}, {index}>, {rest})", info.type_path)
-    });
-    let mut starts = String::new();
-    for (reference, value) in &scene.starts {
-        write!(starts, "({reference}, {value:?}), ").expect("writing to memory does not fail");
-    }
-    format!(
-        "/// The effects that the scene calls for.\n\
-         pub type Effects = {list};\n\n\
-         /// The GUID of its modelDescription.xml.\n\
-         pub const GUID: &str = {:?};\n\n\
-         /// The start value of each parameter, by value reference.\n\
-         pub const STARTS: &[(u32, f64)] = &[{starts}];\n",
-        xml::guid(scene)
-    )
+fn write(list: &str, section: &[u8]) {
+    let out = PathBuf::from(std::env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
+    let list = format!("/// The effects that the scene calls for.\npub type Effects = {list};\n");
+    std::fs::write(out.join("list.rs"), list).expect("OUT_DIR can be written");
+    std::fs::write(out.join("section"), section).expect("OUT_DIR can be written");
 }

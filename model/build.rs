@@ -1,6 +1,6 @@
-//! Which effects are compiled: all, or for an FMU those that its scene calls for, as the environment variable
-//! `SPLIT_ROTOR_EFFECTS` lists them, which `cargo xtask package` sets. What a generic crate compiles of the others is thrown
-//! away in the end, but it would tell by where the rest comes to lie.
+//! Which effects are compiled: all, or for an FMU those of its list, the type in the environment variable `SPLIT_ROTOR_LIST`, which
+//! `cargo xtask package` sets. What a generic crate compiles of the others is thrown away in the end, but it would tell by where
+//! the rest comes to lie.
 
 use std::path::Path;
 
@@ -8,16 +8,16 @@ use std::path::Path;
 const EFFECTS: &str = "src/effects";
 
 fn main() {
-    println!("cargo::rerun-if-env-changed=SPLIT_ROTOR_EFFECTS");
+    println!("cargo::rerun-if-env-changed=SPLIT_ROTOR_LIST");
     println!("cargo::rerun-if-changed={EFFECTS}");
     // Who reads scenes must know all.
     let reads_scenes = std::env::var_os("CARGO_FEATURE_SCENES").is_some();
-    let wanted = std::env::var("SPLIT_ROTOR_EFFECTS").ok().filter(|_| !reads_scenes);
+    let wanted = std::env::var("SPLIT_ROTOR_LIST").ok().filter(|_| !reads_scenes);
     for entry in std::fs::read_dir(Path::new(EFFECTS)).expect("the effects stand there") {
         let path = entry.expect("a folder can be read").path();
         let name = path.file_stem().expect("a file has a name").to_string_lossy().into_owned();
         println!("cargo::rustc-check-cfg=cfg({name})");
-        if wanted.as_ref().is_none_or(|wanted| wanted.split(',').any(|one| one == name)) {
+        if wanted.as_ref().is_none_or(|wanted| wanted.contains(&format!("::{name}::"))) {
             println!("cargo::rustc-cfg={name}");
         }
     }

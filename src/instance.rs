@@ -14,7 +14,7 @@ pub use logger::{Logger, Severity};
 pub use state::{State, kind_name};
 pub use values::{Room, Type, fill};
 
-use crate::scene::{Effects, STARTS, Simulation};
+use crate::scene::{self, Effects, Simulation};
 use split_rotor_model::error::Invalid;
 use split_rotor_model::integrate::Cost;
 use split_rotor_model::log::{ALL, Category};
@@ -74,7 +74,7 @@ struct Experiment {
 impl Memory {
     /// That of a new instance, with the scene's start values.
     fn new(integrator: Integrator) -> Self {
-        let parameters = STARTS.iter().map(|(reference, value)| (Place::of(*reference), *value)).collect();
+        let parameters = scene::values().starts().map(|(reference, value)| (Place::of(reference), value)).collect();
         Self {
             state: State::Instantiated,
             simulation: Simulation::with(integrator, parameters),
@@ -248,14 +248,15 @@ impl Instance {
             Parameters::<Effects>::meta(Place::of(reference))
                 .is_some_and(|meta| matches!(meta.role, Role::Input { .. }))
         };
-        let mut inputs = STARTS.iter().filter(|(reference, _)| is_input(*reference));
+        let values = scene::values();
+        let mut inputs = values.starts().filter(|(reference, _)| is_input(*reference));
         let other = inputs.clone().find(|(_, start)| *start != 0.0);
         let is_zero = |reference| memory.simulation.value(Place::of(reference)) == Some(0.0);
         if let Some((reference, start)) = other
-            && inputs.all(|(reference, _)| is_zero(*reference))
+            && inputs.all(|(reference, _)| is_zero(reference))
         {
             memory.warned[2] = true;
-            let name = Parameters::<Effects>::name(Place::of(*reference)).unwrap_or_default();
+            let name = Parameters::<Effects>::name(Place::of(reference)).unwrap_or_default();
             let message = format!(
                 "all inputs are 0, and the scene begins with {name} = {start:?}: some hosts send 0 to inputs that nobody \
                  connected; connect them, or set them to their start values"

@@ -6,7 +6,8 @@ mod harness;
 
 use harness::{Instance, Life, Saved, Traveller, inputs, only, reals, scene, tumbling};
 use split_rotor::abi::{CO_SIMULATION, MODEL_EXCHANGE, Real, Status};
-use split_rotor::scene::GUID;
+use split_rotor::scene::values;
+use split_rotor_model::section::GUID;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -91,7 +92,7 @@ fn refused(instance: &Instance, own: &[u8], bytes: &[u8], words: &[&str]) {
 /// Where the parts of a serialized state begin: magic, version, GUID, length of the numbers, numbers.
 const VERSION: usize = 8;
 const SCENE: usize = VERSION + 4;
-const LENGTH: usize = SCENE + GUID.len();
+const LENGTH: usize = SCENE + GUID;
 const NUMBERS: usize = LENGTH + 8;
 const CHECKSUM: usize = 4;
 
@@ -156,7 +157,7 @@ fn fmi_states_of_other_versions_scenes_and_kinds_are_refused() {
         let other = "{00000000-0000-0000-0000-000000000000}";
         let mut bytes = own.clone();
         bytes[SCENE..LENGTH].copy_from_slice(other.as_bytes());
-        refused(&instance, &own, &sealed(bytes), &[other, GUID]);
+        refused(&instance, &own, &sealed(bytes), &[other, values().guid()]);
         for other in Life::EACH.into_iter().filter(|other| other.kind != life.kind) {
             let words =
                 [format!("instance for {}", other.kind_name()), format!("this one is for {}", life.kind_name())];

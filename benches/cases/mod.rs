@@ -7,8 +7,7 @@ mod harness;
 
 use harness::Instance;
 use split_rotor::abi::Status;
-use split_rotor::scene::Simulation;
-use split_rotor::scene::{Effects, STARTS};
+use split_rotor::scene::{self, Effects, Simulation};
 use split_rotor_model::integrate::explicit::Explicit;
 use split_rotor_model::integrate::tableau::Tableau;
 use split_rotor_model::integrate::taylor::Taylor;
@@ -51,8 +50,9 @@ pub struct At<S, const N: usize> {
 
 /// The rotor under way: with 12 equations without the work integrals, with 14 with them.
 pub fn rotor<const N: usize>() -> At<Rotor<'static, Effects>, N> {
+    let values = scene::values();
     let parameters: Parameters<Effects> =
-        STARTS.iter().map(|(reference, value)| (Place::of(*reference), *value)).collect();
+        values.starts().map(|(reference, value)| (Place::of(reference), value)).collect();
     let mut simulation = Simulation::with(Integrator::Method, parameters.clone());
     simulation.start(0.0, None).expect("a possible scene");
     simulation.advance(MOVED).expect("a possible motion");

@@ -13,6 +13,7 @@ pub mod integrate;
 pub mod log;
 pub mod rotation;
 pub mod scalar;
+pub mod section;
 pub mod signal;
 pub mod stored;
 #[cfg(feature = "scenes")]

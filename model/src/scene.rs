@@ -150,6 +150,23 @@ impl Scene {
         parameters
     }
 
+    /// The list of its effects, as a type.
+    pub fn list(&self) -> String {
+        let member = if self.general { "Switched" } else { "Called" };
+        self.effects.iter().rev().fold("()".to_owned(), |rest, (info, index)| {
+            let nodes = match self.nodes(Place::effect_block(info.number, *index)) {
+                0 => String::new(),
+                nodes => format!("<{nodes}>"),
+            };
+            format!("(split_rotor_model::effects::{member}<{}{nodes}, {index}>, {rest})", info.type_path)
+        })
+    }
+
+    /// For how many start values a library of this list has room: those of all parameters and inputs.
+    pub fn room(&self) -> usize {
+        self.variables.iter().filter(|variable| variable.meta.has_start()).count()
+    }
+
     /// How many nodes the table of an effect has; 0 where there is none.
     pub fn nodes(&self, block: u32) -> usize {
         let of_block = self.variables.iter().filter(|variable| variable.place.block == block);

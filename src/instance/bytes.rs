@@ -1,7 +1,8 @@
 //! An FMU state as bytes, readable in another process: magic, version, scene, length, numbers, checksum.
 
 use super::{Experiment, Failure, Instance, Memory, State};
-use crate::scene::GUID;
+use crate::scene;
+use split_rotor_model::section::GUID;
 use split_rotor_model::simulation::Integrator;
 use split_rotor_model::stored::{self, Damaged, Stored, Walk, choice};
 
@@ -12,7 +13,7 @@ const MAGIC: &[u8; 8] = b"rotorFMU";
 const VERSION: u32 = 2;
 
 /// Magic, version, GUID, length of the numbers.
-const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;
+const HEAD: usize = MAGIC.len() + 4 + GUID + 8;
 
 /// The checksum, CRC-32 of all before it.
 const TAIL: usize = 4;
@@ -24,7 +25,7 @@ impl Memory {
         let mut bytes = Vec::with_capacity(HEAD + numbers.len() + TAIL);
         bytes.extend(MAGIC);
         bytes.extend(VERSION.to_le_bytes());
-        bytes.extend(GUID.as_bytes());
+        bytes.extend(scene::values().guid().as_bytes());
         bytes.extend((numbers.len() as u64).to_le_bytes());
         bytes.extend(numbers);
         bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
@@ -54,10 +55,10 @@ fn numbers(bytes: &[u8]) -> Result<&[u8], String> {
     if version != VERSION {
         return Err(format!("the serialized FMU state has version {version}, and this FMU reads version {VERSION}"));
     }
-    let (guid, rest) = rest.split_at_checked(GUID.len()).ok_or(DAMAGED)?;
-    if guid != GUID.as_bytes() {
-        let guid = String::from_utf8_lossy(guid);
-        return Err(format!("the serialized FMU state is one of {guid}, another FMU: this one is {GUID}"));
+    let (guid, rest) = rest.split_at_checked(GUID).ok_or(DAMAGED)?;
+    let (guid, values) = (String::from_utf8_lossy(guid), scene::values());
+    if guid != values.guid() {
+        return Err(format!("the serialized FMU state is one of {guid}, another FMU: this one is {}", values.guid()));
     }
     let (length, rest) = rest.split_first_chunk().ok_or(DAMAGED)?;
     let (numbers, sum) = rest.split_last_chunk::<TAIL>().ok_or(DAMAGED)?;

@@ -13,7 +13,7 @@ pub use saved::Saved;
 
 use split_rotor::abi::*;
 use split_rotor::exports::*;
-use split_rotor::scene::GUID;
+use split_rotor::scene::values;
 use split_rotor_model::scene::Scene;
 use split_rotor_model::variable::{Kind, Role};
 use split_rotor_model::variables::Variable;
@@ -33,7 +33,7 @@ pub fn scene() -> &'static Scene {
     SCENE.get_or_init(|| {
         let read = |name: String| Scene::find(&name, &scenes()).unwrap_or_else(|error| panic!("{error}"));
         let mut all = Scene::names(&scenes()).into_iter().map(read);
-        all.find(|scene| split_rotor_model::xml::guid(scene) == GUID)
+        all.find(|scene| split_rotor_model::xml::guid(scene) == values().guid())
             .expect("the compiled-in scene must be one of scenes/")
     })
 }
@@ -146,7 +146,7 @@ pub struct Request {
 
 impl Default for Request {
     fn default() -> Self {
-        let guid = CString::new(GUID).expect("a GUID holds no zero");
+        let guid = CString::new(values().guid()).expect("a GUID holds no zero");
         Self { name: Some(c"rotor".into()), kind: CO_SIMULATION, guid: Some(guid), logging_on: false, has_logger: true }
     }
 }

@@ -9,7 +9,7 @@ mod sets;
 mod spending;
 mod times;
 
-use crate::package::UNPACKED;
+use crate::library::UNPACKED;
 use crate::run::cargo;
 use crate::{known, paths};
 use anyhow::{Result, ensure};

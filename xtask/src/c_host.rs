@@ -2,7 +2,7 @@
 //! start it under checkers.
 
 use crate::c;
-use crate::run::run;
+use crate::run::{run, side_by_side};
 use crate::scenes;
 use crate::unpacked::{Unpacked, unpack};
 use anyhow::Result;
@@ -31,8 +31,5 @@ pub fn plain(fmus: &[PathBuf]) -> Result<()> {
         return Ok(());
     }
     let host = compile("host", &[])?;
-    for fmu in fmus {
-        run(arguments(&mut Command::new(&host), &unpack(fmu)?)?)?;
-    }
-    Ok(())
+    side_by_side(fmus, |_, fmu| run(arguments(&mut Command::new(&host), &unpack(fmu)?)?))
 }

@@ -2,7 +2,7 @@
 //! and that an effect is added as `docs/adding-an-effect.md` says.
 
 use crate::run::{cargo, output, run};
-use crate::{c, package, paths, scenes};
+use crate::{c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::scene::Scene;
@@ -28,7 +28,7 @@ fn copied(name: &str) -> Result<PathBuf> {
 /// The machine code of a scene's library, built in this copy.
 fn text(copy: &Path, scene: &Scene) -> Result<Vec<u8>> {
     let target = paths::target().join("copies/target");
-    let library = package::build_in(copy, scene, &target)?;
+    let library = library::build_in(copy, scene, &target)?;
     let section = target.join("text");
     run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).arg(library).arg(&section))?;
     Ok(fs::read(section)?)

@@ -22,12 +22,14 @@ mod top;
 mod whirl;
 mod whirling;
 
+use crate::run::side_by_side;
 use crate::{accuracy, known, package};
 use anyhow::{Result, bail, ensure};
 use bench::{Bench, Stages};
 use case::Case;
+use cpu_time::ThreadTime;
 use row::{Outcome, Row};
-use std::time::Instant;
+use std::sync::Mutex;
 
 /// Which cases, how long the long ones are, and whether the mutants run too.
 #[derive(Clone, Debug, Default)]
@@ -107,12 +109,13 @@ fn gallery(whole: bool) -> Vec<Case> {
 
 fn measure<'c>(stages: &Stages, cases: &'c [Case], mutants: bool) -> Result<Vec<Row<'c>>> {
     let progress = accuracy::bar(cases.len());
-    let mut rows = Vec::new();
-    for case in cases {
+    let measured = Mutex::new(Vec::new());
+    side_by_side(&cases.iter().enumerate().collect::<Vec<_>>(), |_, (number, case)| {
+        let stage = stages.of(case.scene)?;
         accuracy::tell(&progress, &case.name);
+        let mut rows = Vec::new();
         for (method, bound) in &case.methods {
-            let stage = stages.of(case.scene)?;
-            let (bench, began) = (Bench::new(stage, method, None), Instant::now());
+            let (bench, began) = (Bench::new(stage, method, None), ThreadTime::now());
             let outcome = outcome(case, &bench);
             let seconds = began.elapsed().as_secs_f64();
             let wrong = Bench::new(stage, method, Some(&case.mutant));
@@ -120,10 +123,14 @@ fn measure<'c>(stages: &Stages, cases: &'c [Case], mutants: bool) -> Result<Vec<
             ensure!(!mutants || wrong.is_changed(), "{}: its mutant changes nothing", case.name);
             rows.push(Row { case, method, bound: *bound, outcome, mutated, evaluations: bench.spent(), seconds });
         }
+        measured.lock().expect("no worker panics").push((*number, rows));
         progress.inc(1);
-    }
+        Ok(())
+    })?;
     progress.finish_and_clear();
-    Ok(rows)
+    let mut measured = measured.into_inner().expect("no worker panics");
+    measured.sort_by_key(|(number, _)| *number);
+    Ok(measured.into_iter().flat_map(|(_, rows)| rows).collect())
 }
 
 fn outcome(case: &Case, bench: &Bench) -> Outcome {

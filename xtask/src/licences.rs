@@ -1,11 +1,10 @@
 //! The licences of an FMU: ours, and those of the crates in its library.
 
 use crate::paths;
-use crate::run::{cargo, output};
+use crate::run::{cargo, compiler, output};
 use anyhow::{Context, Result};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
 /// Our own licence, for documentation/licenses/license.txt; what it says of `others`, the licences of libraries, is a line.
 pub fn own(others: &str) -> Result<String> {
@@ -23,8 +22,8 @@ pub fn third_party() -> Result<String> {
     let tree = ["tree", "--package", "split-rotor", "--edges", "normal,no-proc-macro", "--prefix", "none"];
     let linked = output(cargo().args(tree).args(["--format", "{p}|{l}"]))?;
     // Of this platform only: cargo would fetch the crates of all others.
-    let version = output(Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into())).arg("-vV"))?;
-    let host = version.lines().find_map(|line| line.strip_prefix("host: ")).context("rustc tells its host")?;
+    let compiler = compiler()?;
+    let host = compiler.lines().find_map(|line| line.strip_prefix("host: ")).context("rustc tells its host")?;
     let metadata = ["metadata", "--format-version", "1", "--locked", "--filter-platform", host];
     let metadata = output(cargo().args(metadata))?;
     let metadata: Value = serde_json::from_str(&metadata).context("cargo metadata prints JSON")?;

@@ -14,6 +14,7 @@ mod frequency;
 mod fuzz;
 mod hard_cases;
 mod known;
+mod library;
 mod licences;
 mod linear_fmu;
 mod memcheck;
@@ -31,6 +32,7 @@ mod sanitize;
 mod scenes;
 mod sheet;
 mod sheets;
+mod simulate;
 mod speeds;
 mod ssv;
 mod stability;
@@ -80,6 +82,15 @@ enum Command {
         /// Where the FMUs go
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+    },
+    /// Simulate a scene without packaging it, in a moment: a summary, and every output as CSV in target/run/SCENE
+    Run {
+        /// The scene
+        #[arg(default_value = "paper")]
+        scene: String,
+        /// Only the summary and the CSV
+        #[arg(long)]
+        no_report: bool,
     },
     /// Measure error against time for every method: table, SVG, CSV and JSON in target/accuracy/SCENE
     Accuracy {
@@ -249,6 +260,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { part, long } => test::test(&part, long),
         Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
+        Command::Run { scene, no_report } => simulate::simulate(&scene, !no_report),
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),
         Command::Accuracy { scene, peers, .. } => accuracy::accuracy(&scene, peers).map(drop),
         Command::HardCases { part, short, mutants, packaged } => {

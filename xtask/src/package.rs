@@ -1,12 +1,12 @@
-//! `package`: each scene as an FMU, a zip of its modelDescription.xml, its library, and what describes it to people.
+//! `package`: each scene as an FMU, a zip of its modelDescription.xml, the library of its effects with its values, and what describes it
+//! to people.
 
-use crate::run::{cargo, run, side_by_side};
-use crate::{accuracy, licences, page, paths, scenes, terminals};
+use crate::run::side_by_side;
+use crate::{accuracy, library, licences, page, paths, scenes, terminals};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
-use std::collections::BTreeSet;
-use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
+use std::env::consts::{ARCH, DLL_SUFFIX, OS};
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -22,72 +22,30 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     }
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
+    let licences = licences::third_party()?;
     let progress = accuracy::bar(scenes.len());
     let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
     // A library is compiled and linked by one thread.
-    side_by_side(&scenes, |builder, scene| {
-        progress.set_message(format!("building {}", scene.name));
-        let (library, fmu) = (build_in(paths::root(), scene, &target(builder))?, fmu(scene));
-        archive(&fmu, |add| fill(scene, &library, add))?;
-        progress.inc(1);
-        progress.suspend(|| println!("{}", fmu.display()));
-        Ok(())
+    side_by_side(&library::by_list(&scenes), |builder, scenes| {
+        progress.set_message(format!("building {}", scenes[0].name));
+        let library = library::of(scenes[0], builder)?;
+        scenes.iter().try_for_each(|scene| {
+            let library = library::signed(library::filled(library.clone(), scene)?)?;
+            let fmu = fmu(scene);
+            archive(&fmu, |add| fill(scene, &library, &licences, add))?;
+            progress.inc(1);
+            progress.suspend(|| println!("{}", fmu.display()));
+            Ok(())
+        })
     })?;
     progress.finish_and_clear();
     Ok(scenes.iter().map(fmu).collect())
-}
-
-/// Where a builder builds, one library after another: the next overwrites the last.
-fn target(builder: usize) -> PathBuf {
-    // A target directory of its own: the profile is called fmu, and target/fmu holds the packages.
-    paths::target().join("package").join(builder.to_string())
 }
 
 fn same_name(scenes: &[Scene]) -> Option<(&Scene, &Scene)> {
     let pairs =
         scenes.iter().enumerate().flat_map(|(i, first)| scenes[i + 1..].iter().map(move |second| (first, second)));
     pairs.into_iter().find(|(first, second)| first.name == second.name && first.file != second.file)
-}
-
-/// The library of a scene, of the project in the folder `root`.
-pub fn build_in(root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
-    let effects: BTreeSet<_> = scene.effects.iter().map(|(info, _)| info.name).collect();
-    run(cargo()
-        .current_dir(root)
-        .args(["rustc", "--quiet", "--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib"])
-        .arg("--target-dir")
-        .arg(target)
-        .env("SPLIT_ROTOR_SCENE", std::path::absolute(&scene.file)?)
-        .env("SPLIT_ROTOR_EFFECTS", effects.into_iter().collect::<Vec<_>>().join(","))
-        .env("CARGO_ENCODED_RUSTFLAGS", flags(root)?)
-        .env_remove("RUSTFLAGS"))?;
-    Ok(target.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
-}
-
-/// What the compiler must not do with the physics: to pack scalars into vectors by itself, which makes the right-hand side
-/// wait for what is packed last (24 instead of 40 ns in a chain of them; what gains by it, packs itself).
-pub const UNPACKED: &str = "-Cno-vectorize-slp";
-
-/// The user's own compiler flags, [`UNPACKED`], and that no path of this machine stays in the library: not that of the project,
-/// `root`, nor that of its libraries.
-fn flags(root: &Path) -> Result<String> {
-    let own = match std::env::var("CARGO_ENCODED_RUSTFLAGS") {
-        Ok(flags) => flags.split('\x1f').map(str::to_owned).collect(),
-        Err(_) => {
-            std::env::var("RUSTFLAGS").unwrap_or_default().split_whitespace().map(str::to_owned).collect::<Vec<_>>()
-        }
-    };
-    let home = std::env::home_dir().context("there is no home folder")?;
-    let cargo_home = std::env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);
-    let hidden = [(root, "split-rotor"), (&cargo_home, "cargo")];
-    let hide = hidden.map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()));
-    Ok(own
-        .into_iter()
-        .chain([UNPACKED.to_owned()])
-        .chain(hide)
-        .filter(|flag| !flag.is_empty())
-        .collect::<Vec<_>>()
-        .join("\x1f"))
 }
 
 /// Adds a file to an FMU: its path there, and what it holds.
@@ -115,16 +73,16 @@ fn write_archive(file: &Path, fill: impl FnOnce(&mut Add) -> Result<()>) -> Resu
     Ok(())
 }
 
-/// Adds what the FMU of a scene holds.
-fn fill(scene: &Scene, library: &Path, add: &mut Add) -> Result<()> {
+/// Adds what the FMU of a scene holds, with this library and the licences of what is in it.
+fn fill(scene: &Scene, library: &[u8], third_party: &str, add: &mut Add) -> Result<()> {
     let licence = licences::own("The licences of the libraries in its binary stand in third-party.txt.")?;
     add("modelDescription.xml", xml::model_description(scene).as_bytes())?;
     let icon = icon()?;
     add("model.png", &icon)?;
-    add(&library_path(&scene.identifier())?, &fs::read(library)?)?;
+    add(&library_path(&scene.identifier())?, library)?;
     add("documentation/index.html", page::page(scene)?.as_bytes())?;
     add("documentation/licenses/license.txt", licence.as_bytes())?;
-    add("documentation/licenses/third-party.txt", licences::third_party()?.as_bytes())?;
+    add("documentation/licenses/third-party.txt", third_party.as_bytes())?;
     add("terminalsAndIcons/terminalsAndIcons.xml", terminals::terminals_and_icons(scene)?.as_bytes())?;
     // Where FMI 3.0, which defines that file, looks for the icon.
     add("terminalsAndIcons/icon.png", &icon)
@@ -158,12 +116,13 @@ mod tests {
     #[test]
     fn a_package_that_fails_leaves_what_was_there() {
         let folder = paths::target().join("tests/package");
-        fs::create_dir_all(&folder).unwrap();
+        // A file cannot take the place of a folder that holds something.
         let fmu = folder.join("paper.fmu");
-        fs::write(&fmu, "as it was").unwrap();
+        fs::create_dir_all(&fmu).unwrap();
+        fs::write(fmu.join("file"), "as it was").unwrap();
         let scene = scenes::find("paper").unwrap();
-        archive(&fmu, |add| fill(&scene, &folder.join("nosuch"), add)).expect_err("there is no library");
-        assert_eq!(fs::read_to_string(&fmu).unwrap(), "as it was");
+        archive(&fmu, |add| fill(&scene, b"library", "licences", add)).expect_err("a folder is there");
+        assert_eq!(fs::read_to_string(fmu.join("file")).unwrap(), "as it was");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
     }
 }

@@ -2,7 +2,7 @@
 //! looked for at the end.
 
 use crate::run::{cargo, run, side_by_side};
-use crate::{c_host, linear_fmu, paths, scenes, sheet, state_space, unpacked};
+use crate::{c_host, library, linear_fmu, paths, scenes, sheet, state_space, unpacked};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
@@ -13,7 +13,7 @@ use std::process::Command;
 /// GCC's runtime serves the library too: a shared library compiled by rustc leaves the sanitizer's symbols open.
 const FLAGS: [&str; 3] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"];
 
-/// What is built anew with sanitizers, which takes half a minute each: a body alone, one with inputs, one that no explicit method
+/// What is tried with sanitizers; a list of effects takes half a minute to build: a body alone, one with inputs, one that no explicit method
 /// can follow, and every effect there is. Memcheck runs on all that is packaged.
 const SCENES: [&str; 4] = ["paper", "coupled", "high_spin", "rotor"];
 
@@ -26,12 +26,16 @@ pub fn sanitizers() -> Result<()> {
         "the C host cannot be compiled with sanitizers: GCC's are needed (Debian: apt-get install gcc libasan8 libubsan1)",
     )?;
     linear(&host)?;
-    side_by_side(&SCENES, |worker, name| {
-        let (scene, folder) = (scenes::find(name)?, paths::target().join("sanitized").join(worker.to_string()));
-        let library = std::fs::read(library(&scene, &folder)?)?;
-        let folder = folder.join("unpacked");
-        let fmu = unpacked::write(&folder, name, &sheet::sheet(&xml::model_description(&scene))?, &library)?;
-        run(c_host::arguments(&mut strict(&host), &fmu)?)
+    let scenes = SCENES.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
+    side_by_side(&library::by_list(&scenes), |worker, scenes| {
+        let folder = paths::target().join("sanitized").join(worker.to_string());
+        let built = std::fs::read(build(scenes[0], &folder)?)?;
+        scenes.iter().try_for_each(|scene| {
+            let (library, folder) = (library::filled(built.clone(), scene)?, folder.join("unpacked"));
+            let sheet = sheet::sheet(&xml::model_description(scene))?;
+            let fmu = unpacked::write(&folder, &scene.name, &sheet, &library)?;
+            run(c_host::arguments(&mut strict(&host), &fmu)?)
+        })
     })
 }
 
@@ -55,16 +59,15 @@ fn linear(host: &Path) -> Result<()> {
     run(strict(host).arg(&fmu.sheet).arg(&fmu.library).args(others))
 }
 
-/// The library of a scene, instrumented, built in this folder. The next scene's overwrites it.
-fn library(scene: &Scene, folder: &Path) -> Result<PathBuf> {
+/// The library of the scene's list, instrumented, built in this folder. The next list's overwrites it.
+fn build(scene: &Scene, folder: &Path) -> Result<PathBuf> {
     let target = format!("{ARCH}-unknown-linux-gnu");
-    run(cargo()
+    run(library::of_list(&mut cargo(), scene)
         .args(["rustc", "--quiet", "--package", "split-rotor", "--release", "--lib", "--crate-type", "cdylib"])
         // With a target named, build scripts and macros are not instrumented.
         .args(["--target", &target])
         .arg("--target-dir")
         .arg(folder)
-        .env("SPLIT_ROTOR_SCENE", std::path::absolute(&scene.file)?)
         .env("CARGO_ENCODED_RUSTFLAGS", ["-Zsanitizer=address", "-Cforce-frame-pointers=yes"].join("\x1f"))
         // The stable compiler has the sanitizer, behind a switch meant for the standard library.
         .env("RUSTC_BOOTSTRAP", "1")

@@ -69,16 +69,11 @@ fn documentation() -> Result<()> {
 
 /// The call rules once more with a scene that has an input.
 fn driven_tests() -> Result<()> {
-    // A target directory of its own, or both scenes would be built anew each time.
     let tests = ["abi", "arguments", "derivatives", "exchange", "inputs", "random_calls", "serialized", "state"]
         .into_iter()
         .flat_map(|name| ["--test", name]);
-    run(cargo()
-        .args(["test", "--quiet"])
-        .args(tests)
-        .arg("--target-dir")
-        .arg(paths::target().join("driven"))
-        .env("SPLIT_ROTOR_SCENE", paths::scenes().join("driven.toml")))
+    // Of the whole workspace, so that of what it stands on nothing is built anew.
+    run(cargo().args(["test", "--quiet", "--workspace", "--features", "split-rotor/driven"]).args(tests))
 }
 
 /// The bits are the same in every build.

@@ -41,6 +41,7 @@ mod rotation;
 mod rub;
 mod scene_errors;
 mod scenes;
+mod section;
 mod series;
 mod signal;
 mod state_space;

@@ -6,7 +6,7 @@ use crate::fmi2::abi::*;
 use crate::fmi2::guard::caught;
 use crate::fmi2::logger::logger;
 use crate::instance::{Failure, Instance, Severity};
-use crate::scene::GUID;
+use crate::scene;
 use split_rotor_model::log::Category;
 use split_rotor_model::simulation::Integrator;
 use std::ffi::CStr;
@@ -56,9 +56,11 @@ fn kind_of(name: Result<&CStr, Failure>, guid: Result<&CStr, Failure>, kind: Cho
     if name?.to_bytes().trim_ascii().is_empty() {
         return Err(Failure::Error("instanceName must have a character that is not white space".into()));
     }
-    let guid = guid?;
-    if guid.to_bytes() != GUID.as_bytes() {
-        let message = format!("fmuGUID = {guid:?} must be {GUID:?}: the binary and the modelDescription.xml differ");
+    let (guid, values) = (guid?, scene::values());
+    values.check().map_err(|wrong| Failure::Error(wrong.into()))?;
+    let own = values.guid();
+    if guid.to_bytes() != own.as_bytes() {
+        let message = format!("fmuGUID = {guid:?} must be {own:?}: the binary and the modelDescription.xml differ");
         return Err(Failure::Error(message));
     }
     match kind {

@@ -9,7 +9,7 @@ use oracles::{motion, rotation};
 use std::f64::consts::TAU;
 
 /// Runs a case and tells its error.
-pub type Task = Box<dyn Fn(&Bench) -> Result<Found>>;
+pub type Task = Box<dyn Fn(&Bench) -> Result<Found> + Sync>;
 
 /// A name of a variable and its value.
 pub type Setting = (&'static str, f64);
@@ -107,7 +107,7 @@ impl Exact {
 }
 
 /// The task to follow a motion that is known: these settings, and what is known at times \[s] since the start.
-pub fn follow(settings: Vec<Setting>, times: Vec<f64>, exact: impl Fn(f64) -> Exact + 'static) -> Task {
+pub fn follow(settings: Vec<Setting>, times: Vec<f64>, exact: impl Fn(f64) -> Exact + Sync + 'static) -> Task {
     follow_from(0.0, 1.0, settings, times, exact)
 }
 
@@ -117,7 +117,7 @@ pub fn follow_from(
     scale: f64,
     settings: Vec<Setting>,
     times: Vec<f64>,
-    exact: impl Fn(f64) -> Exact + 'static,
+    exact: impl Fn(f64) -> Exact + Sync + 'static,
 ) -> Task {
     Box::new(move |bench| {
         let mut rotor = bench.rotor(&settings)?;

@@ -5,8 +5,8 @@ use super::case::{Found, Task};
 use anyhow::{Result, ensure};
 use nalgebra::Vector3;
 use oracles::machine::{Machine, Pace, Run, Shown};
-use std::cell::OnceCell;
 use std::f64::consts::TAU;
+use std::sync::OnceLock;
 
 /// A step of the oracle errs by so much of the motion \[1].
 const STEP: f64 = 1e-13;
@@ -69,8 +69,8 @@ impl Scene {
     }
 
     /// The task to run it beside the oracle, whose motion `known` must be true of.
-    pub fn task(self, known: impl Fn(&[Shown]) -> Result<()> + 'static) -> Task {
-        let exact = OnceCell::new();
+    pub fn task(self, known: impl Fn(&[Shown]) -> Result<()> + Sync + 'static) -> Task {
+        let exact = OnceLock::new();
         Box::new(move |bench| {
             let mut rotor = started(bench, &self.machine, self.times[self.times.len() - 1])?;
             let shown = self.shown(&mut rotor)?;

@@ -160,7 +160,11 @@ fn too_short_steps() -> Case {
 }
 
 /// Runs for a second, in steps of a hundredth, and must be discarded with this reason; the time reached decides.
-fn discarded(settings: Vec<Setting>, off: impl Fn(f64) -> f64 + 'static, reasons: &'static [&'static str]) -> Task {
+fn discarded(
+    settings: Vec<Setting>,
+    off: impl Fn(f64) -> f64 + Sync + 'static,
+    reasons: &'static [&'static str],
+) -> Task {
     Box::new(move |bench| {
         let mut rotor = bench.rotor(&settings)?;
         rotor.start(0.0, 1.0)?;

@@ -21,7 +21,7 @@ pub struct Row<'c> {
     pub mutated: Option<Outcome>,
     /// Evaluations of the right-hand side.
     pub evaluations: f64,
-    /// How long it took \[s].
+    /// How long it took \[s of CPU time].
     pub seconds: f64,
 }
 

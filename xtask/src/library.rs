@@ -1,0 +1,239 @@
+//! The library of a list of effects: built where what it is made of has changed, kept for all scenes of that list, and a copy of it with
+//! the values of a scene.
+
+use crate::paths;
+use crate::run::{cargo, compiler, run};
+use anyhow::{Context, Result, anyhow};
+use split_rotor_model::scene::Scene;
+use split_rotor_model::{section, xml};
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::fs::{self, File};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::SystemTime;
+
+/// These scenes, those of the same list together; what takes longest to build first.
+pub fn by_list(scenes: &[Scene]) -> Vec<Vec<&Scene>> {
+    let mut lists = BTreeMap::<_, Vec<_>>::new();
+    scenes.iter().for_each(|scene| lists.entry(scene.list()).or_default().push(scene));
+    let mut lists: Vec<_> = lists.into_values().collect();
+    lists.sort_by_key(|scenes| Reverse(scenes[0].effects.len()));
+    lists
+}
+
+/// The library of the scene's list, without values: as it was kept, or built by this builder.
+pub fn of(scene: &Scene, builder: usize) -> Result<Vec<u8>> {
+    let folder = paths::target().join("package");
+    let (list, builder) = (scene.list(), folder.join(builder.to_string()));
+    let mut name = DefaultHasher::new();
+    (&list, scene.room()).hash(&mut name);
+    let kept = folder.join("lists").join(format!("{:016x}{DLL_SUFFIX}", name.finish()));
+    let stamp = kept.with_extension("stamp");
+    if let Some(library) = fs::read(&kept).ok().filter(|_| is_fresh(&stamp)) {
+        return Ok(library);
+    }
+    fs::create_dir_all(&builder)?;
+    fs::create_dir_all(folder.join("lists"))?;
+    // Until the library is read: another xtask would overwrite it.
+    let lock = File::create(builder.join("lock"))?;
+    lock.lock()?;
+    let began = SystemTime::now();
+    let built = build_in(paths::root(), scene, &builder)?;
+    let library = fs::read(&built)?;
+    // Without its stamp a library is not taken, so one that is cut is none.
+    let _ = fs::remove_file(&stamp);
+    fs::write(&kept, &library)?;
+    let sources = sources(&fs::read_to_string(built.with_extension("d"))?);
+    if sources.iter().all(|file| is_older(file, began)) {
+        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources)?, sources.join("\n")))?;
+    }
+    Ok(library)
+}
+
+/// This library with the values of a scene of its list.
+pub fn filled(mut library: Vec<u8>, scene: &Scene) -> Result<Vec<u8>> {
+    let section = section::find(&mut library, &scene.list(), scene.room());
+    let section = section.map_err(|wrong| anyhow!("the library for {}: {wrong}", scene.file.display()))?;
+    section::fill(section, &xml::guid(scene), &scene.starts);
+    Ok(library)
+}
+
+/// On macOS a library is signed when it is linked, and one that was changed since is not loaded unless it is signed anew.
+pub fn signed(library: Vec<u8>) -> Result<Vec<u8>> {
+    if !cfg!(target_os = "macos") {
+        return Ok(library);
+    }
+    let file = paths::target().join("package").join(format!("{:?}", std::thread::current().id()));
+    fs::write(&file, library)?;
+    run(Command::new("codesign").args(["--force", "--sign", "-"]).arg(&file))?;
+    Ok(fs::read(&file)?)
+}
+
+/// Says to a build which list of effects it is for.
+pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
+    command.env("SPLIT_ROTOR_LIST", scene.list()).env("SPLIT_ROTOR_ROOM", scene.room().to_string())
+}
+
+/// Builds the library of the scene's list, of the project in the folder `root`.
+pub fn build_in(root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
+    run(of_list(&mut cargo(), scene)
+        .current_dir(root)
+        .args(["rustc", "--quiet", "--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib"])
+        .arg("--target-dir")
+        .arg(target)
+        .env("CARGO_ENCODED_RUSTFLAGS", flags(root)?)
+        .env_remove("RUSTFLAGS"))?;
+    Ok(target.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
+}
+
+/// What the compiler must not do with the physics: to pack scalars into vectors by itself, which makes the right-hand side
+/// wait for what is packed last (24 instead of 40 ns in a chain of them; what gains by it, packs itself).
+pub const UNPACKED: &str = "-Cno-vectorize-slp";
+
+/// The user's own compiler flags, [`UNPACKED`], and that no path of this machine stays in the library: not that of the project,
+/// `root`, nor that of its libraries.
+fn flags(root: &Path) -> Result<String> {
+    let own = match std::env::var("CARGO_ENCODED_RUSTFLAGS") {
+        Ok(flags) => flags.split('\x1f').map(str::to_owned).collect(),
+        Err(_) => {
+            std::env::var("RUSTFLAGS").unwrap_or_default().split_whitespace().map(str::to_owned).collect::<Vec<_>>()
+        }
+    };
+    let home = std::env::home_dir().context("there is no home folder")?;
+    let cargo_home = std::env::var_os("CARGO_HOME").map_or_else(|| home.join(".cargo"), PathBuf::from);
+    let hidden = [(root, "split-rotor"), (&cargo_home, "cargo")];
+    let hide = hidden.map(|(path, name)| format!("--remap-path-prefix={}={name}", path.display()));
+    Ok(own
+        .into_iter()
+        .chain([UNPACKED.to_owned()])
+        .chain(hide)
+        .filter(|flag| !flag.is_empty())
+        .collect::<Vec<_>>()
+        .join("\x1f"))
+}
+
+/// What a library is made of beside its sources, as cargo names these.
+const MANIFESTS: [&str; 4] = ["Cargo.toml", "Cargo.lock", "model/Cargo.toml", ".cargo/config.toml"];
+
+/// The files and folders that a library was made of, from what cargo wrote beside it for make.
+fn sources(dependencies: &str) -> Vec<String> {
+    let listed = dependencies.split_once(": ").map_or("", |(_, listed)| listed).trim().replace("\\ ", "\0");
+    let manifests = MANIFESTS.map(|name| paths::root().join(name).display().to_string());
+    let files = listed.split(' ').map(|file| file.replace('\0', " "));
+    // What build.rs writes there follows from the rest.
+    files.filter(|file| !Path::new(file).starts_with(paths::target())).chain(manifests).collect()
+}
+
+fn is_older(file: &str, time: SystemTime) -> bool {
+    fs::metadata(file).and_then(|metadata| metadata.modified()).is_ok_and(|changed| changed < time)
+}
+
+/// Whether nothing has changed of what the library with this stamp was made of.
+fn is_fresh(stamp: &Path) -> bool {
+    let stamp = fs::read_to_string(stamp).unwrap_or_default();
+    let Some((then, sources)) = stamp.split_once('\n') else { return false };
+    let sources: Vec<_> = sources.lines().map(str::to_owned).collect();
+    fingerprint(&sources).is_ok_and(|now| now == then)
+}
+
+/// Of the compiler, its flags, the settings of cargo in the environment, and of what these files hold, and which files a folder.
+fn fingerprint(sources: &[String]) -> Result<String> {
+    let mut all = DefaultHasher::new();
+    compiler()?.hash(&mut all);
+    flags(paths::root())?.hash(&mut all);
+    let is_setting =
+        |name: &str| ["CARGO_BUILD_", "CARGO_PROFILE_", "RUSTC"].iter().any(|begin| name.starts_with(begin));
+    let mut settings: Vec<_> = std::env::vars_os().filter(|(name, _)| is_setting(&name.to_string_lossy())).collect();
+    settings.sort();
+    settings.hash(&mut all);
+    for source in sources {
+        let path = Path::new(source);
+        if path.is_dir() {
+            let mut names = fs::read_dir(path)?.map(|entry| Ok(entry?.file_name())).collect::<Result<Vec<_>>>()?;
+            names.sort();
+            (source, names).hash(&mut all);
+        } else {
+            (source, fs::read(path).with_context(|| source.clone())?).hash(&mut all);
+        }
+    }
+    Ok(format!("{:016x}", all.finish()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MANIFESTS, filled, fingerprint, fs, is_fresh, is_older, paths, sources};
+    use crate::scenes;
+    use split_rotor_model::section;
+    use std::path::PathBuf;
+    use std::time::{Duration, SystemTime};
+
+    #[test]
+    fn exact_the_sources_of_a_library_are_what_cargo_lists_and_the_manifests() {
+        let made = paths::target().join("package/0/fmu/build/out/list.rs");
+        let listed = format!("/a/libx.so: /a/build.rs /a/with\\ space.rs {} /a/effects\n", made.display());
+        let manifests = MANIFESTS.map(|name| paths::root().join(name).display().to_string());
+        let expected = ["/a/build.rs", "/a/with space.rs", "/a/effects"].map(str::to_owned);
+        assert_eq!(sources(&listed), [&expected[..], &manifests].concat());
+        assert!(manifests.iter().all(|file| fs::exists(file).unwrap()));
+    }
+
+    /// A folder with two files, one in a folder within, as a list of sources.
+    fn made(name: &str) -> (PathBuf, Vec<String>) {
+        let folder = paths::target().join("tests").join(name);
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(folder.join("effects")).unwrap();
+        fs::write(folder.join("lib.rs"), "one").unwrap();
+        fs::write(folder.join("effects/drag.rs"), "two").unwrap();
+        let sources = ["lib.rs", "effects", "effects/drag.rs"].map(|file| folder.join(file).display().to_string());
+        (folder, sources.to_vec())
+    }
+
+    #[test]
+    fn a_kept_library_is_stale_where_any_source_changes_comes_or_goes() {
+        let (folder, sources) = made("stamp");
+        let stamp = folder.join("stamp");
+        assert!(!is_fresh(&stamp), "none was written");
+        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources).unwrap(), sources.join("\n"))).unwrap();
+        let changes: [(&str, Option<&str>); 4] = [
+            ("lib.rs", Some("One")),
+            ("effects/drag.rs", Some("")),
+            ("effects/new.rs", Some("new")),
+            ("effects/drag.rs", None),
+        ];
+        for (file, text) in changes {
+            assert!(is_fresh(&stamp), "before {file} changes");
+            let (file, before) = (folder.join(file), fs::read(folder.join(file)));
+            match text {
+                Some(text) => fs::write(&file, text).unwrap(),
+                None => fs::remove_file(&file).unwrap(),
+            }
+            assert!(!is_fresh(&stamp), "{} is {text:?}", file.display());
+            match before {
+                Ok(before) => fs::write(&file, before).unwrap(),
+                Err(_) => fs::remove_file(&file).unwrap(),
+            }
+        }
+        assert!(is_fresh(&stamp), "all is as it was");
+    }
+
+    #[test]
+    fn a_source_that_changed_during_the_build_is_no_older() {
+        let (_, sources) = made("during");
+        let (now, second) = (SystemTime::now(), Duration::from_secs(100));
+        assert!(sources.iter().all(|file| is_older(file, now + second) && !is_older(file, now - second)));
+        assert!(!is_older("nosuchfile", now + second));
+    }
+
+    #[test]
+    fn a_library_is_filled_for_scenes_of_its_list_only() {
+        let [paper, top, free] = ["paper", "heavy_top", "free_top"].map(|name| scenes::find(name).unwrap());
+        let library = section::blank(&paper.list(), paper.room());
+        let [of_paper, of_top] = [&paper, &top].map(|scene| filled(library.clone(), scene).unwrap());
+        assert!(of_paper != of_top && of_paper.len() == of_top.len());
+        let refused = filled(library, &free).unwrap_err().to_string();
+        assert!(refused.contains("free_top.toml: it is that of another list of effects"), "{refused}");
+    }
+}

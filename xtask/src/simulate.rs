@@ -1,0 +1,197 @@
+//! `run`: a scene simulated in this process, without a package: over the list of all effects, which gives the bits of the scene's FMU.
+
+use crate::numbers::rounded;
+use crate::run::run;
+use crate::{accuracy, paths, python, scenes};
+use anyhow::{Context, Error, Result, bail};
+use cpu_time::ThreadTime;
+use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::simulation::Any;
+use split_rotor_model::variable::Role;
+use split_rotor_model::variables::{METHODS, Variable};
+use split_rotor_model::xml;
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+use std::time::Duration;
+
+/// What draws the report from what is left here.
+const REPORT: &str = "xtask/python/run.py";
+
+/// Runs a scene from start to stop of its experiment; leaves result.csv, with every output at each communication point, and the
+/// modelDescription.xml that says what these are. Where a step cannot be done, what was reached is left all the same.
+pub fn simulate(scene: &str, report: bool) -> Result<()> {
+    let scene = scenes::find(scene)?;
+    let folder = paths::target().join("run").join(&scene.name);
+    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
+    let table = folder.join("result.csv");
+    let mut run_of_scene = Run::of(&scene);
+    let outcome = run_of_scene.record(&scene.experiment, &table);
+    let outcome = outcome.with_context(|| scene.file.display().to_string());
+    run_of_scene.print(&scene.title)?;
+    println!("  table      {}", table.display());
+    if report && paths::root().join(REPORT).is_file() {
+        run(python::python()?.arg(REPORT).arg(&folder))?;
+    }
+    outcome
+}
+
+/// A run and what was seen of it.
+struct Run<'s> {
+    simulation: Any,
+    outputs: Vec<&'s Variable>,
+    watched: Vec<Watched>,
+    solving: Duration,
+}
+
+/// Outputs that count by their size, or by that of both together.
+struct Watched {
+    name: String,
+    columns: Vec<usize>,
+    largest: f64,
+    /// When that was \[s].
+    at: f64,
+}
+
+impl<'s> Run<'s> {
+    fn of(scene: &'s Scene) -> Self {
+        let outputs: Vec<_> =
+            scene.variables.iter().filter(|variable| matches!(variable.meta.role, Role::Output)).collect();
+        let watched = watched(&outputs);
+        Self { simulation: Any::from(scene.parameters()), outputs, watched, solving: Duration::ZERO }
+    }
+
+    /// Runs, and writes each communication point as a line of `file`, that where the motion ends early too.
+    fn record(&mut self, experiment: &Experiment, file: &Path) -> Result<()> {
+        let Experiment { start, stop, step, tolerance } = *experiment;
+        let mut table = BufWriter::new(File::create(file)?);
+        let names: Vec<_> = self.outputs.iter().map(|output| output.name.as_str()).collect();
+        writeln!(table, "time,{}", names.join(","))?;
+        self.simulation.start_until(start, Some(tolerance), Some(stop))?;
+        self.write(start, &mut table)?;
+        let points = ((stop - start) / step - 1e-9).ceil() as u64;
+        let (progress, mut from) = (accuracy::bar(points as usize), start);
+        for point in 1..=points {
+            // As a host reckons, which tells the length of a step.
+            let next = (start + point as f64 * step).min(stop);
+            let began = ThreadTime::now();
+            let outcome = self.simulation.advance(from + (next - from));
+            self.solving += began.elapsed();
+            let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
+            if reached > from {
+                self.write(reached, &mut table)?;
+            }
+            outcome.map_err(|fault| Error::msg(fault.to_string()))?;
+            from = next;
+            progress.inc(1);
+        }
+        progress.finish_and_clear();
+        Ok(table.flush()?)
+    }
+
+    /// Writes what the outputs are now, at time `t` \[s].
+    fn write(&mut self, t: f64, table: &mut impl Write) -> Result<()> {
+        let mut values = Vec::with_capacity(self.outputs.len());
+        for output in &self.outputs {
+            let value = self.simulation.get(output.place)?.context("a scene has its own variables")?;
+            if !value.is_finite() {
+                bail!("{} is infinite or undefined at t = {t:?} s", output.name);
+            }
+            values.push(value);
+        }
+        for watched in &mut self.watched {
+            let size = watched.columns.iter().fold(0.0_f64, |size, column| size.hypot(values[*column]));
+            if size > watched.largest {
+                (watched.largest, watched.at) = (size, t);
+            }
+        }
+        let values: Vec<_> = values.iter().map(|value| format!("{value:?}")).collect();
+        Ok(writeln!(table, "{t:?},{}", values.join(","))?)
+    }
+
+    /// Prints what came of it.
+    fn print(&mut self, title: &str) -> Result<()> {
+        println!("{title}");
+        let Some(t) = self.simulation.time() else { return Ok(()) };
+        println!("  time       up to {t} s, {:.3} s of CPU time for it", self.solving.as_secs_f64());
+        let number = self.simulation.parameters().setup.solver.method_in_force();
+        let method = METHODS.items.iter().find(|item| item.0 == number).map_or("", |item| item.1);
+        let cost = self.simulation.read()?.cost;
+        let (steps, rejected, evaluations) = (cost.steps, cost.rejected, cost.evaluations);
+        println!("  solver     {method}: {steps} steps, {rejected} rejected, {evaluations} evaluations");
+        if let Some(words) = self.simulation.auto() {
+            println!("             {words}");
+        }
+        for Watched { name, columns, largest, at } in &self.watched {
+            match columns.len() {
+                1 => println!("  energy     {name} at most {largest:.2e} J"),
+                // Probes that are off see nothing.
+                _ if *largest == 0.0 => {}
+                _ => println!("  whirl      {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
+            }
+        }
+        if let Some((rate, t)) = self.simulation.growth() {
+            println!("  unstable   small motions about that of {t} s grow by a factor of e every {:.3e} s", 1.0 / rate);
+        }
+        Ok(())
+    }
+}
+
+/// The residual of the energy, and how far c and the probes are off the x axis.
+fn watched(outputs: &[&Variable]) -> Vec<Watched> {
+    let of = |name: &str, parts: &[&str]| {
+        let column = |part: &&str| outputs.iter().position(|output| output.name == format!("{name}{part}"));
+        let columns = parts.iter().map(column).collect::<Option<Vec<_>>>()?;
+        Some(Watched { name: name.into(), columns, largest: 0.0, at: 0.0 })
+    };
+    let probes = (1..).map_while(|i| of(&format!("probe[{i}]"), &[".r.y", ".r.z"]));
+    of("energy.residual", &[""]).into_iter().chain(of("r_c", &[".y", ".z"])).chain(probes).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Run, paths};
+    use split_rotor_model::scene::Scene;
+    use std::path::Path;
+
+    /// The lines that are left of the paper's rotor with this in its file, and what the run said.
+    fn recorded(name: &str, other: &[(&str, &str)]) -> (Vec<Vec<f64>>, Result<(), String>) {
+        let text = std::fs::read_to_string(paths::scenes().join("paper.toml")).unwrap();
+        let text = other.iter().fold(text, |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replace(from, to)
+        });
+        let scene = Scene::parse(Path::new("other.toml"), &text).unwrap();
+        let folder = paths::target().join("tests/run");
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join(name);
+        let outcome = Run::of(&scene).record(&scene.experiment, &file).map_err(|error| error.to_string());
+        let table = std::fs::read_to_string(file).unwrap();
+        let number = |field: &str| field.parse().unwrap();
+        (table.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect(), outcome)
+    }
+
+    #[test]
+    fn exact_the_last_step_is_cut_at_the_stop() {
+        let (lines, outcome) = recorded("cut.csv", &[("stop = 10.0", "stop = 0.025")]);
+        assert_eq!(outcome, Ok(()));
+        assert_eq!(lines.iter().map(|line| line[0]).collect::<Vec<_>>(), [0.0, 0.01, 0.02, 0.025]);
+    }
+
+    #[test]
+    fn a_motion_that_ends_early_is_told_and_left_up_to_there() {
+        // It tumbles, held by next to no spring, whose law ends at 3.1 rad.
+        let tumbles = [
+            ("omega = { x = 50.0", "omega = { y = 4.9"),
+            ("z = -9.81", "z = 0.0"),
+            ("c1 = 2000.0", "c1 = 0.0"),
+            ("c2 = 500.0", "c2 = 1e-300"),
+        ];
+        let (lines, outcome) = recorded("early.csv", &tumbles);
+        assert!(outcome.unwrap_err().contains("the tilt |gamma| reaches 3.1 rad"));
+        let (last, end) = (lines.last().unwrap()[0], 3.1 / 4.9);
+        assert!((last - end).abs() < 1e-9, "{last}");
+        assert_eq!(lines.len(), 64 + 1, "each hundredth of a second, and where it ended");
+    }
+}
