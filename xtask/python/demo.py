@@ -1,6 +1,6 @@
 """Run an FMU of split-rotor with fmpy, check its energy, and write a report with pictures.
 
-    python demo.py FMU --out DIR [--linear FILE | --no-linear WHY]
+    python demo.py FMU --out DIR [--inputs JSON] [--linear FILE | --no-linear WHY]
 
 writes DIR/report.html and, at the steps of the scene's experiment, DIR/trajectory.csv. Exit code 1 where
 the run fails or its energy does not add up, with the reason on stderr.
@@ -8,6 +8,7 @@ the run fails or its energy does not add up, with the reason on stderr.
 
 import argparse
 import csv
+import json
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -28,7 +29,7 @@ def main():
     try:
         description = read_model_description(arguments.fmu)
         scene = Scene.of(description)
-        result = simulate(arguments.fmu, description, scene)
+        result = simulate(arguments.fmu, description, scene, arguments.inputs)
         if responds(description):
             result = replace(result, response=respond(arguments.fmu, description, scene))
     except (BadZipFile, ValidationError, SimulationFailed) as failure:
@@ -52,6 +53,9 @@ def _arguments():
     parser = argparse.ArgumentParser(description="Run an FMU of split-rotor and report on it.")
     parser.add_argument("fmu", type=Path, metavar="FMU", help="the packaged FMU")
     parser.add_argument("--out", type=Path, metavar="DIR", required=True, help="where the report goes")
+    parser.add_argument(
+        "--inputs", type=json.loads, default=[], metavar="JSON", help="inputs over time: name, time and value of each"
+    )
     add_options(parser)
     arguments = parser.parse_args()
     if not arguments.fmu.is_file():

@@ -19,7 +19,7 @@ mod tolerances;
 
 use crate::unpacked::unpack;
 use crate::{package, scenes};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use indicatif::{ProgressBar, ProgressStyle};
 use reference::Reference;
 use row::{OURS, Row, Scale};
@@ -46,9 +46,14 @@ const SUBSTEPS: usize = 100;
 
 /// Packages the scene, measures it, and writes target/accuracy/SCENE/; which peers were left out, and why.
 pub fn accuracy(scene: &str, with_peers: bool) -> Result<Vec<String>> {
+    let found = scenes::find(scene)?;
+    ensure!(
+        found.inputs.is_empty(),
+        "{}: has [[input]], which `run` and `demo` follow: accuracy is measured with inputs that stay as they start",
+        found.file.display()
+    );
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
-    let scene = scenes::find(scene)?;
-    let unpacked = unpack(&fmu)?;
+    let (scene, unpacked) = (found, unpack(&fmu)?);
     let mut subject = Subject::load(&scene, &unpacked.library)?;
     span::shorten(&mut subject);
     let result = measure(&scene, &subject, with_peers)?;

@@ -3,12 +3,22 @@
 use crate::run::run;
 use crate::{package, paths, python, report, scenes};
 use anyhow::Result;
+use serde_json::{Value, json};
+use split_rotor_model::scene::{Input, Scene};
 
 /// Packages the scene, simulates it with fmpy, and reports. An energy that does not add up is an error.
 pub fn demo(scene: &str) -> Result<()> {
-    let name = scenes::find(scene)?.name;
+    let Scene { name, inputs, .. } = scenes::find(scene)?;
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let out = paths::target().join("demo").join(name);
     let view = report::linear_view(scene);
-    run(python::python()?.arg("xtask/python/demo.py").arg(fmu).arg("--out").arg(out).args(view))
+    let course = |input: &Input| json!({ "name": input.name, "time": input.time, "value": input.value });
+    let inputs: Value = inputs.iter().map(course).collect();
+    run(python::python()?
+        .arg("xtask/python/demo.py")
+        .arg(fmu)
+        .arg("--out")
+        .arg(out)
+        .args(["--inputs", &inputs.to_string()])
+        .args(view))
 }

@@ -5,9 +5,10 @@ use crate::run::run;
 use crate::{accuracy, paths, python, scenes};
 use anyhow::{Context, Error, Result, bail};
 use cpu_time::ThreadTime;
-use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::integrate::Fault;
+use split_rotor_model::scene::{Experiment, Input, Scene};
 use split_rotor_model::simulation::Any;
-use split_rotor_model::variable::Role;
+use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 use split_rotor_model::xml;
 use std::fs::File;
@@ -42,6 +43,8 @@ struct Run<'s> {
     simulation: Any,
     outputs: Vec<&'s Variable>,
     watched: Vec<Watched>,
+    inputs: &'s [Input],
+    places: Vec<Place>,
     solving: Duration,
 }
 
@@ -59,7 +62,11 @@ impl<'s> Run<'s> {
         let outputs: Vec<_> =
             scene.variables.iter().filter(|variable| matches!(variable.meta.role, Role::Output)).collect();
         let watched = watched(&outputs);
-        Self { simulation: Any::from(scene.parameters()), outputs, watched, solving: Duration::ZERO }
+        let place =
+            |input: &Input| scene.variables.iter().find(|variable| variable.name == input.name).map(|it| it.place);
+        let (inputs, places) = (&scene.inputs[..], scene.inputs.iter().filter_map(place).collect());
+        let simulation = Any::from(scene.parameters());
+        Self { simulation, outputs, watched, inputs, places, solving: Duration::ZERO }
     }
 
     /// Runs, and writes each communication point as a line of `file`, that where the motion ends early too.
@@ -68,6 +75,7 @@ impl<'s> Run<'s> {
         let mut table = BufWriter::new(File::create(file)?);
         let names: Vec<_> = self.outputs.iter().map(|output| output.name.as_str()).collect();
         writeln!(table, "time,{}", names.join(","))?;
+        self.steer(start, |_| true);
         self.simulation.start_until(start, Some(tolerance), Some(stop))?;
         self.write(start, &mut table)?;
         let points = ((stop - start) / step - 1e-9).ceil() as u64;
@@ -76,7 +84,7 @@ impl<'s> Run<'s> {
             // As a host reckons, which tells the length of a step.
             let next = (start + point as f64 * step).min(stop);
             let began = ThreadTime::now();
-            let outcome = self.simulation.advance(from + (next - from));
+            let outcome = self.advance(from, from + (next - from));
             self.solving += began.elapsed();
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
@@ -88,6 +96,28 @@ impl<'s> Run<'s> {
         }
         progress.finish_and_clear();
         Ok(table.flush()?)
+    }
+
+    /// Goes to time `to` \[s], with a stop wherever an input bends or jumps on the way.
+    fn advance(&mut self, from: f64, to: f64) -> Result<(), Fault> {
+        let on_the_way = |t: &f64| from <= *t && *t < to;
+        let mut bends: Vec<_> = self.inputs.iter().flat_map(|input| &input.time).copied().filter(on_the_way).collect();
+        bends.sort_by(f64::total_cmp);
+        bends.dedup();
+        for bend in bends {
+            self.simulation.advance(bend)?;
+            self.steer(bend, |input| input.time.contains(&bend));
+        }
+        self.simulation.advance(to)
+    }
+
+    /// Gives these inputs their course from time `t` \[s] on.
+    fn steer(&mut self, t: f64, which: impl Fn(&Input) -> bool) {
+        for (input, place) in self.inputs.iter().zip(&self.places).filter(|(input, _)| which(input)) {
+            let [value, rate] = input.from(t);
+            self.simulation.set_input(*place, value);
+            self.simulation.set_input_derivative(*place, 1, rate);
+        }
     }
 
     /// Writes what the outputs are now, at time `t` \[s].
@@ -177,6 +207,27 @@ mod tests {
         let (lines, outcome) = recorded("cut.csv", &[("stop = 10.0", "stop = 0.025")]);
         assert_eq!(outcome, Ok(()));
         assert_eq!(lines.iter().map(|line| line[0]).collect::<Vec<_>>(), [0.0, 0.01, 0.02, 0.025]);
+    }
+
+    #[test]
+    fn exact_inputs_bend_and_jump_between_communication_points() {
+        let text = "[rotor]\nm = 1.0\nJa = 0.5\nJt = 0.4\n[effects.drive]\n[[input]]\nname = \"drive.tau\"\n\
+            time = [0.55, 1.45, 1.45, 2.0]\nvalue = [0.0, 0.9, -2.0, -2.0]\n\
+            [experiment]\nstart = 0.2\nstop = 2.4\nstep = 0.2\n[solver]\nrelative_tolerance = 1e-12\n";
+        let scene = Scene::parse(Path::new("torque.toml"), text).unwrap();
+        let folder = paths::target().join("tests/run");
+        std::fs::create_dir_all(&folder).unwrap();
+        let file = folder.join("torque.csv");
+        Run::of(&scene).record(&scene.experiment, &file).unwrap();
+        let table = std::fs::read_to_string(file).unwrap();
+        let column = table.lines().next().unwrap().split(',').position(|name| name == "omega_phi").unwrap();
+        for line in table.lines().skip(1) {
+            let values: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+            let (t, ramp) = (values[0], (values[0].min(1.45) - 0.55).max(0.0));
+            // Ja ω = ∫ τ dt
+            let exact = (0.5 * ramp * ramp - 2.0 * (t - 1.45).max(0.0)) / 0.5;
+            assert!((values[column] - exact).abs() < 1e-13, "at {t} s {} for {exact}", values[column]);
+        }
     }
 
     #[test]

@@ -26,16 +26,17 @@ pub struct Input {
 }
 
 impl Input {
-    /// Its value at time `t` \[s]; where it jumps, that after the jump.
-    pub fn at(&self, t: f64) -> f64 {
+    /// Its value at time `t` \[s] and how fast it changes from there on [1/s]; where it jumps, those after the jump.
+    pub fn from(&self, t: f64) -> [f64; 2] {
         let after = self.time.partition_point(|time| *time <= t);
         let [from, to] = [after.saturating_sub(1), after.min(self.time.len() - 1)];
         let span = self.time[to] - self.time[from];
         if from == to || span <= 0.0 {
-            return self.value[from];
+            return [self.value[from], 0.0];
         }
         let part = (t - self.time[from]) / span;
-        self.value[from] * (1.0 - part) + self.value[to] * part
+        let rate = (self.value[to] - self.value[from]) / span;
+        [self.value[from] * (1.0 - part) + self.value[to] * part, rate]
     }
 }
 
@@ -186,10 +187,19 @@ mod tests {
     #[test]
     fn exact_linear_between_points_and_jumps() {
         let input = Input { name: String::new(), time: vec![1.0, 2.0, 2.0, 4.0], value: vec![0.0, 1.0, 5.0, 6.0] };
-        for (t, value) in [(0.0, 0.0), (1.0, 0.0), (1.5, 0.5), (2.0, 5.0), (3.0, 5.5), (4.0, 6.0), (9.0, 6.0)] {
-            assert_eq!(input.at(t), value, "{t}");
+        let course = [
+            (0.0, [0.0, 0.0]),
+            (1.0, [0.0, 1.0]),
+            (1.5, [0.5, 1.0]),
+            (2.0, [5.0, 0.5]),
+            (3.0, [5.5, 0.5]),
+            (4.0, [6.0, 0.0]),
+            (9.0, [6.0, 0.0]),
+        ];
+        for (t, from_there) in course {
+            assert_eq!(input.from(t), from_there, "{t}");
         }
         let constant = Input { name: String::new(), time: vec![1.0], value: vec![7.0] };
-        assert_eq!([0.0, 1.0, 2.0].map(|t| constant.at(t)), [7.0; 3]);
+        assert_eq!([0.0, 1.0, 2.0].map(|t| constant.from(t)), [[7.0, 0.0]; 3]);
     }
 }

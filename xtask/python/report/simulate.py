@@ -10,6 +10,7 @@ from fmpy.fmi1 import FMICallException
 from fmpy.simulation import instantiate_fmu
 
 from .result import Result, Timings
+from .steering import Steering
 
 LEAST_POINTS = 10_000
 """A run is looked at this often or more: a maximum between samples is then missed by little."""
@@ -21,8 +22,12 @@ class SimulationFailed(Exception):
     """The FMU refused a call or stopped before its stop time; the text carries its last log lines."""
 
 
-def simulate(fmu_path, description, scene):
-    """Run the FMU at `fmu_path`; `description` is fmpy's ModelDescription of it. Returns a `Result`."""
+def simulate(fmu_path, description, scene, inputs=()):
+    """Run the FMU at `fmu_path`; `description` is fmpy's ModelDescription of it, `inputs` as `steering.Steering` takes them.
+
+    Returns a `Result`.
+    """
+    steering = Steering(description, inputs)
     log = []
     stride = max(1, math.ceil(LEAST_POINTS * scene.step / (scene.stop - scene.start) * (1.0 - 1e-9)))
     step = scene.step / stride
@@ -38,6 +43,7 @@ def simulate(fmu_path, description, scene):
             raise _failed(str(failure), log) from failure
         try:
             spent = _time_steps(fmu)
+            steering.stop_where_inputs_bend(fmu)
             began, cpu_began = perf_counter(), thread_time()
             columns = simulate_fmu(
                 directory,
@@ -47,6 +53,7 @@ def simulate(fmu_path, description, scene):
                 start_time=scene.start,
                 stop_time=scene.stop,
                 output_interval=step,
+                start_values=steering.at(scene.start),
             )
             timings = Timings(sum(spent), thread_time() - cpu_began, perf_counter() - began)
         except FMICallException as failure:
