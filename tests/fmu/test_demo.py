@@ -36,6 +36,7 @@ def test_exact_report_needs_nothing_beside_it(report):
     # what a browser would fetch
     assert re.findall(r"<(?:link|img|iframe|object|embed)\b|@import|url\(", report) == []
     assert re.findall(r'\b(?:src|href)="', report) == []
+    assert "Permission is hereby granted" in report and "<td>uPlot</td><td>1.6.32</td>" in report, "the licence goes with it"
     assert len(report.encode()) <= LARGEST
 
 

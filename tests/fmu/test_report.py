@@ -239,3 +239,9 @@ def test_exact_thinned_curves_keep_their_extremes(report):
     packed = report.pack.packed([1.0, np.nan, -2.5])
     values = [None if n is None else packed["from"] + packed["step"] * n for n in packed["whole"]]
     assert values[1] is None and [values[0], values[2]] == pytest.approx([1.0, -2.5])
+
+
+def test_report_says_nothing_of_speeds_at_which_nobody_looked(demo):
+    """The tumbling rotor's rate goes up to 9 550 rpm where it passes −e; its modes were looked for up to 0.716 rpm."""
+    page = demo("tumbling").read_text(encoding="utf-8")
+    assert "at 0.477\u00a0rpm to 0.716\u00a0rpm" in page

@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter, NullLocator
 
-from report.figures import BLACK, BLUE, GREEN, ORANGE, PURPLE, STYLE, VERMILLION
+from looks import BLACK, BLUE, GREEN, ORANGE, PURPLE, STYLE, VERMILLION
 
 OURS = "split-rotor"
 AUTO = "auto"

@@ -9,7 +9,7 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from report.figures import BLUE, GREEN, STYLE, VERMILLION
+from looks import BLUE, GREEN, STYLE, VERMILLION
 
 INK = "#808080"
 """Read on white and on black."""

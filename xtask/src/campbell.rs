@@ -22,6 +22,9 @@ struct Diagram<'m> {
 /// Speeds that are looked at, unless the user says how many.
 pub const STEPS: u32 = 201;
 
+/// Multiples of the speed whose lines are crossed, unless the user says which.
+pub const ORDERS: [f64; 2] = [1.0, 2.0];
+
 /// Draws the diagram of a scene between these speeds [rad/s], at so many of them.
 pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64]) -> Result<sheets::Left> {
     let scene = scenes::find(scene)?;

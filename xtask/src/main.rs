@@ -144,7 +144,7 @@ enum Command {
         #[arg(long, default_value_t = campbell::STEPS)]
         steps: u32,
         /// Lines of the speed's multiples, whose crossings are critical speeds
-        #[arg(long, num_args = 1.., value_name = "X", default_values_t = [1.0, 2.0])]
+        #[arg(long, num_args = 1.., value_name = "X", default_values_t = campbell::ORDERS)]
         orders: Vec<f64>,
     },
     /// Find how an unbalance makes the machine whirl against the spin: half axes and phases of the orbits at its probes or bearings, by the

@@ -48,6 +48,9 @@ def _stability(result, view):
         speed, rate = view.nearest_growth(spin[0])
         what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet)"
         return Finding("unstable", what, "bad") if rate > linear.NEITHER else Finding("nothing grows", what)
+    # Nothing is said of speeds at which nobody looked.
+    looked = [row["speed_rad_s"] for row in view.modes]
+    spin = np.clip(spin, min(looked), max(looked))
     row = view.least_damped((spin.min(), spin.max()))
     ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
     range_ = f"{rpm(spin.min())} to {rpm(spin.max())}" if np.ptp(spin) > 0.01 * spin.max() else rpm(spin.max())

@@ -24,10 +24,10 @@ class Linear:
     """Of a body that is not symmetric: exponents of its revolutions in place of modes."""
 
     def branches(self):
-        """Of each mode its rows, ascending speeds, those along the axis left out; its number with it."""
+        """Of each mode its number and its rows, ascending speeds; those along the axis and those that never swing left out."""
         for number in sorted({row["mode"] for row in self.modes}):
             rows = [row for row in self.modes if row["mode"] == number]
-            if not all(row["direction"] == AXIAL for row in rows):
+            if any(row["direction"] != AXIAL and row["frequency_rad_s"] for row in rows):
                 yield number, rows
 
     def least_damped(self, speeds):

@@ -77,7 +77,7 @@ def _exaggeration(columns, largest, size):
 
 def _motion(columns):
     rows = columns[:: -(-len(columns) // FRAMES)]
-    motion = {name: packed(rows[name]) for name in ("time", "phi", "omega_phi")}
-    # The angle of the disk between two frames needs more digits than a curve has.
-    motion["phi"] = packed(rows["phi"], step=1e-3)
+    # Between two frames more digits are needed than a curve has.
+    motion = {"time": packed(rows["time"], step=1e-3 * np.median(np.diff(rows["time"]))), "phi": packed(rows["phi"], step=1e-3)}
+    motion |= {"omega_phi": packed(rows["omega_phi"])}
     return motion | {f"{block}.{c}": packed(rows[f"{block}.{c}"]) for block in ("r_c", "axis") for c in "xyz"}

@@ -2,6 +2,7 @@
 
 import json
 import platform
+import re
 from itertools import groupby
 from pathlib import Path
 
@@ -82,10 +83,17 @@ def _costs(result):
     return rows
 
 
+def _version_of_uplot():
+    """As the head of its file has it."""
+    head = (WEB / "uplot" / "uPlot.iife.min.js").read_text(encoding="utf-8").partition("\n")[0]
+    return re.search(r"\(v([\d.]+)\)", head)[1]
+
+
 def _versions(scene):
     return [
         ("FMU", f"{scene.identifier} {scene.version}, FMI {scene.fmi_version}"),
         ("GUID", scene.guid),
         ("fmpy", fmpy.__version__),
+        ("uPlot", _version_of_uplot()),
         ("Python", f"{platform.python_version()} on {platform.system()} {platform.machine()}"),
     ]

@@ -60,7 +60,7 @@ def _campbell(result, view):
     if len(plots) == 2:
         caption += " Below zero, a mode grows by itself."
     else:
-        caption += " No mode is damped and none grows."
+        caption += " None of them is damped and none grows."
     return lines("Campbell diagram", caption, ("speed [rpm]", speeds * RPM), *plots)
 
 
