@@ -25,8 +25,10 @@ class Moment extends EventTarget {
 
   // A column between its frames, by the cubic through the two about it with the slopes of their neighbours (Catmull and Rom).
   value(name, time = this.time) {
-    const i = this.frame(time), column = this.motion[name], last = column.length - 1;
-    const [p, a, b, q] = [column[Math.max(i - 1, 0)], column[i], column[i + 1], column[Math.min(i + 2, last)]];
+    const i = this.frame(time), column = this.motion[name], [a, b] = [column[i], column[i + 1]];
+    // At an end, what the parabola through the other three has there.
+    const p = column[i - 1] ?? 3 * (a - b) + (column[i + 2] ?? 2 * b - a);
+    const q = column[i + 2] ?? 3 * (b - a) + p;
     const x = (time - this.times[i]) / (this.times[i + 1] - this.times[i]);
     return a + x / 2 * (b - p + x * (2 * p - 5 * a + 4 * b - q + x * (3 * (a - b) + q - p)));
   }

@@ -49,7 +49,7 @@ function play(button, pace, moment) {
   let before = null;
   const go = (now) => {
     if (before === null) return;
-    const seconds = Math.min(0.1, (now - before) / 1000);
+    const seconds = Math.max(0, Math.min(0.1, (now - before) / 1000));
     before = now;
     const [from, to] = [moment.times[0], moment.times.at(-1)];
     const turn = 2 * Math.PI / Math.max(Math.abs(moment.value("omega_phi")), 2 * Math.PI / (to - from));
@@ -58,6 +58,8 @@ function play(button, pace, moment) {
   };
   button.addEventListener("click", () => {
     before = before === null ? performance.now() : null;
+    // From the end on, all of it once more.
+    if (before !== null && moment.time >= moment.times.at(-2)) moment.show(moment.times[0]);
     button.textContent = before === null ? "Play" : "Pause";
     requestAnimationFrame(go);
   });
