@@ -83,7 +83,7 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
-    /// Simulate a scene without packaging it, in a moment: a summary, and every output as CSV in target/run/SCENE
+    /// Simulate a scene without packaging it, in a moment: a summary, a report with pictures, and every output as CSV in target/run/SCENE
     Run {
         /// The scene
         #[arg(default_value = "paper")]

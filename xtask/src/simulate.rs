@@ -2,7 +2,7 @@
 
 use crate::numbers::rounded;
 use crate::run::run;
-use crate::{accuracy, paths, python, scenes};
+use crate::{accuracy, paths, python, report, scenes};
 use anyhow::{Context, Error, Result, bail};
 use cpu_time::ThreadTime;
 use split_rotor_model::integrate::Fault;
@@ -16,27 +16,36 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use std::time::Duration;
 
-/// What draws the report from what is left here.
-const REPORT: &str = "xtask/python/run.py";
+/// A report looks at a run so often, at least: it must see what goes on within a turn.
+const SEEN: f64 = 1e4;
 
 /// Runs a scene from start to stop of its experiment; leaves result.csv, with every output at each communication point, and the
 /// modelDescription.xml that says what these are. Where a step cannot be done, what was reached is left all the same.
-pub fn simulate(scene: &str, report: bool) -> Result<()> {
-    let scene = scenes::find(scene)?;
+pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
+    let name = scene;
+    let scene = scenes::find(name)?;
     let folder = paths::target().join("run").join(&scene.name);
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
     let table = folder.join("result.csv");
     let mut run_of_scene = Run::of(&scene);
     let outcome = run_of_scene.record(&scene.experiment, &table);
-    let outcome = outcome.with_context(|| scene.file.display().to_string());
     run_of_scene.print(&scene.title)?;
     println!("  table      {}", table.display());
-    if report && paths::root().join(REPORT).is_file() {
-        run(python::python()?.arg(REPORT).arg(&folder))?;
+    outcome.with_context(|| scene.file.display().to_string())?;
+    if with_report {
+        let Experiment { start, stop, step, .. } = scene.experiment;
+        let parts = (SEEN * step / (stop - start) * (1.0 - 1e-9)).ceil().max(1.0);
+        let often = Experiment { step: step / parts, ..scene.experiment };
+        Run::of(&scene).record(&often, &folder.join(SAMPLES))?;
+        let view = report::linear_view(name);
+        run(python::python()?.arg("xtask/python/run.py").arg(&folder).args(["--table", SAMPLES]).args(view))?;
     }
-    outcome
+    Ok(())
 }
+
+/// What the report is made from.
+const SAMPLES: &str = "samples.csv";
 
 /// A run and what was seen of it.
 struct Run<'s> {

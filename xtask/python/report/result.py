@@ -49,18 +49,18 @@ class Result:
         return self.columns[np.union1d(np.arange(0, len(time), stride), len(time) - 1)]
 
 
-def read(folder):
-    """The run in `folder`: its modelDescription.xml and its result.csv, `time` and a column an output."""
+def read(folder, table="result.csv"):
+    """The run in `folder`: its modelDescription.xml and its `table`, `time` and a column an output."""
     try:
         scene = Scene.of(read_model_description(str(folder / "modelDescription.xml")))
-        with (folder / "result.csv").open(encoding="utf-8", newline="") as file:
+        with (folder / table).open(encoding="utf-8", newline="") as file:
             rows = csv.reader(file)
             names = next(rows, [])
             values = [tuple(map(float, row)) for row in rows]
     except (OSError, ValueError) as failure:
         raise NotAResult(f"{folder}: {failure}") from failure
     if missing := {"time", *scene.outputs} - set(names):
-        raise NotAResult(f"{folder / 'result.csv'}: no column {', '.join(sorted(missing))}")
+        raise NotAResult(f"{folder / table}: no column {', '.join(sorted(missing))}")
     if len(values) < 2 or any(len(row) != len(names) for row in values):
-        raise NotAResult(f"{folder / 'result.csv'}: at least two rows are needed, all as long as the header")
+        raise NotAResult(f"{folder / table}: at least two rows are needed, all as long as the header")
     return Result(scene, np.array(values, dtype=[(name, float) for name in names]), "without an FMU, by cargo xtask run")
