@@ -16,8 +16,9 @@ fn start(rest: &str) -> String {
 /// z of c \[m] and t_z \[1] there: both equations are linear in them, however large the tilt.
 fn sag() -> [f64; 2] {
     let (springs, weight) = ([(-0.2, 1e4), (0.3, 1.7e4)], 12.0 * 9.81);
+    let sum = |of: fn(f64, f64) -> f64| springs.iter().map(|(p, k)| of(*p, *k)).sum::<f64>();
     // Σ k (z + p t_z) = −m g, Σ p k (z + p t_z) = 0
-    let [k, kp, kpp] = [0, 1, 2].map(|n| springs.iter().map(|(p, k): &(f64, f64)| k * p.powi(n)).sum::<f64>());
+    let [k, kp, kpp] = [sum(|_, k| k), sum(|p, k| p * k), sum(|p, k| p * p * k)];
     let determinant = k * kpp - kp * kp;
     [-weight * kpp / determinant, weight * kp / determinant]
 }
