@@ -62,20 +62,20 @@ def run_up(result, view):
     seen = _seen(result) if result.scene.blocks("unbalance") else []
     if not _sweeps(seen):
         return None
-    amplitudes, phases = [], []
+    amplitudes, phases, largest = [], [], []
     unit, size = multiple(max(_amplitude(t).max() for _, t in seen), "m")
     for station, t in seen:
         speed, amplitude = t.speed[1:] * RPM, _amplitude(t)[1:] / size
         top = amplitude.argmax()
-        label = f"{number(amplitude[top], 3)} {unit} at {rpm(t.speed[1 + top])}"
-        mark = {"x": speed[top], "y": amplitude[top], "label": label}
+        largest.append(f"{station.name} {number(amplitude[top], 3)} {unit} at {rpm(t.speed[1 + top])}")
+        mark = {"x": speed[top], "y": amplitude[top]}
         amplitudes.append((station.name, speed, amplitude, [mark]))
         phase = np.degrees(np.unwrap(np.angle(t.order(1)[1:])))
         phase -= 360.0 * round(phase[top] / 360.0)
         phases.append((station.name, speed, np.where(amplitude > 0.02 * amplitude.max(), phase, np.nan)))
     caption = (
-        "The part of the motion that goes round once in a turn, turn by turn: the longer half axis of its orbit, and by how much "
-        "its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out."
+        f"The part of the motion that goes round once in a turn, turn by turn: the longer half axis of its orbit (largest: "
+        f"{', '.join(largest)}), and by how much its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out."
     )
     return paths("Run-up", caption, "speed [rpm]", (f"amplitude 1× [{unit}]", amplitudes), ("phase [°]", phases))
 
