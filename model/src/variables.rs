@@ -397,10 +397,14 @@ impl Setup {
         if theta > PI {
             return Err(Invalid::new("|start.gamma|", theta, format!("at most pi = {PI:?}")));
         }
-        let phi = self.start.phi;
+        let Start { phi, v_c, omega, at_rest, .. } = &self.start;
+        if *at_rest && (*v_c != Vector3::zeros() || omega.yz() != Vector2::zeros()) {
+            let reason = "= true and a motion exclude each other: start.v_c, start.omega.y and start.omega.z must be 0";
+            return Err(Invalid { variable: "start.at_rest".into(), reason: reason.into() });
+        }
         if phi.abs() > LARGEST_PHI {
             let bound = format!("from -{LARGEST_PHI:?} to {LARGEST_PHI:?}, or its whole turns could not be counted");
-            return Err(Invalid::new("start.phi", phi, bound));
+            return Err(Invalid::new("start.phi", *phi, bound));
         }
         Ok(())
     }

@@ -38,7 +38,11 @@ pub fn is_real(variable: &Variable) -> bool {
 }
 
 pub fn is_integer(variable: &Variable) -> bool {
-    !is_real(variable)
+    !is_real(variable) && !is_boolean(variable)
+}
+
+pub fn is_boolean(variable: &Variable) -> bool {
+    variable.meta.kind == Kind::Boolean
 }
 
 pub fn is_parameter(variable: &Variable) -> bool {

@@ -27,7 +27,7 @@ def main():
     except NotAResult as failure:
         print(f"error: {failure}", file=sys.stderr)
         return 1
-    return deliver(result, arguments, arguments.folder)
+    return deliver(result, arguments, arguments.folder, brief=True)
 
 
 if __name__ == "__main__":

@@ -47,6 +47,22 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
 /// What the report is made from.
 const SAMPLES: &str = "samples.csv";
 
+/// The highest |ω_φ| [rad/s] that a run of the scene comes to, looked at a thousand times.
+pub fn fastest(scene: &Scene) -> f64 {
+    let (mut run, mut fastest) = (Run::of(scene), 0.0_f64);
+    let speed = scene.variables.iter().find(|variable| variable.name == "omega_phi").map(|variable| variable.place);
+    let Experiment { start, stop, .. } = scene.experiment;
+    let seldom = Experiment { step: (stop - start) / 1e3, ..scene.experiment };
+    let look = |run: &mut Run, _| {
+        let speed = speed.map(|place| run.simulation.get(place)).transpose()?.flatten();
+        fastest = fastest.max(speed.unwrap_or_default().abs());
+        Ok(())
+    };
+    // What a run that ends early comes to counts all the same.
+    let _ = run.follow(&seldom, look);
+    fastest
+}
+
 /// A run and what was seen of it.
 struct Run<'s> {
     simulation: Any,
@@ -80,13 +96,20 @@ impl<'s> Run<'s> {
 
     /// Runs, and writes each communication point as a line of `file`, that where the motion ends early too.
     fn record(&mut self, experiment: &Experiment, file: &Path) -> Result<()> {
-        let Experiment { start, stop, step, tolerance } = *experiment;
         let mut table = BufWriter::new(File::create(file)?);
         let names: Vec<_> = self.outputs.iter().map(|output| output.name.as_str()).collect();
         writeln!(table, "time,{}", names.join(","))?;
+        let outcome = self.follow(experiment, |run, t| run.write(t, &mut table));
+        table.flush()?;
+        outcome
+    }
+
+    /// Runs; at each communication point \[s] it is `seen`, that where the motion ends early too.
+    fn follow(&mut self, experiment: &Experiment, mut seen: impl FnMut(&mut Self, f64) -> Result<()>) -> Result<()> {
+        let Experiment { start, stop, step, tolerance } = *experiment;
         self.steer(start, |_| true);
         self.simulation.start_until(start, Some(tolerance), Some(stop))?;
-        self.write(start, &mut table)?;
+        seen(self, start)?;
         let points = ((stop - start) / step - 1e-9).ceil() as u64;
         let (progress, mut from) = (accuracy::bar(points as usize), start);
         for point in 1..=points {
@@ -97,14 +120,14 @@ impl<'s> Run<'s> {
             self.solving += began.elapsed();
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
-                self.write(reached, &mut table)?;
+                seen(self, reached)?;
             }
             outcome.map_err(|fault| Error::msg(fault.to_string()))?;
             from = next;
             progress.inc(1);
         }
         progress.finish_and_clear();
-        Ok(table.flush()?)
+        Ok(())
     }
 
     /// Goes to time `to` \[s], with a stop wherever an input bends or jumps on the way.

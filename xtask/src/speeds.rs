@@ -1,6 +1,6 @@
 //! The speeds at which a machine is looked at.
 
-use crate::scenes;
+use crate::{scenes, simulate};
 use anyhow::{Result, ensure};
 use split_rotor_model::linear::{Machine, Obstacle};
 use split_rotor_model::scene::Scene;
@@ -32,13 +32,15 @@ pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, ste
     Ok(speeds)
 }
 
-/// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables; else its fastest mode's at rest.
+/// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables, or to which its inputs bring it; else its
+/// fastest mode's at rest.
 fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     let told = scenes::values(scene);
     let value = |name: &str| told(name).unwrap_or_default().abs();
     let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
-    let highest =
-        imposed.max(nodes(scene).fold(0.0, f64::max)).max(value("start.omega.x")).max(value("motor.synchronous_speed"));
+    let reached = if scene.inputs.is_empty() { 0.0 } else { simulate::fastest(scene) };
+    let told = [imposed, reached, value("start.omega.x"), value("motor.synchronous_speed")];
+    let highest = nodes(scene).chain(told).fold(0.0, f64::max);
     if highest > 0.0 {
         return Ok(highest);
     }

@@ -183,7 +183,7 @@ impl Machine {
         let spinning = self.spins(&rotor, speed);
         let rest: Rest<N> = spinning.rest(r, gamma).ok_or(Obstacle::NoSteadyState { speed })?;
         let Rest { r, gamma, is_held, balance } = rest;
-        if rest::sides::<_, N>(&rotor, &spinning.state(r, gamma)) != rest::sides(&rotor, &start.state) {
+        if rest::sides(&rotor, &spinning.state(r, gamma)) != rest::sides(&rotor, &start.state) {
             return Err(Obstacle::Switches { speed });
         }
         let (rate, matrix) = self.linear(&balance);
@@ -202,8 +202,8 @@ impl Machine {
     }
 
     /// It, as it spins at this speed [rad/s].
-    pub(super) fn spins<'r>(&self, rotor: &'r Rotor<'r, All>, speed: f64) -> Spinning<'r, All> {
-        Spinning { rotor, about_axis: self.about_axis, speed }
+    pub(super) fn spins<'r>(&self, rotor: &'r Rotor<'r, All>, speed: f64) -> Spinning<'r, All, N> {
+        Spinning { rotor, own: [0.0; N], about_axis: self.about_axis, speed }
     }
 
     /// The matrix of the linear equations over the rate, and that.

@@ -28,15 +28,29 @@ const UNHELD: f64 = 1e-12;
 /// What is left of the loads where they balance, over what they were \[1].
 const BALANCED: f64 = 1e-9;
 
-/// From one side of a contact to another one goes so often at most.
-const MOST_SIDES: u32 = 8;
+/// Without inertia a rotor comes to rest in so many steps at most, each of at most so much \[1, rad]; they grow by this factor.
+const MOST_CREEPING: u32 = 1000;
+const FARTHEST: f64 = 0.05;
+const GROWS: f64 = 4.0;
+
+/// Where it creeps by less than this it is handed to Newton's method, which moves it by no more than that much \[1, rad].
+const NEAR: f64 = 1e-7;
+const BEYOND: f64 = 1e-3;
+
+/// The chart of γ is asked for again beyond this \[rad].
+const FAR: f64 = 2.0;
+
+/// A contact on the way is found by so many bisections.
+const BISECTIONS: u32 = 40;
 
 /// What is out of balance goes onto the axis.
 const UNBALANCE: (&str, &str) = ("unbalance", "radius");
 
 /// A balanced rotor that spins about an axis at rest.
-pub(crate) struct Spinning<'r, E> {
+pub(crate) struct Spinning<'r, E, const N: usize> {
     pub rotor: &'r Rotor<'r, E>,
+    /// A state with the own states of its effects.
+    pub own: [f64; N],
     /// Moment of inertia about the axis [kg·m²].
     pub about_axis: f64,
     /// ω_φ [rad/s].
@@ -44,6 +58,7 @@ pub(crate) struct Spinning<'r, E> {
 }
 
 /// Where it stands.
+#[cfg_attr(not(feature = "scenes"), allow(dead_code, reason = "what only the linear view asks for"))]
 pub(crate) struct Rest<const N: usize> {
     /// Place of the mass centre G \[m].
     pub r: Vector3<f64>,
@@ -56,6 +71,7 @@ pub(crate) struct Rest<const N: usize> {
 }
 
 /// The equations at a state of rest but for the spin.
+#[cfg_attr(not(feature = "scenes"), allow(dead_code, reason = "what only the linear view asks for"))]
 pub(crate) struct Balance<const N: usize> {
     /// Rates of v over the radius of gyration, and of K over Jt but for its part along the axis [1/s²].
     left: SVector<f64, BALANCES>,
@@ -71,10 +87,10 @@ pub(crate) struct Balance<const N: usize> {
     pub moment: f64,
 }
 
-impl<E: Effects> Spinning<'_, E> {
+impl<E: Effects, const N: usize> Spinning<'_, E, N> {
     /// The state with the mass centre at `r` \[m] and this γ \[rad].
-    pub fn state<const N: usize>(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> [f64; N] {
-        let mut state = [0.0; N];
+    pub fn state(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> [f64; N] {
+        let mut state = self.own;
         let axis = Tilt::new(self.rotor.frame.chart, gamma).axis;
         let k = axis * (self.about_axis * self.speed);
         Coordinates { r, v: Vector3::zeros(), k, gamma, phi: 0.0 }.write(rigid_mut(&mut state));
@@ -87,14 +103,19 @@ impl<E: Effects> Spinning<'_, E> {
         (across, (across * per_m).sqrt())
     }
 
-    fn balance<const N: usize>(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> Balance<N> {
+    fn balance(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> Balance<N> {
         let (rotor, (inertia, length)) = (self.rotor, self.across());
-        let state: [f64; N] = self.state(r, gamma);
-        let rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(0.0, &state)));
+        let state = self.state(r, gamma);
+        let mut rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(0.0, &state)));
         let jacobian = rotor.jacobian(0.0, &state);
         let moving = Vector2::new(Dual::<2>::variable(gamma.x, 0), Dual::variable(gamma.y, 1));
         let tilted = Tilt::new(rotor.frame.chart, moving).axis;
         let (axis, turning) = (tilted.map(|t| t.re), Matrix3x2::from_fn(|row, column| tilted[row].eps[column]));
+        if let Some([_, rate]) = rotor.effects.imposed(0.0) {
+            // eq. 75: what imposes the speed turns the rotor about n = (e + t)/(1 + e·t), n·t = 1
+            let n = (Vector3::x() + axis) / (1.0 + axis.x);
+            rates.k += n * (self.about_axis * rate - rates.k.dot(&axis));
+        }
         let moment = rates.k.dot(&axis);
         let across = rates.k - axis * moment;
         let [by_place, by_tilt, by_k] = [0..3, GAMMA, 6..9].map(|of| Block { jacobian: &jacobian, of });
@@ -116,11 +137,11 @@ impl<E: Effects> Spinning<'_, E> {
 
     /// Where it stands, sought from `r` \[m] and `gamma` \[rad] by Newton's method; None where it does not get there. Where nothing holds it
     /// in some direction, it stays where it is in that.
-    pub fn rest<const N: usize>(&self, mut r: Vector3<f64>, mut gamma: Vector2<f64>) -> Option<Rest<N>> {
+    pub fn rest(&self, mut r: Vector3<f64>, mut gamma: Vector2<f64>) -> Option<Rest<N>> {
         let (_, length) = self.across();
         let (mut before, mut at_first) = (f64::INFINITY, None);
         for _ in 0..MOST_STEPS {
-            let balance = self.balance::<N>(r, gamma);
+            let balance = self.balance(r, gamma);
             let all = balance.slopes.svd(true, true);
             let largest = all.singular_values[0];
             let first = *at_first.get_or_insert(balance.left.norm());
@@ -139,6 +160,44 @@ impl<E: Effects> Spinning<'_, E> {
             before = size;
         }
         None
+    }
+
+    /// How it goes on from there in a step over `span` \[s²] without inertia, by the implicit rule of Euler: loads move it, until they
+    /// balance where it is stable.
+    fn creep(&self, balance: &Balance<N>, span: f64) -> Option<SVector<f64, UNKNOWNS>> {
+        let mut matrix = -balance.slopes;
+        for n in 0..3 {
+            matrix[(n, n)] += 1.0 / span;
+        }
+        // A change of t turns by t × δt.
+        for column in 0..2 {
+            let turned = balance.axis.cross(&balance.turning.column(column).into_owned()) / span;
+            let mut rows = matrix.fixed_view_mut::<3, 1>(3, 3 + column);
+            rows += turned;
+        }
+        let all = matrix.svd(true, true);
+        let step = all.solve(&balance.left, UNHELD * all.singular_values[0]).ok()?;
+        step.iter().all(|part| part.is_finite()).then_some(step)
+    }
+
+    /// Where a step ends, or all but where a contact on the way begins or ends, and whether one does.
+    fn moved(
+        &self,
+        r: Vector3<f64>,
+        gamma: Vector2<f64>,
+        step: &SVector<f64, UNKNOWNS>,
+    ) -> (Vector3<f64>, Vector2<f64>, bool) {
+        let (_, length) = self.across();
+        let at = |share: f64| (r + step.fixed_rows::<3>(0) * (share * length), gamma + step.fixed_rows::<2>(3) * share);
+        let side = |share: f64| sides(self.rotor, &self.state(at(share).0, at(share).1));
+        let (before, [mut low, mut high]) = (side(0.0), [0.0, 1.0]);
+        let switches = side(1.0) != before;
+        for _ in 0..if switches { BISECTIONS } else { 0 } {
+            let middle = 0.5 * (low + high);
+            *(if side(middle) == before { &mut low } else { &mut high }) = middle;
+        }
+        let (r, gamma) = at(high);
+        (r, gamma, switches)
     }
 }
 
@@ -174,42 +233,60 @@ pub(crate) fn balance<E: Effects>(effects: &mut E) {
 }
 
 /// Where a machine with `start.at_rest` begins at time `t` \[s]: at the spin of its start, which is along the axis then, where the balanced
-/// machine stands, sought from its start.
+/// machine stands. From its start it creeps there without inertia, so to where it is stable, and through contacts one after another.
 pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f64) -> Result<Start, Invalid> {
     let given = &parameters.setup.start;
-    let refused = |reason: String| Invalid { variable: "start.at_rest".into(), reason };
-    if given.v_c != Vector3::zeros() || given.omega.yz() != Vector2::zeros() {
-        return Err(refused(
-            "= true: start.v_c, start.omega.y and start.omega.z must be 0, for only the spin is left".into(),
-        ));
-    }
     let mut balanced = parameters.clone();
     balance(&mut balanced.effects);
     let speed = balanced.effects.imposed(t).map_or(given.omega.x, |[speed, _]| speed);
-    let nothing = || {
-        refused(format!(
-            "= true: nothing balances what acts on the rotor at {speed} rad/s (a support or bearings must hold it where a load acts)"
-        ))
+    let lost = || Invalid {
+        variable: "start.at_rest".into(),
+        reason: format!(
+            "= true: no place where loads balance at {speed} rad/s was found from start.r_c and start.gamma: a support or bearings must \
+             hold the rotor where a load acts; give it a start nearer to its rest"
+        ),
     };
     let mut begun = Motion::<N>::at_start(&mut balanced, t);
-    let start = Coordinates::from_slice(rigid(&begun.state));
-    let (mut r, mut gamma) = (start.r, start.gamma);
-    for _ in 0..MOST_SIDES {
+    let mut span = None;
+    for _ in 0..MOST_CREEPING {
+        let at = Coordinates::from_slice(rigid(&begun.state));
         let rotor = begun.frame.under(&balanced.effects);
-        let spinning =
-            Spinning { rotor: &rotor, about_axis: 1.0 / (rotor.frame.body.spin + rotor.frame.body.per_jt), speed };
-        let rest: Rest<N> = spinning.rest(r, gamma).ok_or_else(nothing)?;
-        let (axis, tilt) = (rest.balance.axis, Tilt::new(rotor.frame.chart, rest.gamma));
+        let about_axis = 1.0 / (rotor.frame.body.spin + rotor.frame.body.per_jt);
+        let spinning = Spinning { rotor: &rotor, own: begun.state, about_axis, speed };
         let centre = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.centre.x);
-        let stays = sides(&rotor, &spinning.state::<N>(rest.r, rest.gamma)) == sides(&rotor, &begun.state);
-        let found = Start { r_c: rest.r - axis * centre, gamma: tilt.gamma(), omega: axis * speed, ..given.clone() };
-        if stays {
-            return Ok(found);
+        let start_at = |r: Vector3<f64>, gamma: Vector2<f64>| {
+            let tilt = Tilt::new(rotor.frame.chart, gamma);
+            Start { r_c: r - tilt.axis * centre, gamma: tilt.gamma(), omega: tilt.axis * speed, ..given.clone() }
+        };
+        let here = spinning.balance(at.r, at.gamma);
+        let size = here.left.norm();
+        let over = *span.get_or_insert(if size > 0.0 { FARTHEST / size } else { f64::MAX });
+        let step = spinning.creep(&here, over).ok_or_else(lost)?;
+        if step.norm() > FARTHEST {
+            span = Some(over / GROWS);
+            continue;
         }
-        // What touches there is asked for again.
-        balanced.setup.start = given.clone();
-        begun = Motion::elsewhere(&mut balanced, &found, t);
-        (r, gamma) = (rest.r, rest.gamma);
+        let (r, gamma, switches) = spinning.moved(at.r, at.gamma, &step);
+        if step.norm() < NEAR && !switches {
+            let rest = spinning.rest(r, gamma).ok_or_else(lost)?;
+            let (_, length) = spinning.across();
+            let moved = (rest.r - r).norm() / length + (rest.gamma - gamma).norm();
+            let stays = sides(&rotor, &spinning.state(rest.r, rest.gamma)) == sides(&rotor, &spinning.state(r, gamma));
+            if stays && moved < BEYOND {
+                return Ok(start_at(rest.r, rest.gamma));
+            }
+        }
+        span = Some((over * GROWS).min(f64::MAX));
+        if switches || gamma.norm() > FAR {
+            // What touches there is asked for again, and which chart; effects measure from the start that was given.
+            let found = start_at(r, gamma);
+            balanced.setup.start = given.clone();
+            begun = Motion::elsewhere(&mut balanced, &found, t);
+        } else {
+            let (mut state, k) = (begun.state, Coordinates::from_slice(rigid(&spinning.state(r, gamma))).k);
+            Coordinates { r, k, gamma, ..at }.write(rigid_mut(&mut state));
+            begun.state = state;
+        }
     }
-    Err(nothing())
+    Err(lost())
 }

@@ -17,13 +17,16 @@ def add_options(parser):
     view.add_argument("--no-linear", metavar="WHY", default="nobody asked for the linear view.", help="why there is none")
 
 
-def deliver(result, arguments, folder):
-    """Writes `folder`/report.html of a `Result`, prints a summary; returns the exit code, 1 where the energy does not add up."""
+def deliver(result, arguments, folder, brief=False):
+    """Writes `folder`/report.html of a `Result`; returns the exit code, 1 where the energy does not add up.
+
+    Prints a summary, or where the report is if `brief`.
+    """
     view = linear.read(arguments.linear) if arguments.linear else arguments.no_linear
     report = folder / "report.html"
     report.write_text(render(result, view), encoding="utf-8")
     balance = energy_balance(result.columns, result.scene.relative_tolerance)
-    print(_summary(result, balance, report))
+    print(f"  report     {report}" if brief else _summary(result, balance, report))
     if balance.holds:
         return 0
     print(
