@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn a_package_that_fails_leaves_what_was_there() {
-        let folder = paths::target().join("tests/package");
+        let folder = paths::target().join("tests/refused-package");
         // A file cannot take the place of a folder that holds something.
         let fmu = folder.join("paper.fmu");
         fs::create_dir_all(&fmu).unwrap();

@@ -196,7 +196,9 @@ mod tests {
         };
         let unknown = error("support.d3", [0.0, 1.0]);
         assert!(
-            unknown.starts_with("inner.toml: --against support.d3: no such parameter; it can be rotor.m, "),
+            unknown.starts_with(
+                "inner.toml: --against support.d3: no such parameter (did you mean `support.d1` or `support.d2`?); it can be rotor.m, "
+            ),
             "{unknown}"
         );
         let negative = error("support.d1", [-1.0, 1.0]);
