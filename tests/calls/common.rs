@@ -40,7 +40,7 @@ impl Actor {
             5 => self.reset(),
             6..=7 => self.get_real(source),
             8 => self.get_integer(source),
-            9 => self.get_or_set_nothing(source),
+            9 => self.get_or_set_another_type(source),
             10 => self.set_a_parameter(source),
             11..=13 => self.set_real(source),
             14 => self.set_integer(source),
@@ -255,23 +255,36 @@ impl Actor {
         }
     }
 
-    /// The types of which there are no variables.
-    fn get_or_set_nothing(&mut self, source: &mut Source) {
-        let references = references(source, |_| true);
+    /// Booleans, and texts, of which there are no variables.
+    fn get_or_set_another_type(&mut self, source: &mut Source) {
+        let references = references(source, |variable| is_boolean(variable) && is_parameter(variable));
         let (r, n) = (references.as_ptr(), references.len());
-        let (mut truths, mut texts) = ([77; 3], [c"".as_ptr(); 3]);
+        let (mut truths, mut texts) = ([source.of(&[0, 1]); 3], [c"".as_ptr(); 3]);
         let may = ok_if(references.is_empty());
+        let may_be_true = ok_if(all_are(&references, is_boolean));
         // SAFETY (of the calls below): a live instance; arrays of at least as many as told.
         match source.below(4) {
             0 => {
-                let told = Told { function: "fmi2GetBoolean", may };
+                let told = Told { function: "fmi2GetBoolean", may: may_be_true };
                 // SAFETY: see above.
-                self.call(&told, |i| unsafe { fmi2GetBoolean(i.component(), r, n, truths.as_mut_ptr()) });
+                let call = |i: &mut Instance| unsafe { fmi2GetBoolean(i.component(), r, n, truths.as_mut_ptr()) };
+                if self.call(&told, call) == Status::Ok {
+                    for (reference, truth) in references.iter().zip(truths) {
+                        let known = self.mind.memory.parameters.get(reference);
+                        assert!(known.is_none_or(|known| *known == f64::from(truth)), "{reference} is {truth}");
+                    }
+                }
             }
             1 => {
-                let told = Told { function: "fmi2SetBoolean", may };
+                let told = Told { function: "fmi2SetBoolean", may: may_be_true };
                 // SAFETY: see above.
-                self.call(&told, |i| unsafe { fmi2SetBoolean(i.component(), r, n, truths.as_ptr()) });
+                let call = |i: &mut Instance| unsafe { fmi2SetBoolean(i.component(), r, n, truths.as_ptr()) };
+                if self.call(&told, call) == Status::Ok && !references.is_empty() {
+                    self.mind.memory.touched = true;
+                    for (reference, truth) in references.iter().zip(truths) {
+                        self.mind.memory.parameters.insert(*reference, f64::from(truth));
+                    }
+                }
             }
             2 => {
                 let told = Told { function: "fmi2GetString", may };

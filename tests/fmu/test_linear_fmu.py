@@ -11,11 +11,11 @@ from zipfile import ZipFile
 
 import numpy as np
 import pytest
-from conftest import unpack
 from fmpy import read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.validation import validate_fmu
 from host import DISCARD, MODEL_EXCHANGE, OK, Host
+from packaged import unpack
 from test_state_space import SCIPY, at
 
 ERROR = 3
