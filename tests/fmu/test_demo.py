@@ -99,7 +99,7 @@ def test_exact_a_run_that_ends_early_is_an_error(paper, run, monkeypatch, capsys
 
     own = simulate.simulate_fmu
     start = {"start.omega.x": 0.0, "start.omega.y": 5.0, "support.c1": 0.0, "support.c2": 1e-300}
-    monkeypatch.setattr(simulate, "simulate_fmu", lambda *words, **named: own(*words, start_values=start, **named))
+    monkeypatch.setattr(simulate, "simulate_fmu", lambda *words, **named: own(*words, **{**named, "start_values": start}))
     assert run(paper.path) == 1
     error = capsys.readouterr().err
     assert f"error: {paper.path}: the FMU stopped at 0.62 s of 10 s" in error

@@ -186,7 +186,7 @@ def test_exact_units_are_declared_and_used(fmu):
 def test_exact_only_pure_numbers_have_no_unit(fmu):
     pure = {variable.get("name") for variable, kind in scalars(fmu) if not kind.get("unit")}
     settings = {"solver.method", "solver.relative_tolerance", "solver.absolute_tolerance", "solver.order",
-                "solver.max_evaluations", "solver.method_number"}
+                "solver.max_evaluations", "solver.method_number", "start.at_rest"}
     spent = {"solver.steps", "solver.rejected", "solver.evaluations", "solver.error_estimate"}
     pure = {name for name in pure if not name.startswith(("effects.", "extrapolation."))}
     pure = {name for name in pure if not name.endswith((".command", ".contact", ".friction"))}

@@ -29,7 +29,7 @@ const UNHELD: f64 = 1e-12;
 const BALANCED: f64 = 1e-9;
 
 /// Without inertia a rotor comes to rest in so many steps at most, each of at most so much \[1, rad]; they grow by this factor.
-const MOST_CREEPING: u32 = 1000;
+const MOST_CREEPING: u32 = 300;
 const FARTHEST: f64 = 0.05;
 const GROWS: f64 = 4.0;
 
