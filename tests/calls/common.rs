@@ -259,7 +259,8 @@ impl Actor {
     fn get_or_set_another_type(&mut self, source: &mut Source) {
         let references = references(source, |variable| is_boolean(variable) && is_parameter(variable));
         let (r, n) = (references.as_ptr(), references.len());
-        let (mut truths, mut texts) = ([source.of(&[0, 1]); 3], [c"".as_ptr(); 3]);
+        // A start at rest is sought anew after each change, which takes its time.
+        let (mut truths, mut texts) = ([source.of(&[0, 0, 0, 0, 0, 0, 0, 1]); 3], [c"".as_ptr(); 3]);
         let may = ok_if(references.is_empty());
         let may_be_true = ok_if(all_are(&references, is_boolean));
         // SAFETY (of the calls below): a live instance; arrays of at least as many as told.

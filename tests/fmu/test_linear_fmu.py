@@ -145,7 +145,7 @@ def test_exact_fmpy_finds_no_problem(scene, xtask, tmp_path):
 def test_exact_it_has_the_names_units_and_values_of_the_rotors_own(linear, model, xtask, tmp_path):
     scene, description = tmp_path / "pushed.toml", tmp_path / "modelDescription.xml"
     scene.write_text(SCENE, encoding="utf-8")
-    description.write_text(xtask("describe", scene).stdout, encoding="utf-8")
+    description.write_text(xtask("describe", "--xml", scene).stdout, encoding="utf-8")
     variables = read_model_description(str(description), validate=False).modelVariables
     own = {variable.name: variable for variable in variables}
     for causality in ("input", "output"):
