@@ -110,7 +110,7 @@ def contacts(fmus):
         fmu = fmus["rubbing"]
         options = {"stop_time": stop, "output_interval": 0.001, "relative_tolerance": 1e-12, "output": PLACE}
         by_cvode, own = (fmu.simulate(fmi_type=kind, start_values=values, **options) for kind in ("ModelExchange", "CoSimulation"))
-        parameters = {name: float(v.start) for name, v in fmu.variables.items() if v.start} | values
+        parameters = {name: float(v.start) for name, v in fmu.variables.items() if v.start and v.type != "Boolean"} | values
         changes = np.flatnonzero(np.diff(own["rub[1].contact"])) + 1
         instants = np.array([instant(own, i, parameters) for i in changes])
         # An event is two rows at one time; one more comes after each contact, where the depth is zero again.
