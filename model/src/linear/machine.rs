@@ -140,7 +140,7 @@ pub(crate) fn stop_drives(parameters: &mut Parameters<All>) {
 pub fn balanced(parameters: &Parameters<All>) -> Parameters<All> {
     let mut parameters = parameters.clone();
     stop_drives(&mut parameters);
-    rest::balance(&mut parameters.effects);
+    rest::put_on_axis(&mut parameters.effects);
     parameters
 }
 
@@ -203,7 +203,7 @@ impl Machine {
 
     /// It, as it spins at this speed [rad/s].
     pub(super) fn spins<'r>(&self, rotor: &'r Rotor<'r, All>, speed: f64) -> Spinning<'r, All, N> {
-        Spinning { rotor, own: [0.0; N], about_axis: self.about_axis, speed }
+        Spinning { rotor, own: [0.0; N], about_axis: self.about_axis, speed, t: 0.0 }
     }
 
     /// The matrix of the linear equations over the rate, and that.

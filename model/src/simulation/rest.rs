@@ -58,6 +58,8 @@ pub(crate) struct Spinning<'r, E, const N: usize> {
     pub about_axis: f64,
     /// ω_φ [rad/s].
     pub speed: f64,
+    /// When \[s]: inputs may change with time.
+    pub t: f64,
 }
 
 /// Where it stands.
@@ -109,12 +111,12 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
     fn balance(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> Balance<N> {
         let (rotor, (inertia, length)) = (self.rotor, self.across());
         let state = self.state(r, gamma);
-        let mut rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(0.0, &state)));
-        let jacobian = rotor.jacobian(0.0, &state);
+        let mut rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(self.t, &state)));
+        let jacobian = rotor.jacobian(self.t, &state);
         let moving = Vector2::new(Dual::<2>::variable(gamma.x, 0), Dual::variable(gamma.y, 1));
         let tilted = Tilt::new(rotor.frame.chart, moving).axis;
         let (axis, turning) = (tilted.map(|t| t.re), Matrix3x2::from_fn(|row, column| tilted[row].eps[column]));
-        if let Some([_, rate]) = rotor.effects.imposed(0.0) {
+        if let Some([_, rate]) = rotor.effects.imposed(self.t) {
             // eq. 75: what imposes the speed turns the rotor about n = (e + t)/(1 + e·t), n·t = 1
             let n = (Vector3::x() + axis) / (1.0 + axis.x);
             rates.k += n * (self.about_axis * rate - rates.k.dot(&axis));
@@ -231,7 +233,7 @@ pub(crate) fn sides<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, state: &[f
 }
 
 /// Puts what is out of balance onto the axis.
-pub(crate) fn balance<E: Effects>(effects: &mut E) {
+pub(crate) fn put_on_axis<E: Effects>(effects: &mut E) {
     effects.for_each(|block| {
         let kind = block.kind();
         if kind.name == UNBALANCE.0 {
@@ -246,7 +248,7 @@ pub(crate) fn balance<E: Effects>(effects: &mut E) {
 pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f64) -> Result<Start, Invalid> {
     let given = &parameters.setup.start;
     let mut balanced = parameters.clone();
-    balance(&mut balanced.effects);
+    put_on_axis(&mut balanced.effects);
     let speed = balanced.effects.imposed(t).map_or(given.omega.x, |[speed, _]| speed);
     let lost = || Invalid {
         variable: "start.at_rest".into(),
@@ -261,7 +263,7 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
         let at = Coordinates::from_slice(rigid(&begun.state));
         let rotor = begun.frame.under(&balanced.effects);
         let about_axis = 1.0 / (rotor.frame.body.spin + rotor.frame.body.per_jt);
-        let spinning = Spinning { rotor: &rotor, own: begun.state, about_axis, speed };
+        let spinning = Spinning { rotor: &rotor, own: begun.state, about_axis, speed, t };
         let centre = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.centre.x);
         let start_at = |r: Vector3<f64>, gamma: Vector2<f64>| {
             let tilt = Tilt::new(rotor.frame.chart, gamma);
@@ -292,9 +294,7 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
             balanced.setup.start = given.clone();
             begun = Motion::elsewhere(&mut balanced, &found, t);
         } else {
-            let (mut state, k) = (begun.state, Coordinates::from_slice(rigid(&spinning.state(r, gamma))).k);
-            Coordinates { r, k, gamma, ..at }.write(rigid_mut(&mut state));
-            begun.state = state;
+            begun.state = spinning.state(r, gamma);
         }
     }
     Err(lost())

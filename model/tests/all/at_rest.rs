@@ -132,6 +132,18 @@ fn it_rests_under_what_drives_it() {
 }
 
 #[test]
+fn regress_a_load_that_grows_is_that_of_the_start() {
+    let mut rotor = Named::written(&format!("{}[[effects.port]]\nposition = 0.1\n", start("")));
+    let force = rotor.place("port[1].f.y");
+    rotor.simulation.set_input(force, 5.0);
+    rotor.simulation.set_input_derivative(force, 1, 1e3);
+    rotor.simulation.start(3.0, None).expect("it is held");
+    for rate in ["der(state.v.y)", "der(state.K.z)"] {
+        within(rate, rotor.get(rate).abs(), 1e-12);
+    }
+}
+
+#[test]
 fn what_cannot_rest_is_told() {
     let refused = |text: &str| {
         let mut rotor = Named::written(text);
