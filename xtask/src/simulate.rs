@@ -70,6 +70,8 @@ struct Run<'s> {
     watched: Vec<Watched>,
     inputs: &'s [Input],
     places: Vec<Place>,
+    /// When any of them bends or jumps \[s], ascending.
+    bends: Vec<f64>,
     solving: Duration,
 }
 
@@ -90,8 +92,11 @@ impl<'s> Run<'s> {
         let place =
             |input: &Input| scene.variables.iter().find(|variable| variable.name == input.name).map(|it| it.place);
         let (inputs, places) = (&scene.inputs[..], scene.inputs.iter().filter_map(place).collect());
+        let mut bends: Vec<_> = inputs.iter().flat_map(|input| &input.time).copied().collect();
+        bends.sort_by(f64::total_cmp);
+        bends.dedup();
         let simulation = Any::from(scene.parameters());
-        Self { simulation, outputs, watched, inputs, places, solving: Duration::ZERO }
+        Self { simulation, outputs, watched, inputs, places, bends, solving: Duration::ZERO }
     }
 
     /// Runs, and writes each communication point as a line of `file`, that where the motion ends early too.
@@ -132,11 +137,9 @@ impl<'s> Run<'s> {
 
     /// Goes to time `to` \[s], with a stop wherever an input bends or jumps on the way.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), Fault> {
-        let on_the_way = |t: &f64| from <= *t && *t < to;
-        let mut bends: Vec<_> = self.inputs.iter().flat_map(|input| &input.time).copied().filter(on_the_way).collect();
-        bends.sort_by(f64::total_cmp);
-        bends.dedup();
-        for bend in bends {
+        let [first, after] = [from, to].map(|t| self.bends.partition_point(|bend| *bend < t));
+        for n in first..after {
+            let bend = self.bends[n];
             self.simulation.advance(bend)?;
             self.steer(bend, |input| input.time.contains(&bend));
         }
