@@ -131,7 +131,7 @@ fn peers() -> Result<()> {
 }
 
 fn pytest(arguments: &[&str]) -> Result<()> {
-    run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
+    run(python::python_with_all()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
 }
 
 #[cfg(test)]
