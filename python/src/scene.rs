@@ -21,28 +21,33 @@ const SECTIONS: [&str; 4] = ["rotor", "start", "solver", "experiment"];
 
 #[pymethods]
 impl Scene {
+    /// The scene in this text; `path` names it, and is where the files of its inputs are looked for.
     #[staticmethod]
     #[pyo3(signature = (text, path = PathBuf::from("scene.toml")))]
     fn from_toml(text: String, path: PathBuf) -> PyResult<Self> {
         Ok(Self { scene: scene::Scene::parse(&path, &text).map_err(told)?, text })
     }
 
+    /// The scene in this TOML file.
     #[staticmethod]
     fn load(path: PathBuf) -> PyResult<Self> {
-        // With a part of its own a path is no name.
-        Self::read(&path, &path.display().to_string(), Path::new(""))
+        Self::of(scene::Scene::read(&path))
     }
 
+    /// One of the scenes that come with the package: `Scene.names()`.
     #[staticmethod]
     fn named(py: Python, name: &str) -> PyResult<Self> {
-        Self::read(Path::new(name), name, &data(py)?.join("scenes"))
+        Self::of(scene::Scene::find(name, &data(py)?.join("scenes")))
     }
 
+    /// The names of the scenes that come with the package.
     #[staticmethod]
     fn names(py: Python) -> PyResult<Vec<String>> {
         Ok(scene::Scene::names(&data(py)?.join("scenes")))
     }
 
+    /// This scene with other parameters, by the names of variables ("rotor.m", "bearing[1].kyy", "unbalance[1].moment", "experiment.stop");
+    /// values as in a scene: numbers in SI units, or texts with a unit ("3000 rpm").
     fn with_values(&self, values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut document = self.document()?;
         for (name, value) in values {
@@ -53,6 +58,7 @@ impl Scene {
         Self::from_toml(document.to_string(), self.scene.file.clone())
     }
 
+    /// This scene with these inputs over time, in place of its own of the same names: name, times [s], values.
     fn with_inputs(&self, inputs: Vec<(String, Vec<f64>, Vec<f64>)>) -> PyResult<Self> {
         let mut document = self.document()?;
         let all = document.entry("input").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
@@ -76,26 +82,31 @@ impl Scene {
         Self::from_toml(document.to_string(), self.scene.file.clone())
     }
 
+    /// The name of its file, and of its FMU.
     #[getter]
     fn name(&self) -> &str {
         &self.scene.name
     }
 
+    /// One line on what it shows.
     #[getter]
     fn title(&self) -> &str {
         &self.scene.title
     }
 
+    /// Its text.
     #[getter]
     fn toml(&self) -> &str {
         &self.text
     }
 
+    /// What acts on the rotor.
     #[getter]
     fn effects(&self) -> Vec<String> {
         self.scene.effects.iter().map(|(info, index)| info.block_name(*index)).collect()
     }
 
+    /// Parameters, inputs and outputs by name: causality, unit, description, and its value at the start.
     #[getter]
     fn variables<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
@@ -126,14 +137,10 @@ impl Scene {
 }
 
 impl Scene {
-    /// The scene that the commands find under this name or path.
-    fn read(file: &Path, name: &str, folder: &Path) -> PyResult<Self> {
-        let scene = match std::fs::read_to_string(file) {
-            Ok(text) if folder.as_os_str().is_empty() => return Self::from_toml(text, file.into()),
-            _ => scene::Scene::find(name, folder).map_err(told)?,
-        };
-        let text = std::fs::read_to_string(&scene.file)?;
-        Ok(Self { scene, text })
+    /// What was read from a file, with its text.
+    fn of(read: Result<scene::Scene, scene::SceneError>) -> PyResult<Self> {
+        let scene = read.map_err(told)?;
+        Ok(Self { text: std::fs::read_to_string(&scene.file)?, scene })
     }
 
     /// One more of it, which its owner may change.

@@ -1,13 +1,13 @@
-//! The licences of the crates in an FMU's library.
+//! The licences of the crates in a library.
 
 use crate::run::{cargo, compiler, output};
 use anyhow::{Context, Result};
 use serde_json::Value;
 use std::path::Path;
 
-/// The licences of the crates that are linked into the library, in the order of their names.
-pub fn third_party() -> Result<String> {
-    let tree = ["tree", "--package", "split-rotor", "--edges", "normal,no-proc-macro", "--prefix", "none"];
+/// The licences of the crates that are linked into the library of this package, in the order of their names.
+pub fn third_party(package: &str) -> Result<String> {
+    let tree = ["tree", "--package", package, "--edges", "normal,no-proc-macro", "--prefix", "none"];
     let linked = output(cargo().args(tree).args(["--format", "{p}|{l}"]))?;
     // Of this platform only: cargo would fetch the crates of all others.
     let compiler = compiler()?;

@@ -35,6 +35,7 @@ mod stability;
 mod state_space;
 mod test;
 mod unpacked;
+mod wheel;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
@@ -223,6 +224,8 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+    /// Build the Python package `split_rotor` into target/wheel, install it into a new environment without Rust, and test it there
+    Wheel,
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print every key that a scene knows, with its value, unit and meaning, as a scene
@@ -280,6 +283,7 @@ fn dispatch(command: Command) -> Result<()> {
         }
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
+        Command::Wheel => wheel::wheel().map(drop),
         Command::Scenes => scenes::list(),
         Command::Describe { scene, xml } => describe::describe(&scene, xml),
     }

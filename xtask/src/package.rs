@@ -17,7 +17,7 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     }
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
-    let licences = licences::third_party()?;
+    let licences = licences::third_party("split-rotor")?;
     let progress = accuracy::bar(scenes.len());
     let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
     // A library is compiled and linked by one thread.

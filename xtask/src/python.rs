@@ -4,14 +4,14 @@ use crate::paths;
 use crate::run::run;
 use anyhow::{Context, Result, bail};
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// An environment, before it is made.
 struct Environment<'a> {
     /// Its folder in target/.
     folder: &'a str,
-    /// Its requirements in xtask/python/.
+    /// Its requirements, from the project's folder.
     requirements: &'a str,
     /// The versions of Python 3 for which they were resolved.
     minors: RangeInclusive<u32>,
@@ -19,15 +19,41 @@ struct Environment<'a> {
 
 /// fmpy, pytest and what draws the report.
 const MAIN: Environment<'static> =
-    Environment { folder: "venv", requirements: "requirements.txt", minors: 10..=u32::MAX };
+    Environment { folder: "venv", requirements: "xtask/python/requirements.txt", minors: 10..=u32::MAX };
 
 /// The other simulators. They do not fit beside fmpy of today: CoFMPy holds on to an old one.
 const CLIENTS: Environment<'static> =
-    Environment { folder: "venv-clients", requirements: "requirements-clients.txt", minors: 11..=14 };
+    Environment { folder: "venv-clients", requirements: "xtask/python/requirements-clients.txt", minors: 11..=14 };
+
+/// What builds the Python package.
+const BUILDER: Environment<'static> =
+    Environment { folder: "venv-wheel", requirements: "xtask/python/requirements-wheel.txt", minors: 10..=u32::MAX };
+
+/// What the tests of the Python package need beside it.
+const USER: Environment<'static> =
+    Environment { folder: "venv-user", requirements: "python/tests/requirements.txt", minors: 10..=u32::MAX };
 
 /// A command of the Python that has fmpy and pytest; its environment is made first where it is missing or out of date.
 pub fn python() -> Result<Command> {
     MAIN.python()
+}
+
+/// A program that builds the Python package, where it finds the others.
+pub fn wheel_builder(program: &str) -> Result<Command> {
+    let python = PathBuf::from(BUILDER.python()?.get_program());
+    let programs = python.parent().context("a Python lies in a folder")?;
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut command = command(programs.join(program));
+    command.env("PATH", std::env::join_paths([programs.into()].into_iter().chain(std::env::split_paths(&path)))?);
+    Ok(command)
+}
+
+/// The Python of a new environment with this wheel.
+pub fn of_wheel(wheel: &Path) -> Result<Command> {
+    let python = USER.make()?;
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-index"];
+    run(command(python.clone()).args(install).arg(wheel))?;
+    Ok(command(python))
 }
 
 /// Makes the environment that has the other simulators, where it is missing or out of date.
@@ -54,29 +80,42 @@ pub fn scipy() -> Result<Command> {
 }
 
 fn python_of_peer(name: &str) -> Result<Command> {
-    let (folder, requirements) = (format!("venv-peers/{name}"), format!("peers/requirements/{name}.txt"));
+    let (folder, requirements) = (format!("venv-peers/{name}"), format!("xtask/python/peers/requirements/{name}.txt"));
     Environment { folder: &folder, requirements: &requirements, minors: 11..=14 }.python()
 }
 
 impl Environment<'_> {
+    /// Its Python; it is made first where it is missing or out of date.
     fn python(&self) -> Result<Command> {
-        let folder = paths::target().join(self.folder);
-        let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-        let requirements = paths::root().join("xtask/python").join(self.requirements);
-        let wanted = std::fs::read_to_string(&requirements)?;
-        // What was installed; it is written last, so an environment that was cut short is made anew.
-        let stamp = folder.join("requirements.txt");
-        if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) && python.is_file() {
-            return Ok(command(python));
-        }
+        let (python, wanted) = (self.program(), std::fs::read_to_string(self.requirements())?);
+        let is_made = std::fs::read_to_string(self.stamp()).is_ok_and(|installed| installed == wanted);
+        Ok(command(if is_made && python.is_file() { python } else { self.make()? }))
+    }
+
+    fn program(&self) -> PathBuf {
+        paths::target().join(self.folder).join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" })
+    }
+
+    fn requirements(&self) -> PathBuf {
+        paths::root().join(self.requirements)
+    }
+
+    /// What was installed; it is written last, so an environment that was cut short is made anew.
+    fn stamp(&self) -> PathBuf {
+        paths::target().join(self.folder).join("requirements.txt")
+    }
+
+    /// Makes it anew; its Python.
+    fn make(&self) -> Result<PathBuf> {
+        let (folder, python) = (paths::target().join(self.folder), self.program());
         eprintln!("making the Python environment {}", folder.display());
         run(Command::new(self.system_python()?).args(["-m", "venv", "--clear"]).arg(&folder))
             .with_context(|| self.needed())?;
         let install =
             ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "--requirement"];
-        run(command(python.clone()).args(install).arg(&requirements))?;
-        std::fs::write(stamp, wanted)?;
-        Ok(command(python))
+        run(command(python.clone()).args(install).arg(self.requirements()))?;
+        std::fs::copy(self.requirements(), self.stamp())?;
+        Ok(python)
     }
 
     /// The machine's own Python, if its version is right.
