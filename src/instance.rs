@@ -221,18 +221,12 @@ impl Instance {
     /// Says once each that the tilt is large, where that matters, and that the linear motion grows.
     fn warn(&mut self) {
         let [of_tilt, of_growth, _] = &mut self.memory.warned;
-        if !*of_tilt && self.memory.simulation.has_tilted() {
+        if !*of_tilt && let Some(message) = self.memory.simulation.warns_of_tilt() {
             *of_tilt = true;
-            let message = "the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit at pi, and \
-                           beyond 3.1 rad no step is possible";
             self.logger.log(Severity::Warning, Category::Warning, message);
         }
-        if !*of_growth && let Some((rate, t)) = self.memory.simulation.growth() {
+        if !*of_growth && let Some(message) = self.memory.simulation.warns_of_growth() {
             *of_growth = true;
-            let message = format!(
-                "the rotor is unstable: small motions about its state at t = {t:?} s grow by a factor of e every {:.3e} s",
-                1.0 / rate
-            );
             self.logger.log(Severity::Warning, Category::Warning, &message);
         }
     }

@@ -64,7 +64,7 @@ fn files(folder: &str, suffix: &str) -> Vec<PathBuf> {
 }
 
 fn rust_files() -> Vec<PathBuf> {
-    ["src", "model", "oracles", "tests", "benches", "xtask", "fuzz/src"]
+    ["src", "model", "oracles", "tests", "benches", "tools", "xtask", "fuzz/src", "python/src"]
         .iter()
         .flat_map(|folder| files(folder, ".rs"))
         .collect()

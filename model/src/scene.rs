@@ -21,6 +21,7 @@ pub use similar::did_you_mean;
 
 use crate::effects::{All, Effects, Info};
 use crate::error::Invalid;
+use crate::simulation::ALWAYS_INDICATED;
 use crate::variable::Place;
 use crate::variables::{Parameters, Variable};
 use std::collections::BTreeMap;
@@ -43,6 +44,8 @@ pub struct Scene {
     pub variables: Vec<Variable>,
     /// The start value of each parameter and input, by value reference.
     pub starts: BTreeMap<u32, f64>,
+    /// How many indicators of events its library has.
+    pub indicators: usize,
     /// When and how finely to look at it.
     pub experiment: Experiment,
     /// What its inputs are over time, for those who run it; the FMU leaves that to its host.
@@ -97,7 +100,7 @@ impl Scene {
         }
         let error = |problems| SceneError { file: file.into(), text: text.to_owned(), problems };
         let found = reader::read(text, file.parent().unwrap_or(Path::new(""))).map_err(error)?;
-        let scene = Self {
+        let mut scene = Self {
             file: file.into(),
             title: found.title.unwrap_or_else(|| name.clone()),
             name,
@@ -105,9 +108,15 @@ impl Scene {
             effects: found.effects,
             variables: found.variables,
             starts: found.starts,
+            indicators: 0,
             experiment: found.experiment,
             inputs: found.inputs,
         };
+        let indicated = scene.effects.iter().map(|(info, index)| {
+            let has_table = scene.nodes(Place::effect_block(info.number, *index)) > 0;
+            if has_table { info.indicators_with_table } else { info.indicators }
+        });
+        scene.indicators = ALWAYS_INDICATED + indicated.sum::<usize>();
         let place = |invalid: &Invalid| {
             // A bound on several components, such as |start.gamma|, or on a table is shown at the first that the file names.
             let name = invalid.variable.trim_matches('|').split(' ').next().unwrap_or_default();

@@ -320,6 +320,24 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
+    /// What to warn of where the tilt ever was large and that matters ([`Simulation::has_tilted`]).
+    pub fn warns_of_tilt(&self) -> Option<&'static str> {
+        let words = "the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit at pi, and beyond 3.1 rad no \
+                     step is possible";
+        self.has_tilted().then_some(words)
+    }
+
+    /// What to warn of where the linear motion grows ([`Simulation::growth`]).
+    pub fn warns_of_growth(&self) -> Option<String> {
+        let words = |(rate, t): (f64, f64)| {
+            let longer = 1.0 / rate;
+            format!(
+                "the rotor is unstable: small motions about its state at t = {t:?} s grow by a factor of e every {longer:.3e} s"
+            )
+        };
+        self.growth().map(words)
+    }
+
     /// The value of a variable at the communication point, before the start as the parameters have it; None where there
     /// is none at this place. An error where the parameters are not possible.
     pub fn get(&mut self, place: Place) -> Result<Option<f64>, Invalid> {

@@ -1,13 +1,12 @@
 //! modelDescription.xml (FMI 2.0.4) and the GUID of a scene, from the one list of variables.
 
 use crate::dependencies::Dependencies;
-use crate::effects::Info;
 use crate::log::{self, Category};
 use crate::scene::Scene;
-use crate::simulation::{ALWAYS_INDICATED, Any, Integrator};
+use crate::simulation::{Any, Integrator};
 use crate::state::{GAMMA, PHI, SUPPLIED};
 use crate::variable::units::Unit;
-use crate::variable::{Bound, Enumeration, Kind, Place, Role};
+use crate::variable::{Bound, Enumeration, Kind, Role};
 use crate::variables::{Variable, state_number};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -45,11 +44,6 @@ fn render(scene: &Scene, guid: &str) -> String {
 fn write(out: &mut Out, scene: &Scene, guid: &str) -> io::Result<()> {
     out.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
     let version = env!("CARGO_PKG_VERSION");
-    let indicators = |(info, index): &(&Info, u32)| match scene.nodes(Place::effect_block(info.number, *index)) {
-        0 => info.indicators,
-        _ => info.indicators_with_table,
-    };
-    let indicators = ALWAYS_INDICATED + scene.effects.iter().map(indicators).sum::<usize>();
     let attributes = [
         ("fmiVersion", "2.0"),
         ("modelName", &scene.name),
@@ -59,7 +53,7 @@ fn write(out: &mut Out, scene: &Scene, guid: &str) -> io::Result<()> {
         ("license", env!("CARGO_PKG_LICENSE")),
         ("generationTool", &format!("split-rotor {version}")),
         ("variableNamingConvention", "structured"),
-        ("numberOfEventIndicators", &indicators.to_string()),
+        ("numberOfEventIndicators", &scene.indicators.to_string()),
     ];
     out.create_element("fmiModelDescription").with_attributes(attributes).write_inner_content(|out| {
         let common = [

@@ -81,14 +81,18 @@ pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
 
 /// Builds the library of the scene's list, of the project in the folder `root`.
 pub fn build_in(root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
-    run(of_list(&mut cargo(), scene)
+    build_with(cargo().args(["rustc", "--quiet"]), root, scene, target)?;
+    Ok(target.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
+}
+
+/// Builds it with this command, `rustc` of cargo or of what stands in for it.
+pub fn build_with(cargo: &mut Command, root: &Path, scene: &Scene, target: &Path) -> Result<()> {
+    run(of_list(cargo, scene)
         .current_dir(root)
-        .args(["rustc", "--quiet", "--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib"])
-        .arg("--target-dir")
+        .args(["--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib", "--target-dir"])
         .arg(target)
         .env("CARGO_ENCODED_RUSTFLAGS", flags(root)?)
-        .env_remove("RUSTFLAGS"))?;
-    Ok(target.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
+        .env_remove("RUSTFLAGS"))
 }
 
 /// What the compiler must not do with the physics: to pack scalars into vectors by itself, which makes the right-hand side
@@ -97,7 +101,7 @@ pub const UNPACKED: &str = "-Cno-vectorize-slp";
 
 /// The user's own compiler flags, [`UNPACKED`], and that no path of this machine stays in the library: not that of the project,
 /// `root`, nor that of its libraries.
-fn flags(root: &Path) -> Result<String> {
+pub fn flags(root: &Path) -> Result<String> {
     let own = match std::env::var("CARGO_ENCODED_RUSTFLAGS") {
         Ok(flags) => flags.split('\x1f').map(str::to_owned).collect(),
         Err(_) => {

@@ -1,25 +1,13 @@
-//! The licences of an FMU: ours, and those of the crates in its library.
+//! The licences of the crates in a library.
 
-use crate::paths;
 use crate::run::{cargo, compiler, output};
 use anyhow::{Context, Result};
 use serde_json::Value;
 use std::path::Path;
 
-/// Our own licence, for documentation/licenses/license.txt; what it says of `others`, the licences of libraries, is a line.
-pub fn own(others: &str) -> Result<String> {
-    let text = |name: &str| std::fs::read_to_string(paths::root().join(name));
-    Ok(format!(
-        "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n\
-         {others}\n\n{}\n\n{}",
-        text("LICENSE-MIT")?,
-        text("LICENSE-APACHE")?
-    ))
-}
-
-/// The licences of the crates that are linked into the library, in the order of their names.
-pub fn third_party() -> Result<String> {
-    let tree = ["tree", "--package", "split-rotor", "--edges", "normal,no-proc-macro", "--prefix", "none"];
+/// The licences of the crates that are linked into the library of this package, in the order of their names.
+pub fn third_party(package: &str) -> Result<String> {
+    let tree = ["tree", "--package", package, "--edges", "normal,no-proc-macro", "--prefix", "none"];
     let linked = output(cargo().args(tree).args(["--format", "{p}|{l}"]))?;
     // Of this platform only: cargo would fetch the crates of all others.
     let compiler = compiler()?;

@@ -1,6 +1,6 @@
 //! The linear equations of a scene as an FMU of their own, in C that travels with it.
 
-use crate::{c, licences, package, paths, templates};
+use crate::{c, paths};
 use anyhow::{Context, Result};
 use minijinja::{Value, context};
 use nalgebra::DMatrix;
@@ -10,6 +10,8 @@ use split_rotor_model::scene::Scene;
 use split_rotor_model::variable::units::Unit;
 use split_rotor_model::variables::Variable;
 use split_rotor_model::xml;
+use split_rotor_tools::archive::{ICON, archive, library_path, licence};
+use split_rotor_tools::templates;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -37,11 +39,11 @@ pub fn write(scene: &Scene, space: &StateSpace, folder: &Path) -> Result<PathBuf
         fs::copy(paths::root().join("modelDescription/linear").join(source), sources.join(source))?;
     }
     fs::write(sources.join(MATRICES), matrices)?;
-    let library = package::library_path(&identifier).and_then(|path| Ok((path, fs::read(library(scene, &[])?)?)));
+    let library = library_path(&identifier).and_then(|path| Ok((path, fs::read(library(scene, &[])?)?)));
     let fmu = folder.join(format!("{name}.fmu"));
-    package::archive(&fmu, |add| {
+    archive(&fmu, |add| {
         add("modelDescription.xml", description.as_bytes())?;
-        add("model.png", &package::icon()?)?;
+        add("model.png", ICON)?;
         if let Ok((path, library)) = &library {
             add(path, library)?;
         }
@@ -49,8 +51,7 @@ pub fn write(scene: &Scene, space: &StateSpace, folder: &Path) -> Result<PathBuf
             add(&format!("sources/{source}"), &fs::read(sources.join(source))?)?;
         }
         add("documentation/index.html", render("index.html", &guid)?.as_bytes())?;
-        let licence = licences::own("It holds no libraries of others.")?;
-        add("documentation/licenses/license.txt", licence.as_bytes())
+        add("documentation/licenses/license.txt", licence("It holds no libraries of others.").as_bytes())
     })?;
     if let Err(error) = library {
         eprintln!("{} holds its sources, but no library: {error:#}", fmu.display());

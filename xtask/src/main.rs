@@ -18,11 +18,8 @@ mod library;
 mod licences;
 mod linear_fmu;
 mod memcheck;
-mod numbers;
 mod package;
-mod page;
 mod paths;
-mod peaks;
 mod progress;
 mod python;
 mod report;
@@ -34,19 +31,18 @@ mod scenes;
 mod sheet;
 mod sheets;
 mod simulate;
-mod speeds;
 mod ssv;
 mod stability;
 mod state_space;
-mod templates;
-mod terminals;
 mod test;
 mod unpacked;
+mod wheel;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
 use split_rotor_model::scene::SceneError;
+use split_rotor_tools::{numbers, peaks, speeds};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -229,6 +225,8 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+    /// Build the Python package `split_rotor` into target/wheel, install it into a new environment without Rust, and test it there
+    Wheel,
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print every key that a scene knows, with its value, unit and meaning, as a scene
@@ -286,6 +284,7 @@ fn dispatch(command: Command) -> Result<()> {
         }
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
+        Command::Wheel => wheel::wheel().map(drop),
         Command::Scenes => scenes::list(),
         Command::Describe { scene, xml } => describe::describe(&scene, xml),
     }

@@ -6,14 +6,14 @@ use crate::run::run;
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// An environment, before it is made.
 struct Environment<'a> {
     /// Its folder in target/.
     folder: &'a str,
-    /// Its requirements in xtask/python/, each a list of its own: what comes later is added to what is there.
+    /// Its requirements, from the project's folder, each a list of its own: what comes later is added to what is there.
     requirements: &'a [&'a str],
     /// The versions of Python 3 for which they were resolved.
     minors: RangeInclusive<u32>,
@@ -21,14 +21,23 @@ struct Environment<'a> {
 
 /// fmpy and what makes the report.
 const MAIN: Environment<'static> =
-    Environment { folder: "venv", requirements: &["requirements.txt"], minors: 10..=u32::MAX };
+    Environment { folder: "venv", requirements: &["xtask/python/requirements.txt"], minors: 10..=u32::MAX };
 
 /// The same, and what draws the other pictures and runs the tests.
-const ALL: Environment<'static> = Environment { requirements: &["requirements.txt", "requirements-all.txt"], ..MAIN };
+const ALL: Environment<'static> =
+    Environment { requirements: &["xtask/python/requirements.txt", "xtask/python/requirements-all.txt"], ..MAIN };
 
 /// The other simulators. They do not fit beside fmpy of today: CoFMPy holds on to an old one.
 const CLIENTS: Environment<'static> =
-    Environment { folder: "venv-clients", requirements: &["requirements-clients.txt"], minors: 11..=14 };
+    Environment { folder: "venv-clients", requirements: &["xtask/python/requirements-clients.txt"], minors: 11..=14 };
+
+/// What builds the Python package.
+const BUILDER: Environment<'static> =
+    Environment { folder: "venv-wheel", requirements: &["xtask/python/requirements-wheel.txt"], minors: 10..=u32::MAX };
+
+/// What the tests of the Python package need beside it.
+const USER: Environment<'static> =
+    Environment { folder: "venv-user", requirements: &["python/tests/requirements.txt"], minors: 10..=u32::MAX };
 
 /// A command of the Python that has fmpy; its environment is made first where it is missing or out of date.
 pub fn python() -> Result<Command> {
@@ -38,6 +47,24 @@ pub fn python() -> Result<Command> {
 /// The same, with matplotlib and pytest.
 pub fn python_with_all() -> Result<Command> {
     ALL.python()
+}
+
+/// A program that builds the Python package, where it finds the others.
+pub fn wheel_builder(program: &str) -> Result<Command> {
+    let python = PathBuf::from(BUILDER.python()?.get_program());
+    let programs = python.parent().context("a Python lies in a folder")?;
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let mut command = command(programs.join(program));
+    command.env("PATH", std::env::join_paths([programs.into()].into_iter().chain(std::env::split_paths(&path)))?);
+    Ok(command)
+}
+
+/// The Python of a new environment with this wheel.
+pub fn of_wheel(wheel: &Path) -> Result<Command> {
+    let _ = fs::remove_dir_all(paths::target().join(USER.folder));
+    let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-index"];
+    run(USER.python()?.args(install).arg(wheel))?;
+    USER.python()
 }
 
 /// Makes the environment that has the other simulators, where it is missing or out of date.
@@ -64,7 +91,7 @@ pub fn scipy() -> Result<Command> {
 }
 
 fn python_of_peer(name: &str) -> Result<Command> {
-    let (folder, requirements) = (format!("venv-peers/{name}"), format!("peers/requirements/{name}.txt"));
+    let (folder, requirements) = (format!("venv-peers/{name}"), format!("xtask/python/peers/requirements/{name}.txt"));
     Environment { folder: &folder, requirements: &[&requirements], minors: 11..=14 }.python()
 }
 
@@ -73,11 +100,12 @@ const INSTALL: [&str; 7] =
     ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--require-hashes"];
 
 impl Environment<'_> {
+    /// Its Python; it is made first where it is missing or out of date.
     fn python(&self) -> Result<Command> {
         let folder = paths::target().join(self.folder);
         let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
         for (number, name) in self.requirements.iter().enumerate() {
-            let requirements = paths::root().join("xtask/python").join(name);
+            let requirements = paths::root().join(name);
             let wanted = fs::read_to_string(&requirements)?;
             // What was installed; it is written last, so an environment that was cut short is made anew.
             let stamp = folder.join(format!("installed-{number}.txt"));

@@ -2,27 +2,13 @@
 
 use crate::paths;
 use anyhow::Result;
-use split_rotor_model::effects::Info;
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::General;
-use split_rotor_model::variable::Place;
-use split_rotor_model::variables::{Variable, numbers};
+use split_rotor_model::variables::numbers;
+pub use split_rotor_tools::scenes::values;
 
 /// The scene that the user means.
 pub fn find(name_or_path: &str) -> Result<Scene> {
     Ok(Scene::find(name_or_path, &paths::scenes())?)
-}
-
-/// The variables of one effect of a scene, the `index`th of its kind.
-pub fn variables_of<'s>(scene: &'s Scene, info: &Info, index: u32) -> impl Iterator<Item = &'s Variable> {
-    let block = Place::effect_block(info.number, index);
-    scene.variables.iter().filter(move |variable| variable.place.block == block)
-}
-
-/// What a scene's parameters and inputs are at the start, by their names.
-pub fn values(scene: &Scene) -> impl Fn(&str) -> Option<f64> {
-    let told: General = scene.parameters().into();
-    move |name| told.value(scene.variables.iter().find(|variable| variable.name == name)?.place)
 }
 
 /// Whether a scene names an adaptive method. The others are too stiff, too fast or too long for the loops of a host in model exchange,

@@ -1,12 +1,10 @@
-//! Rows of named values, as comma-separated ones and as JSON, and what a command leaves behind in target/.
+//! What a command leaves behind in target/.
 
 use crate::paths;
 use anyhow::{Context, Result};
-use serde_json::{Map, Value, json};
+use serde_json::Value;
+pub use split_rotor_tools::rows::{Row, csv, objects};
 use std::path::PathBuf;
-
-/// A row: columns' names and values.
-pub type Row = Vec<(&'static str, Value)>;
 
 /// Writes these files, names and texts, into a folder of target/, which is made where it is not there.
 pub fn write(folder: &str, files: [(&str, &str); 3]) -> Result<PathBuf> {
@@ -55,25 +53,4 @@ impl Left {
             println!("{}", file.display());
         }
     }
-}
-
-/// Rows as objects of JSON.
-pub fn objects(rows: impl IntoIterator<Item = Row>) -> Vec<Map<String, Value>> {
-    rows.into_iter().map(|row| row.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()).collect()
-}
-
-/// Rows of columns' names and values, with a header.
-pub fn csv(rows: &[Row]) -> String {
-    let header = rows.first().into_iter().map(|row| line(row.iter().map(|(name, _)| json!(name))));
-    header.chain(rows.iter().map(|row| line(row.iter().map(|(_, value)| value.clone())))).collect()
-}
-
-fn line(fields: impl Iterator<Item = Value>) -> String {
-    let field = |value| match value {
-        Value::Null => String::new(),
-        Value::String(text) if text.contains([',', '"', '\n']) => format!("\"{}\"", text.replace('"', "\"\"")),
-        Value::String(text) => text,
-        value => value.to_string(),
-    };
-    fields.map(field).collect::<Vec<_>>().join(",") + "\n"
 }

@@ -1,16 +1,14 @@
-//! `run`: a scene simulated in this process, without a package: over the list of all effects, which gives the bits of the scene's FMU.
+//! `run`: a scene simulated in this process, without a package, with its report.
 
 use crate::numbers::rounded;
 use crate::progress::{Progress, program};
 use crate::{paths, python, report, scenes};
-use anyhow::{Context, Error, Result, bail};
+use anyhow::{Context, Result};
 use cpu_time::ThreadTime;
-use split_rotor_model::integrate::Fault;
-use split_rotor_model::scene::{Experiment, Input, Scene};
-use split_rotor_model::simulation::General;
-use split_rotor_model::variable::{Place, Role};
-use split_rotor_model::variables::{METHODS, Variable};
+use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::variables::Variable;
 use split_rotor_model::xml;
+use split_rotor_tools::run::{self, Run};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -28,16 +26,16 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
     let table = folder.join("result.csv");
-    let mut run_of_scene = Run::of(&scene);
-    let outcome = run_of_scene.record(&scene.experiment, &table);
-    run_of_scene.print(&scene.title)?;
+    let mut recorded = Recorded::of(&scene);
+    let outcome = recorded.record(&scene.experiment, &table);
+    recorded.print(&scene.title)?;
     println!("  table      {}", table.display());
     outcome.with_context(|| scene.file.display().to_string())?;
     if with_report {
         let Experiment { start, stop, step, .. } = scene.experiment;
         let parts = (SEEN * step / (stop - start) * (1.0 - 1e-9)).ceil().max(1.0);
         let often = Experiment { step: step / parts, ..scene.experiment };
-        Run::of(&scene).record(&often, &folder.join(SAMPLES))?;
+        Recorded::of(&scene).record(&often, &folder.join(SAMPLES))?;
         let view = report::linear_view(name);
         let mut report = python::python()?;
         report.arg("xtask/python/run.py").arg(&folder).args(["--table", SAMPLES]).args(view);
@@ -49,31 +47,10 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
 /// What the report is made from.
 const SAMPLES: &str = "samples.csv";
 
-/// The highest |ω_φ| [rad/s] that a run of the scene comes to, looked at a thousand times.
-pub fn fastest(scene: &Scene) -> f64 {
-    let (mut run, mut fastest) = (Run::of(scene), 0.0_f64);
-    let speed = scene.variables.iter().find(|variable| variable.name == "omega_phi").map(|variable| variable.place);
-    let Experiment { start, stop, .. } = scene.experiment;
-    let seldom = Experiment { step: (stop - start) / 1e3, ..scene.experiment };
-    let look = |run: &mut Run, _| {
-        let speed = speed.map(|place| run.simulation.get(place)).transpose()?.flatten();
-        fastest = fastest.max(speed.unwrap_or_default().abs());
-        Ok(())
-    };
-    // What a run that ends early comes to counts all the same.
-    let _ = run.follow(&seldom, look);
-    fastest
-}
-
 /// A run and what was seen of it.
-struct Run<'s> {
-    simulation: General,
-    outputs: Vec<&'s Variable>,
+struct Recorded<'s> {
+    run: Run<'s>,
     watched: Vec<Watched>,
-    inputs: &'s [Input],
-    places: Vec<Place>,
-    /// When any of them bends or jumps \[s], ascending.
-    bends: Vec<f64>,
     solving: Duration,
 }
 
@@ -86,108 +63,43 @@ struct Watched {
     at: f64,
 }
 
-impl<'s> Run<'s> {
-    fn of(scene: &'s Scene) -> Self {
-        let outputs: Vec<_> =
-            scene.variables.iter().filter(|variable| matches!(variable.meta.role, Role::Output)).collect();
-        let watched = watched(&outputs);
-        let place =
-            |input: &Input| scene.variables.iter().find(|variable| variable.name == input.name).map(|it| it.place);
-        let (inputs, places) = (&scene.inputs[..], scene.inputs.iter().filter_map(place).collect());
-        let mut bends: Vec<_> = inputs.iter().flat_map(|input| &input.time).copied().collect();
-        bends.sort_by(f64::total_cmp);
-        bends.dedup();
-        let simulation = General::from(scene.parameters());
-        Self { simulation, outputs, watched, inputs, places, bends, solving: Duration::ZERO }
-    }
-
+impl<'s> Recorded<'s> {
     /// Runs, and writes each communication point as a line of `file`, that where the motion ends early too.
     fn record(&mut self, experiment: &Experiment, file: &Path) -> Result<()> {
         let mut table = BufWriter::new(File::create(file)?);
-        let names: Vec<_> = self.outputs.iter().map(|output| output.name.as_str()).collect();
+        let names: Vec<_> = self.run.outputs().iter().map(|output| output.name.as_str()).collect();
         writeln!(table, "time,{}", names.join(","))?;
-        let outcome = self.follow(experiment, |run, t| run.write(t, &mut table));
+        let progress = Progress::of(run::points(experiment));
+        progress.set_message("simulating");
+        let (watched, mut writing) = (&mut self.watched, Duration::ZERO);
+        let began = ThreadTime::now();
+        let outcome = self.run.follow(experiment, |run, t| {
+            let began = ThreadTime::now();
+            write(run.values()?, t, watched, &mut table)?;
+            progress.inc(1);
+            writing += began.elapsed();
+            Ok(())
+        });
+        self.solving = began.elapsed() - writing;
         table.flush()?;
         outcome
     }
 
-    /// Runs; at each communication point \[s] it is `seen`, that where the motion ends early too.
-    fn follow(&mut self, experiment: &Experiment, mut seen: impl FnMut(&mut Self, f64) -> Result<()>) -> Result<()> {
-        let Experiment { start, stop, step, tolerance } = *experiment;
-        self.steer(start, |_| true);
-        self.simulation.start_until(start, Some(tolerance), Some(stop))?;
-        seen(self, start)?;
-        let points = ((stop - start) / step - 1e-9).ceil() as u64;
-        let (progress, mut from) = (Progress::of(points as usize), start);
-        progress.set_message("simulating");
-        for point in 1..=points {
-            // As a host reckons, which tells the length of a step.
-            let next = (start + point as f64 * step).min(stop);
-            let began = ThreadTime::now();
-            let outcome = self.advance(from, from + (next - from));
-            self.solving += began.elapsed();
-            let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
-            if reached > from {
-                seen(self, reached)?;
-            }
-            outcome.map_err(|fault| Error::msg(fault.to_string()))?;
-            from = next;
-            progress.inc(1);
-        }
-        Ok(())
-    }
-
-    /// Goes to time `to` \[s], with a stop wherever an input bends or jumps on the way.
-    fn advance(&mut self, from: f64, to: f64) -> Result<(), Fault> {
-        let [first, after] = [from, to].map(|t| self.bends.partition_point(|bend| *bend < t));
-        for n in first..after {
-            let bend = self.bends[n];
-            self.simulation.advance(bend)?;
-            self.steer(bend, |input| input.time.contains(&bend));
-        }
-        self.simulation.advance(to)
-    }
-
-    /// Gives these inputs their course from time `t` \[s] on.
-    fn steer(&mut self, t: f64, which: impl Fn(&Input) -> bool) {
-        for (input, place) in self.inputs.iter().zip(&self.places).filter(|(input, _)| which(input)) {
-            let [value, rate] = input.from(t);
-            self.simulation.set_input(*place, value);
-            self.simulation.set_input_derivative(*place, 1, rate);
-        }
-    }
-
-    /// Writes what the outputs are now, at time `t` \[s].
-    fn write(&mut self, t: f64, table: &mut impl Write) -> Result<()> {
-        let mut values = Vec::with_capacity(self.outputs.len());
-        for output in &self.outputs {
-            let value = self.simulation.get(output.place)?.context("a scene has its own variables")?;
-            if !value.is_finite() {
-                bail!("{} is infinite or undefined at t = {t:?} s", output.name);
-            }
-            values.push(value);
-        }
-        for watched in &mut self.watched {
-            let size = watched.columns.iter().fold(0.0_f64, |size, column| size.hypot(values[*column]));
-            if size > watched.largest {
-                (watched.largest, watched.at) = (size, t);
-            }
-        }
-        let values: Vec<_> = values.iter().map(|value| format!("{value:?}")).collect();
-        Ok(writeln!(table, "{t:?},{}", values.join(","))?)
+    fn of(scene: &'s Scene) -> Self {
+        let outputs: Vec<_> = run::outputs(scene).collect();
+        Self { watched: watched(&outputs), run: Run::of(scene, outputs), solving: Duration::ZERO }
     }
 
     /// Prints what came of it.
     fn print(&mut self, title: &str) -> Result<()> {
         println!("{title}");
-        let Some(t) = self.simulation.time() else { return Ok(()) };
+        let Some(t) = self.run.simulation.time() else { return Ok(()) };
         println!("  time       up to {t} s, {:.3} s of CPU time for it", self.solving.as_secs_f64());
-        let number = self.simulation.parameters().setup.solver.method_in_force();
-        let method = METHODS.items.iter().find(|item| item.0 == number).map_or("", |item| item.1);
-        let cost = self.simulation.read()?.cost;
+        let method = self.run.method();
+        let cost = self.run.simulation.read()?.cost;
         let (steps, rejected, evaluations) = (cost.steps, cost.rejected, cost.evaluations);
         println!("  solver     {method}: {steps} steps, {rejected} rejected, {evaluations} evaluations");
-        if let Some(words) = self.simulation.auto() {
+        if let Some(words) = self.run.simulation.auto() {
             println!("             {words}");
         }
         for Watched { name, columns, largest, at } in &self.watched {
@@ -198,11 +110,23 @@ impl<'s> Run<'s> {
                 _ => println!("  whirl      {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
             }
         }
-        if let Some((rate, t)) = self.simulation.growth() {
+        if let Some((rate, t)) = self.run.simulation.growth() {
             println!("  unstable   small motions about that of {t} s grow by a factor of e every {:.3e} s", 1.0 / rate);
         }
         Ok(())
     }
+}
+
+/// Writes what the outputs are at time `t` \[s].
+fn write(values: &[f64], t: f64, watched: &mut [Watched], table: &mut impl Write) -> Result<()> {
+    for watched in watched {
+        let size = watched.columns.iter().fold(0.0_f64, |size, column| size.hypot(values[*column]));
+        if size > watched.largest {
+            (watched.largest, watched.at) = (size, t);
+        }
+    }
+    let values: Vec<_> = values.iter().map(|value| format!("{value:?}")).collect();
+    Ok(writeln!(table, "{t:?},{}", values.join(","))?)
 }
 
 /// The residual of the energy, and how far c and the probes are off the x axis.
@@ -218,7 +142,7 @@ fn watched(outputs: &[&Variable]) -> Vec<Watched> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Run, paths};
+    use super::{Recorded, paths};
     use split_rotor_model::scene::Scene;
     use std::path::Path;
 
@@ -233,7 +157,7 @@ mod tests {
         let folder = paths::target().join("tests/run");
         std::fs::create_dir_all(&folder).unwrap();
         let file = folder.join(name);
-        let outcome = Run::of(&scene).record(&scene.experiment, &file).map_err(|error| error.to_string());
+        let outcome = Recorded::of(&scene).record(&scene.experiment, &file).map_err(|error| error.to_string());
         let table = std::fs::read_to_string(file).unwrap();
         let number = |field: &str| field.parse().unwrap();
         (table.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect(), outcome)
@@ -255,7 +179,7 @@ mod tests {
         let folder = paths::target().join("tests/run");
         std::fs::create_dir_all(&folder).unwrap();
         let file = folder.join("torque.csv");
-        Run::of(&scene).record(&scene.experiment, &file).unwrap();
+        Recorded::of(&scene).record(&scene.experiment, &file).unwrap();
         let table = std::fs::read_to_string(file).unwrap();
         let column = table.lines().next().unwrap().split(',').position(|name| name == "omega_phi").unwrap();
         for line in table.lines().skip(1) {

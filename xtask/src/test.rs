@@ -2,7 +2,7 @@
 
 use crate::hard_cases::{self, Extent};
 use crate::run::{cargo, run};
-use crate::{accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize};
+use crate::{accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel};
 use anyhow::{Result, bail, ensure};
 use split_rotor_model::scene::Scene;
 use std::time::Instant;
@@ -21,7 +21,7 @@ const SHORT: [Job; 6] = [
 ];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 12] = [
+const LONG: [Job; 13] = [
     ("third-party clients", clients),
     ("long runs", long_runs),
     ("bits of wide builds", wide_builds),
@@ -33,6 +33,7 @@ const LONG: [Job; 12] = [
     ("counts that must hold", bench::must_hold),
     ("absence is free", copies::absence_is_free),
     ("the example of an effect", copies::example_is_right),
+    ("Python package", || wheel::wheel().map(drop)),
     ("fuzz", fuzz::fuzz),
 ];
 

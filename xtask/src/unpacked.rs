@@ -1,7 +1,8 @@
 //! A packaged FMU, taken apart as a simulator does it: what is tested and measured is what travels.
 
-use crate::{package, paths, sheet};
+use crate::{paths, sheet};
 use anyhow::{Context, Result};
+use split_rotor_tools::archive::library_path;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -41,7 +42,7 @@ pub fn unpack(fmu: &Path) -> Result<Unpacked> {
     let xml = String::from_utf8(read("modelDescription.xml")?)?;
     let sheet = sheet::sheet(&xml)?;
     let identifier = sheet.lines().find_map(|line| line.strip_prefix("attribute CoSimulation.modelIdentifier "));
-    let library = read(&package::library_path(identifier.context("the XML has no model identifier")?)?)?;
+    let library = read(&library_path(identifier.context("the XML has no model identifier")?)?)?;
     let folder = paths::target().join("unpacked").join(format!("{name}-{}", std::process::id()));
     let unpacked = write(&folder, &name, &sheet, &library);
     let unpacked = unpacked.with_context(|| format!("cannot take {} apart", fmu.display()))?;

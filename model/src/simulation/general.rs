@@ -45,7 +45,10 @@ passed_on! {
     time(&,) -> Option<f64>;
     get(&mut, place: Place) -> Result<Option<f64>, Invalid>;
     value(&, place: Place) -> Option<f64>;
+    reals_at_hand(&, references: &[u32], values: &mut [f64]) -> bool;
     read(&mut,) -> Result<&Reading, Invalid>;
     auto(&,) -> Option<String>;
     growth(&,) -> Option<(f64, f64)>;
+    warns_of_tilt(&,) -> Option<&'static str>;
+    warns_of_growth(&,) -> Option<String>;
 }

@@ -3,10 +3,11 @@
 use super::sets::{self, Set};
 use super::spending::{packaged, spent};
 use super::{head, target};
-use crate::{paths, scenes, ssv};
+use crate::{paths, scenes};
 use anyhow::{Result, ensure};
 use split_rotor_model::effects;
 use split_rotor_model::scene::Scene;
+use split_rotor_tools::general;
 
 /// fmi2DoStep of the general FMU over that of the scene of the same effects \[1]: at most so much.
 const GENERAL: f64 = 1.3;
@@ -84,6 +85,6 @@ fn set(names: &[(&str, usize)]) -> Set {
 
 /// What a general FMU must be told to be this scene, as `NAME=VALUE`.
 fn values(general: &Scene, scene: &Scene) -> Result<Vec<String>> {
-    let values = ssv::values(general, scene)?;
+    let values = general::values(general, scene)?;
     Ok(values.into_iter().map(|(variable, value)| format!("{}={value:?}", variable.name)).collect())
 }

@@ -1,10 +1,10 @@
 //! The picture: frequencies above, damping ratios below, over the spin.
 
-use super::Diagram;
 use crate::chart::{self, Area, Axes, Drawn, INK};
 use anyhow::Result;
 use plotters::prelude::*;
 use split_rotor_model::linear::{Branch, Direction, Point};
+use split_rotor_tools::campbell::Diagram;
 
 /// Modes further than this above the highest line are left out, and so is what is damped more than this \[1].
 const ABOVE: f64 = 1.6;

@@ -1,10 +1,10 @@
 //! The picture: the larger half axes of the orbits above, how far y lags behind the rotor's mark below, over the spin.
 
-use super::{Found, Linear, Point, lag, nonlinear, table};
 use crate::chart::{self, Area, Axes, Drawn};
 use anyhow::Result;
 use plotters::prelude::*;
 use split_rotor_model::periodic::Orbit;
+use split_rotor_tools::response::{Found, Linear, Point, lag, nonlinear};
 use std::ops::Range;
 
 const COLOURS: [RGBColor; 6] = [
@@ -75,7 +75,7 @@ fn sizes(found: &Found, area: &Area) -> Drawn {
             draw(&mut axes, part, lasts, number)?;
         }
         axes.draw_series(LineSeries::new([(0.0, from); 0], colour(number)))?
-            .label(table::name(station))
+            .label(station.title())
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 22, y)], colour(number).stroke_width(3)));
     }
     if found.nonlinear.is_some() {

@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn a_terminal_has_all_of_its_effect_but_parameters() {
-        let scene = scenes::find("paper").unwrap();
+        let scene = scenes::find("paper");
         let (info, index) = scene.effects.iter().find(|(info, _)| info.name == "support").unwrap();
         let variables: Vec<_> = scenes::variables_of(&scene, info, *index).collect();
         let terminal = described(Terminal { kind: "a <kind>", flows: &["F.x"] }, "support", &variables);

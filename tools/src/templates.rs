@@ -1,14 +1,13 @@
 //! The templates of what travels in the FMU beside its library: the files of modelDescription/.
 
-use crate::paths;
 use anyhow::Result;
-use minijinja::{Environment, UndefinedBehavior, Value, context, path_loader};
+use minijinja::{Environment, UndefinedBehavior, Value, context};
 use split_rotor_model::variable::units::Unit;
 
 /// The template in this file of modelDescription/, filled in. What is put into HTML and XML is escaped.
 pub fn render(name: &str, values: Value) -> Result<String> {
     let mut environment = Environment::new();
-    environment.set_loader(path_loader(paths::root().join("modelDescription")));
+    minijinja_embed::load_templates!(&mut environment);
     // A slip in a template's name for a value should be an error, not an empty place on the page.
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
     let mut text = environment.get_template(name)?.render(values)?;

@@ -1,6 +1,6 @@
 //! The table: where the orbits are largest, and how large they are at a few speeds.
 
-use super::{Found, Linear, Station, lag, nonlinear};
+use super::{Found, Linear, lag, nonlinear};
 use crate::numbers::{SHOWN, micrometres, rounded, rpm, spread};
 use std::fmt::Write;
 
@@ -28,7 +28,7 @@ fn peaks(found: &Found, linear: &Linear, text: &mut String) {
     *text += "| peak at [rad/s] | [rpm] | station | half axes [µm] | behind the mark, y [°] |\n|--:|--:|---|---|--:|\n";
     for (station, peaks) in found.stations.iter().zip(&linear.peaks) {
         for peak in peaks {
-            let (speed, name) = (peak.speed, name(station));
+            let (speed, name) = (peak.speed, station.title());
             let _ = write!(text, "| {} | {} | {name} | ", rounded(speed), rounded(rpm(speed)));
             let _ = match peak.orbit(station) {
                 Some(orbit) => {
@@ -48,7 +48,7 @@ fn sizes(found: &Found, linear: &Linear, text: &mut String) {
     shown.iter().for_each(|point| *text += &format!(" at {} rad/s |", rounded(point.speed)));
     *text += &format!("\n|---|{}\n", "--:|".repeat(shown.len()));
     for station in &found.stations {
-        *text += &format!("| {} |", name(station));
+        *text += &format!("| {} |", station.title());
         for point in &shown {
             let size = point.size(station);
             *text += &format!(" {} |", if size.is_finite() { micrometres(size) } else { "no bound".into() });
@@ -56,8 +56,4 @@ fn sizes(found: &Found, linear: &Linear, text: &mut String) {
         *text += "\n";
     }
     *text += "\nThe larger half axis of the orbit [µm]; where the smaller one is negative, the orbit is run against the spin. The mark is the y axis of the rotor.\n";
-}
-
-pub fn name(station: &Station) -> String {
-    format!("{} at {} m", station.name, station.position)
 }

@@ -1,6 +1,6 @@
 //! The speeds at which a machine is looked at.
 
-use crate::{scenes, simulate};
+use crate::{run, scenes};
 use anyhow::{Result, ensure};
 use split_rotor_model::linear::{Machine, Obstacle};
 use split_rotor_model::scene::Scene;
@@ -13,14 +13,14 @@ pub const HIGHEST: f64 = 1e9;
 
 /// So many speeds [rad/s] from the first of these to the second, and 0 and the nodes of tables where they lie between; where none are given, from 0 to beyond what the scene reaches.
 pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
-    ensure!(steps >= 2, "--steps {steps}: at least 2 speeds are needed");
+    ensure!(steps >= 2, "steps {steps}: at least 2 speeds are needed");
     let (from, to) = match ends {
         Some(&[from, to]) => (from, to),
         _ => (0.0, HIGHER * highest(scene, machine)?),
     };
     ensure!(
         from.abs() <= HIGHEST && to.abs() <= HIGHEST && from < to,
-        "--speeds {from} {to}: the second must be more than the first, both within ±{HIGHEST:e} rad/s"
+        "speeds {from} {to}: the second must be more than the first, both within ±{HIGHEST:e} rad/s"
     );
     let even = (0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1));
     // Modes at ω and −ω are alike, the lines of the speed's multiples bend at 0, and coefficients bend at the nodes of their tables.
@@ -38,7 +38,7 @@ fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     let told = scenes::values(scene);
     let value = |name: &str| told(name).unwrap_or_default().abs();
     let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
-    let reached = if scene.inputs.is_empty() { 0.0 } else { simulate::fastest(scene) };
+    let reached = if scene.inputs.is_empty() { 0.0 } else { run::fastest(scene) };
     let told = [imposed, reached, value("start.omega.x"), value("motor.synchronous_speed")];
     let highest = nodes(scene).chain(told).fold(0.0, f64::max);
     if highest > 0.0 {

@@ -63,13 +63,15 @@ fn number(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::page;
-    use crate::{paths, scenes};
+    use crate::scenes;
     use split_rotor_model::effects::CATALOGUE;
     use std::collections::BTreeSet;
 
     #[test]
     fn each_text_has_its_effect() {
-        let texts = std::fs::read_dir(paths::root().join("modelDescription/documentation/effects")).unwrap();
+        let texts =
+            std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../modelDescription/documentation/effects"))
+                .unwrap();
         let texts: BTreeSet<_> = texts.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         let effects: BTreeSet<_> = CATALOGUE.iter().map(|info| format!("{}.html", info.name)).collect();
         let astray: Vec<_> = texts.difference(&effects).collect();
@@ -92,7 +94,7 @@ mod tests {
             ("jeffcott", vec![asymmetric, of_g, tensor_of_g]),
             ("rotor", vec![asymmetric, of_g, on_g, tensor_of_g, switched]),
         ] {
-            let page = page(&scenes::find(scene).unwrap()).unwrap();
+            let page = page(&scenes::find(scene)).unwrap();
             let found: Vec<_> = every.into_iter().filter(|law| page.contains(law)).collect();
             assert_eq!(found, every.into_iter().filter(|law| said.contains(law)).collect::<Vec<_>>(), "{scene}");
         }

@@ -1,8 +1,8 @@
 //! The response by the laws as they stand: motions that repeat with each revolution, followed through the speeds.
 
-use super::{Found, Station, once, table};
+use super::{Found, Station, once};
 use crate::numbers::{micrometres, rounded, rpm};
-use crate::sheets;
+use crate::rows::Row;
 use serde_json::json;
 use split_rotor_model::periodic::{Branch, End, Obstacle, Orbit, Rotating};
 use split_rotor_model::scene::Scene;
@@ -19,7 +19,7 @@ const ALIKE: f64 = 1e-6;
 
 /// Follows the motions of a scene up through these speeds [rad/s] that are not too low; of both signs, through the positive ones. Down
 /// too, where the way up turns back or ends: what is there at the highest may not hang together with it.
-pub fn branches(scene: &Scene, speeds: &[f64]) -> Vec<Result<Branch, Obstacle>> {
+pub(super) fn branches(scene: &Scene, speeds: &[f64]) -> Vec<Result<Branch, Obstacle>> {
     let [first, last] = [speeds[0], speeds[speeds.len() - 1]];
     let [slow, fast] = match (first, last) {
         (first, last) if first > 0.0 => [first, last],
@@ -52,7 +52,7 @@ fn is_start(up: &Branch, down: &Branch) -> bool {
 }
 
 /// What was found.
-pub fn of(found: &Found) -> impl Iterator<Item = &Branch> {
+pub fn of<'f>(found: &'f Found<'_>) -> impl Iterator<Item = &'f Branch> {
     found.nonlinear.iter().flatten().flatten()
 }
 
@@ -62,7 +62,7 @@ pub fn alike(branch: &Branch) -> impl Iterator<Item = &[Orbit]> {
 }
 
 /// A row for each station in each motion, in the order in which they go over into one another.
-pub fn rows(found: &Found) -> Vec<sheets::Row> {
+pub fn rows(found: &Found) -> Vec<Row> {
     let orbits = of(found).flat_map(|branch| &branch.orbits);
     let all = orbits.flat_map(|orbit| found.stations.iter().map(move |station| (orbit, station)));
     let row = |(orbit, station): (&Orbit, &Station)| {
@@ -86,7 +86,7 @@ pub fn rows(found: &Found) -> Vec<sheets::Row> {
 }
 
 /// What the table says of it.
-pub fn words(found: &Found, text: &mut String) {
+pub(super) fn words(found: &Found, text: &mut String) {
     let Some(branches) = &found.nonlinear else { return };
     *text += "\nNonlinear, by the laws as they stand: motions that repeat with each revolution; where the range holds 0, from a twentieth of \
               its end on.\n";
@@ -108,7 +108,7 @@ pub fn words(found: &Found, text: &mut String) {
         let (speed, path) = (peak.speed, peak.path(station.position));
         let [major, minor, farthest] = [path.once.major(), path.once.minor(), path.farthest].map(micrometres);
         let lasts = if peak.loss().is_none() { "yes" } else { "no" };
-        let name = table::name(station);
+        let name = station.title();
         let (rounded, rpm) = (rounded(speed), rounded(rpm(speed)));
         *text += &format!("| {rounded} | {rpm} | {name} | {major} and {minor} | {farthest} | {lasts} |\n");
     }

@@ -1,0 +1,117 @@
+"""What can be told of a scene without a run, or with many, and its FMU."""
+
+import json
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+
+import numpy as np
+
+from . import _core
+
+
+class Columns(Mapping):
+    """A table: an array for each column by its name, whose end tells the unit; NaN where there is no value."""
+
+    def __init__(self, rows):
+        names = list(rows[0]) if rows else []
+        columns = {name: [row[name] for row in rows] for name in names}
+        self._columns = {name: np.array([np.nan if one is None else one for one in of]) for name, of in columns.items()}
+
+    def __getitem__(self, name) -> np.ndarray:
+        return self._columns[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self):
+        return len(self._columns)
+
+    def __repr__(self):
+        rows = len(next(iter(self.values()), ()))
+        return f"<{rows} rows of {', '.join(self)}>"
+
+    def to_pandas(self):
+        """The same as a pandas.DataFrame."""
+        import pandas as pd
+
+        return pd.DataFrame(self._columns)
+
+
+class Study:
+    """What a command shows of a scene: `str(study)` is its table in Markdown."""
+
+    def __init__(self, table, text):
+        self.table = table
+        """The table that the command prints."""
+        self.data = json.loads(text)
+        """All of it, as in the JSON file that the command writes."""
+
+    def __str__(self):
+        return self.table
+
+    def _repr_markdown_(self):
+        return self.table
+
+
+class Campbell(Study):
+    """Modes against the spin, about the steady state at each speed."""
+
+    @property
+    def modes(self) -> Columns:
+        """A row for each mode at each speed: speed, number, frequency, damping ratio, direction."""
+        return Columns(self.data["modes"])
+
+    @property
+    def critical_speeds(self) -> Columns:
+        """Where modes cross multiples (`order`) of the speed; empty of a body that is not symmetric."""
+        of = self.data.get("critical_speeds", [])
+        return Columns([{"order": line["order"], **crossing} for line in of for crossing in line["speeds"]])
+
+    @property
+    def thresholds(self):
+        """Where modes begin or cease to grow: rows as `critical_speeds`, or of a body that is not symmetric an array of speeds [rad/s]."""
+        of = self.data["thresholds"]
+        return np.array(of) if self.data.get("floquet") else Columns(of)
+
+
+class Response(Study):
+    """Orbits that an unbalance causes, against the spin, at probes or bearings and at c."""
+
+    @property
+    def linear(self) -> Columns:
+        """A row for each station at each speed, by the linear equations."""
+        return Columns(self.data["responses"])
+
+    @property
+    def nonlinear(self) -> Columns:
+        """A row for each station in each motion that repeats with the revolution, by the laws as they stand."""
+        return Columns(self.data["nonlinear"])
+
+
+def campbell(scene, *, speeds=None, steps=201, orders=(1.0, 2.0)) -> Campbell:
+    """Whirl frequencies and damping, critical speeds and thresholds of stability of a scene.
+
+    speeds: the first and the last [rad/s], else from 0 to half as much again as the scene reaches.
+    steps: at how many speeds.
+    orders: multiples of the speed whose crossings are critical speeds.
+    """
+    return Campbell(*_core.campbell(scene, speeds, steps, list(orders)))
+
+
+def response(scene, *, speeds=None, steps=401, linear=False) -> Response:
+    """Half axes and phases of the orbits that the unbalance of a scene causes.
+
+    speeds, steps: as of `campbell`.
+    linear: only by the linear equations, which takes no time; else up to a minute.
+    """
+    return Response(*_core.response(scene, speeds, steps, linear))
+
+
+def package(scene, path) -> Path:
+    """Writes the FMU of a scene (FMI 2.0, co-simulation and model exchange, Linux on x86-64); its path.
+
+    Its library holds every effect, and switches on those that the scene calls for; its outputs have the bits of the FMU that
+    `cargo xtask package` builds for the scene alone. A scene may call for two of a kind at most, and for no tables.
+    """
+    _core.package(scene, path)
+    return Path(path)

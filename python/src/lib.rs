@@ -1,0 +1,45 @@
+//! The compiled part of the Python package `split_rotor`: a scene, its run and its linear view, over the same code as the commands.
+//! What users see of it stands in `split_rotor/`.
+
+mod run;
+mod scene;
+mod studies;
+
+use pyo3::create_exception;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+
+create_exception!(
+    split_rotor,
+    SceneError,
+    PyValueError,
+    "A scene that cannot be simulated: what is wrong, where, and what would be right."
+);
+create_exception!(split_rotor, RunError, PyRuntimeError, "A run that ended early; `result` holds what was reached.");
+
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use super::run::run;
+    #[pymodule_export]
+    use super::scene::Scene;
+    #[pymodule_export]
+    use super::studies::{campbell, package, response};
+    #[pymodule_export]
+    use super::{RunError, SceneError};
+}
+
+/// The folder of what travels with the package: scenes, and the library of every effect.
+fn data(py: Python) -> PyResult<PathBuf> {
+    let file: PathBuf = py.import("split_rotor")?.getattr("__file__")?.extract()?;
+    Ok(file.with_file_name("data"))
+}
+
+/// What the commands print of an error.
+fn failed(error: anyhow::Error) -> PyErr {
+    match error.downcast::<PyErr>() {
+        Ok(interrupted) => interrupted,
+        Err(error) => PyRuntimeError::new_err(format!("{error:#}")),
+    }
+}

@@ -1,0 +1,61 @@
+//! What the commands find out about a scene, and its FMU.
+
+use crate::scene::Scene;
+use crate::{data, failed};
+use pyo3::prelude::*;
+use split_rotor_model::linear::Machine;
+use split_rotor_model::scene;
+use split_rotor_tools::archive;
+use split_rotor_tools::campbell::View;
+use split_rotor_tools::general::{self, GENERAL};
+use split_rotor_tools::response::Found;
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::path::PathBuf;
+
+/// The table and all of the Campbell diagram, as JSON.
+#[pyfunction]
+pub fn campbell(
+    py: Python,
+    scene: &Scene,
+    speeds: Option<[f64; 2]>,
+    steps: u32,
+    orders: Vec<f64>,
+) -> PyResult<(String, String)> {
+    py.detach(|| {
+        let machine = Machine::of(&scene.scene.parameters());
+        let view = View::of(&scene.scene, &machine, speeds.as_ref().map(|ends| &ends[..]), steps, &orders)?;
+        Ok((view.table(), view.json().to_string()))
+    })
+    .map_err(failed)
+}
+
+/// The table and all of the response to unbalance, as JSON.
+#[pyfunction]
+pub fn response(
+    py: Python,
+    scene: &Scene,
+    speeds: Option<[f64; 2]>,
+    steps: u32,
+    linear: bool,
+) -> PyResult<(String, String)> {
+    py.detach(|| {
+        let found = Found::of(&scene.scene, speeds.as_ref().map(|ends| &ends[..]), steps, !linear)?;
+        Ok((found.table(), found.json().to_string()))
+    })
+    .map_err(failed)
+}
+
+/// Writes the scene's FMU, over the library of every effect that travels with the package.
+#[pyfunction]
+pub fn package(py: Python, scene: &Scene, path: PathBuf) -> PyResult<()> {
+    let data = data(py)?;
+    let scene = scene.again()?;
+    py.detach(|| {
+        let general = scene::Scene::find(GENERAL, &data.join("scenes"))?;
+        let library = std::fs::read(data.join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))?;
+        let licences = std::fs::read_to_string(data.join("third-party.txt"))?;
+        let (scene, library) = general::over(&general, library, scene)?;
+        archive::archive(&path, |add| archive::fill(&scene, &library, &licences, add))
+    })
+    .map_err(failed)
+}

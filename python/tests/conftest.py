@@ -1,0 +1,34 @@
+"""What the tests of the package share. `cargo xtask wheel` runs them on the wheel that it built, in an environment without Rust."""
+
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def block(document, language):
+    """The first block of this language in a document of the project."""
+    text = (ROOT / document).read_text(encoding="utf-8")
+    return text.split(f"```{language}\n")[1].split("```")[0]
+
+
+@pytest.fixture(scope="session")
+def built():
+    """The path of the FMU that `cargo xtask package` made of a scene."""
+
+    def find(name):
+        path = ROOT / "target" / "fmu" / f"{name}.fmu"
+        if not path.is_file():
+            pytest.fail(f"not packaged: run `cargo xtask package {name}`", pytrace=False)
+        return path
+
+    return find
+
+
+@pytest.fixture
+def turbo():
+    """The README's rotor."""
+    import split_rotor as sr
+
+    return sr.Scene.from_toml(block("README.md", "toml"), "turbo.toml")

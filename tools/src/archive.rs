@@ -1,0 +1,98 @@
+//! An FMU: a zip of its modelDescription.xml, its library, and what describes it to people.
+
+use crate::{page, terminals};
+use anyhow::{Context, Result, bail};
+use split_rotor_model::scene::Scene;
+use split_rotor_model::xml;
+use std::env::consts::{ARCH, DLL_SUFFIX, OS};
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::Path;
+use zip::ZipWriter;
+use zip::write::SimpleFileOptions;
+
+/// Adds a file to an FMU: its path there, and what it holds.
+pub type Add<'a> = dyn FnMut(&str, &[u8]) -> Result<()> + 'a;
+
+/// Writes an FMU of what `fill` adds: whole, or it stays as it was before.
+pub fn archive(fmu: &Path, fill: impl FnOnce(&mut Add) -> Result<()>) -> Result<()> {
+    let beside = fmu.with_extension("fmu.part");
+    let written = write_archive(&beside, fill).and_then(|()| Ok(fs::rename(&beside, fmu)?));
+    if written.is_err() {
+        // Where it cannot be removed either, what went wrong says more.
+        let _ = fs::remove_file(&beside);
+    }
+    written.with_context(|| format!("cannot write {}", fmu.display()))
+}
+
+fn write_archive(file: &Path, fill: impl FnOnce(&mut Add) -> Result<()>) -> Result<()> {
+    let mut zip = ZipWriter::new(File::create(file)?);
+    fill(&mut |path, bytes| {
+        // The options carry no time: the same source gives the same bytes.
+        zip.start_file(path, SimpleFileOptions::default())?;
+        Ok(zip.write_all(bytes)?)
+    })?;
+    zip.finish()?;
+    Ok(())
+}
+
+/// Adds what the FMU of a scene holds, with this library and the licences of what is in it.
+pub fn fill(scene: &Scene, library: &[u8], third_party: &str, add: &mut Add) -> Result<()> {
+    let licence = licence("The licences of the libraries in its binary stand in third-party.txt.");
+    add("modelDescription.xml", xml::model_description(scene).as_bytes())?;
+    add("model.png", ICON)?;
+    add(&library_path(&scene.identifier())?, library)?;
+    add("documentation/index.html", page::page(scene)?.as_bytes())?;
+    add("documentation/licenses/license.txt", licence.as_bytes())?;
+    add("documentation/licenses/third-party.txt", third_party.as_bytes())?;
+    add("terminalsAndIcons/terminalsAndIcons.xml", terminals::terminals_and_icons(scene)?.as_bytes())?;
+    // Where FMI 3.0, which defines that file, looks for the icon.
+    add("terminalsAndIcons/icon.png", ICON)
+}
+
+/// The picture of an FMU, model.png.
+pub const ICON: &[u8] = include_bytes!("../../modelDescription/model.png");
+
+/// Our own licence, for documentation/licenses/license.txt; what it says of `others`, the licences of libraries, is a line.
+pub fn licence(others: &str) -> String {
+    let [mit, apache] = [include_str!("../../LICENSE-MIT"), include_str!("../../LICENSE-APACHE")];
+    format!(
+        "split-rotor is licensed under the MIT licence or the Apache licence 2.0, at your choice.\n{others}\n\n{mit}\n\n{apache}"
+    )
+}
+
+/// Where the library of this machine's platform lies in an FMU.
+pub fn library_path(identifier: &str) -> Result<String> {
+    Ok(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?))
+}
+
+/// FMI 2.0's name of this machine's platform.
+fn platform() -> Result<&'static str> {
+    match (OS, ARCH) {
+        ("linux", "x86_64") => Ok("linux64"),
+        ("macos", _) => Ok("darwin64"),
+        ("windows", "x86_64") => Ok("win64"),
+        _ => bail!("FMI 2.0 has no name for the platform {OS} on {ARCH}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{archive, fill};
+    use crate::scenes;
+    use std::{env, fs};
+
+    #[test]
+    fn a_package_that_fails_leaves_what_was_there() {
+        let folder = env::temp_dir().join(format!("refused-package-{}", std::process::id()));
+        // A file cannot take the place of a folder that holds something.
+        let fmu = folder.join("paper.fmu");
+        fs::create_dir_all(&fmu).unwrap();
+        fs::write(fmu.join("file"), "as it was").unwrap();
+        let scene = scenes::find("paper");
+        archive(&fmu, |add| fill(&scene, b"library", "licences", add)).expect_err("a folder is there");
+        assert_eq!(fs::read_to_string(fmu.join("file")).unwrap(), "as it was");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+}

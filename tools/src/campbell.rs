@@ -1,0 +1,136 @@
+//! Whirl frequencies and damping against the spin, critical speeds, and where the machine begins to whirl by itself.
+
+mod table;
+mod turning;
+
+use crate::{rows, speeds};
+use anyhow::{Context, Result, ensure};
+use serde_json::{Value, json};
+use split_rotor_model::linear::{Campbell, Crossing, Machine, Obstacle, Point};
+use split_rotor_model::scene::Scene;
+pub use turning::{Turning, exponents};
+
+/// Speeds that are looked at, unless the user says how many.
+pub const STEPS: u32 = 201;
+
+/// Multiples of the speed whose lines are crossed, unless the user says which.
+pub const ORDERS: [f64; 2] = [1.0, 2.0];
+
+/// What was found.
+pub enum View<'m> {
+    /// Of a body that is symmetric about its axis.
+    Diagram(Diagram<'m>),
+    /// Of one that is not.
+    Turning(Turning<'m>),
+}
+
+/// Modes against the spin.
+pub struct Diagram<'m> {
+    /// The scene.
+    pub scene: &'m Scene,
+    /// Its modes.
+    pub campbell: Campbell<'m>,
+    /// Of each multiple of the speed, where modes cross it.
+    pub critical: Vec<(f64, Vec<Crossing>)>,
+    /// Where modes begin or cease to grow.
+    pub thresholds: Vec<Crossing>,
+}
+
+impl<'m> View<'m> {
+    /// Of a scene and its machine, between these speeds [rad/s], at so many of them, with the lines of these multiples of the speed.
+    pub fn of(
+        scene: &'m Scene,
+        machine: &'m Result<Machine, Obstacle>,
+        ends: Option<&[f64]>,
+        steps: u32,
+        orders: &[f64],
+    ) -> Result<Self> {
+        ensure!(orders.iter().all(|order| *order > 0.0), "orders: each must be more than 0");
+        let file = || scene.file.display().to_string();
+        let machine = match machine {
+            Err(Obstacle::Asymmetric) => return Ok(Self::Turning(Turning::of(scene, ends, steps)?)),
+            machine => machine.as_ref().map_err(Clone::clone).with_context(file)?,
+        };
+        let speeds = speeds::range(scene, Some(machine), ends, steps).with_context(file)?;
+        let campbell = Campbell::of(machine, &speeds).with_context(file)?;
+        let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order).with_context(file)?));
+        let critical = orders.iter().map(crossed).collect::<Result<_>>()?;
+        let thresholds = campbell.thresholds().with_context(file)?;
+        Ok(Self::Diagram(Diagram { scene, campbell, critical, thresholds }))
+    }
+
+    /// For people, in Markdown.
+    pub fn table(&self) -> String {
+        match self {
+            Self::Diagram(diagram) => table::table(diagram),
+            Self::Turning(turning) => turning.table(),
+        }
+    }
+
+    /// A row for each mode at each speed.
+    pub fn rows(&self) -> Vec<rows::Row> {
+        match self {
+            Self::Diagram(diagram) => modes(diagram),
+            Self::Turning(turning) => turning.rows(),
+        }
+    }
+
+    /// All of it.
+    pub fn json(&self) -> Value {
+        match self {
+            Self::Diagram(diagram) => json(diagram),
+            Self::Turning(turning) => turning.json(),
+        }
+    }
+}
+
+/// A mode's number, as people count.
+fn number(branch: usize) -> usize {
+    branch + 1
+}
+
+/// A row for each mode at each speed.
+fn modes(diagram: &Diagram) -> Vec<rows::Row> {
+    let branches = diagram.campbell.branches.iter().enumerate();
+    let all = branches.flat_map(|(branch, of)| of.points.iter().map(move |point| (branch, point)));
+    let row = |(branch, point): (usize, &Point)| {
+        vec![
+            ("speed_rad_s", json!(point.speed)),
+            ("mode", json!(number(branch))),
+            ("frequency_rad_s", json!(point.mode.frequency())),
+            ("damping_ratio", json!(point.mode.damping_ratio())),
+            ("direction", json!(point.mode.direction.name())),
+        ]
+    };
+    all.map(row).collect()
+}
+
+fn json(diagram: &Diagram) -> Value {
+    let crossing = |crossing: &Crossing| {
+        json!({
+            "mode": number(crossing.branch),
+            "speed_rad_s": crossing.speed,
+            "frequency_rad_s": crossing.mode.frequency(),
+            "damping_ratio": crossing.mode.damping_ratio(),
+            "direction": crossing.mode.direction.name(),
+        })
+    };
+    let all = |crossings: &[Crossing]| crossings.iter().map(crossing).collect::<Vec<_>>();
+    let critical = diagram.critical.iter().map(|(order, speeds)| json!({ "order": order, "speeds": all(speeds) }));
+    let steady = diagram.campbell.steady.iter().map(|steady| {
+        json!({
+            "speed_rad_s": steady.speed,
+            "r_m": steady.r.as_slice(),
+            "gamma_rad": steady.gamma.as_slice(),
+            "torque_N_m": steady.torque,
+        })
+    });
+    json!({
+        "scene": diagram.scene.name,
+        "title": diagram.scene.title,
+        "critical_speeds": critical.collect::<Vec<_>>(),
+        "thresholds": all(&diagram.thresholds),
+        "steady_states": steady.collect::<Vec<_>>(),
+        "modes": rows::objects(modes(diagram)),
+    })
+}

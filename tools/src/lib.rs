@@ -1,0 +1,17 @@
+//! What the commands of split-rotor and its Python package share: a run, the linear and the nonlinear view of a scene, the files of its
+//! FMU. It knows no folder of the project and prints nothing.
+#![forbid(unsafe_code)]
+
+pub mod archive;
+pub mod campbell;
+pub mod general;
+pub mod numbers;
+pub mod page;
+pub mod peaks;
+pub mod response;
+pub mod rows;
+pub mod run;
+pub mod scenes;
+pub mod speeds;
+pub mod templates;
+pub mod terminals;

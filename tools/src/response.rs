@@ -1,0 +1,180 @@
+//! How far and when an unbalance makes the stations of a machine whirl, against the spin; by the linear equations, and by
+//! the laws as they stand.
+
+pub mod nonlinear;
+mod table;
+
+use crate::{peaks, rows, scenes, speeds};
+use anyhow::{Context, Result, bail, ensure};
+use nalgebra::ComplexField;
+use serde_json::{Value, json};
+use split_rotor_model::linear::{Machine, Obstacle, Orbit, Response};
+use split_rotor_model::periodic::{self, Branch};
+use split_rotor_model::scene::Scene;
+
+/// What was found.
+pub struct Found<'s> {
+    /// The scene.
+    pub scene: &'s Scene,
+    /// Where it was looked at.
+    pub stations: Vec<Station>,
+    /// [rad/s].
+    pub speeds: Vec<f64>,
+    /// By the linear equations, where they hold.
+    pub linear: Result<Linear, Obstacle>,
+    /// By the laws as they stand, where that was asked for.
+    pub nonlinear: Option<Vec<Result<Branch, periodic::Obstacle>>>,
+}
+
+/// By the linear equations.
+pub struct Linear {
+    /// By speed.
+    pub points: Vec<Point>,
+    /// Of each station, where its orbit is larger than beside it.
+    pub peaks: Vec<Vec<Point>>,
+}
+
+/// A speed [rad/s] that was looked at, and how the machine whirls there; None without bound, where nothing damps a resonance.
+#[derive(Clone)]
+pub struct Point {
+    /// [rad/s].
+    pub speed: f64,
+    response: Option<Response>,
+}
+
+impl Point {
+    fn of(machine: &Machine, speed: f64, near: Option<&Self>) -> Result<Self, Obstacle> {
+        let steady = near.and_then(|near| near.response.as_ref()).map(|response| &response.steady);
+        match machine.response(speed, steady) {
+            Err(Obstacle::Resonant { speed }) => Ok(Self { speed, response: None }),
+            response => Ok(Self { speed, response: Some(response?) }),
+        }
+    }
+
+    /// The orbit there, where it has a bound.
+    pub fn orbit(&self, station: &Station) -> Option<Orbit> {
+        self.response.as_ref().map(|response| response.orbit(station.position))
+    }
+
+    /// The larger half axis of the orbit there \[m].
+    pub fn size(&self, station: &Station) -> f64 {
+        self.orbit(station).map_or(f64::INFINITY, |orbit| orbit.major())
+    }
+}
+
+/// By how much y is behind the rotor's mark at a speed [rad/s] \[°].
+pub fn lag(speed: f64, orbit: &Orbit) -> f64 {
+    -orbit.y.argument().to_degrees() * speed.signum()
+}
+
+/// A place on the axis that is looked at.
+pub struct Station {
+    /// Of the effect that stands there, or c.
+    pub name: String,
+    /// From c, along t \[m].
+    pub position: f64,
+}
+
+impl Station {
+    /// As tables and pictures call it.
+    pub fn title(&self) -> String {
+        format!("{} at {} m", self.name, self.position)
+    }
+}
+
+impl<'s> Found<'s> {
+    /// The response of a scene between these speeds [rad/s], at so many of them; whether also by the laws as they stand.
+    pub fn of(scene: &'s Scene, ends: Option<&[f64]>, steps: u32, exact: bool) -> Result<Self> {
+        let file = || scene.file.display().to_string();
+        let unbalance = scene.parameters().shape().unbalance();
+        ensure!(
+            unbalance.iter().any(|off| off.norm() > 0.0),
+            "{}: nothing is out of balance (effects.unbalance)",
+            file()
+        );
+        let machine = Machine::of(&scene.parameters());
+        let speeds = speeds::range(scene, machine.as_ref().ok(), ends, steps).with_context(file)?;
+        let stations = stations(scene);
+        let linear = machine.and_then(|machine| Linear::of(&machine, &speeds, &stations));
+        if let (Err(obstacle), false) = (&linear, exact) {
+            bail!("{}: {obstacle}", file());
+        }
+        let nonlinear = exact.then(|| nonlinear::branches(scene, &speeds));
+        Ok(Self { scene, stations, speeds, linear, nonlinear })
+    }
+
+    /// For people, in Markdown.
+    pub fn table(&self) -> String {
+        table::table(self)
+    }
+
+    /// A row for each station at each speed at which it has a bound, by the linear equations.
+    pub fn rows(&self) -> Vec<rows::Row> {
+        let points = self.linear.iter().flat_map(|linear| &linear.points);
+        let all = points.flat_map(|point| self.stations.iter().map(move |station| (point, station)));
+        let row = |(point, station): (&Point, &Station)| {
+            let place = vec![
+                ("speed_rad_s", json!(point.speed)),
+                ("station", json!(station.name)),
+                ("position_m", json!(station.position)),
+            ];
+            Some([place, once(point.orbit(station)?)].concat())
+        };
+        all.filter_map(row).collect()
+    }
+
+    /// All of it.
+    pub fn json(&self) -> Value {
+        json!({
+            "scene": self.scene.name,
+            "title": self.scene.title,
+            "responses": rows::objects(self.rows()),
+            "nonlinear": rows::objects(nonlinear::rows(self)),
+        })
+    }
+}
+
+impl Linear {
+    fn of(machine: &Machine, speeds: &[f64], stations: &[Station]) -> Result<Self, Obstacle> {
+        let mut points: Vec<Point> = Vec::new();
+        for speed in speeds {
+            points.push(Point::of(machine, *speed, points.last())?);
+        }
+        let peaks = stations.iter().map(|station| peaks_of(machine, station, &points)).collect::<Result<_, _>>()?;
+        Ok(Self { points, peaks })
+    }
+}
+
+/// c, and what looks at the rotor or touches it: probes, or bearings and rings where there are none.
+fn stations(scene: &Scene) -> Vec<Station> {
+    let value = scenes::values(scene);
+    let of = |kinds: &[&str]| -> Vec<Station> {
+        let blocks = scene.effects.iter().filter(|(info, _)| kinds.contains(&info.name));
+        // In a general scene an effect may be off.
+        let blocks = blocks.filter(|(info, index)| value(&info.switch_name(*index)) != Some(0.0));
+        let names = blocks.map(|(info, index)| info.block_name(*index));
+        names.filter_map(|name| Some(Station { position: value(&format!("{name}.position"))?, name })).collect()
+    };
+    let probes = of(&["probe"]);
+    let rest = if probes.is_empty() { of(&["bearing", "rub"]) } else { probes };
+    std::iter::once(Station { name: "c".into(), position: 0.0 }).chain(rest).collect()
+}
+
+/// Where the orbit of a station is larger than beside it.
+fn peaks_of(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<Point>, Obstacle> {
+    let at = |speed: f64, near: &Point| Point::of(machine, speed, Some(near));
+    peaks::of(points, |point| (point.speed, point.size(station)), at)
+}
+
+/// A station's harmonic that goes round with the spin, as columns.
+fn once(orbit: Orbit) -> rows::Row {
+    let Orbit { y, z } = orbit;
+    vec![
+        ("major_m", json!(orbit.major())),
+        ("minor_m", json!(orbit.minor())),
+        ("amplitude_y_m", json!(y.modulus())),
+        ("phase_y_rad", json!(y.argument())),
+        ("amplitude_z_m", json!(z.modulus())),
+        ("phase_z_rad", json!(z.argument())),
+    ]
+}

@@ -1,0 +1,130 @@
+//! A scene run over the list of all effects, which gives the bits of the scene's FMU.
+
+use anyhow::{Context, Error, Result, bail};
+use split_rotor_model::integrate::Fault;
+use split_rotor_model::scene::{Experiment, Input, Scene};
+use split_rotor_model::simulation::General;
+use split_rotor_model::variable::{Place, Role};
+use split_rotor_model::variables::{METHODS, Variable};
+
+/// The highest |ω_φ| [rad/s] that a run of the scene comes to, looked at a thousand times.
+pub fn fastest(scene: &Scene) -> f64 {
+    let speed = outputs(scene).filter(|output| output.name == "omega_phi").collect();
+    let (mut run, mut fastest) = (Run::of(scene, speed), 0.0_f64);
+    let Experiment { start, stop, .. } = scene.experiment;
+    let seldom = Experiment { step: (stop - start) / 1e3, ..scene.experiment };
+    let look = |run: &mut Run, _| {
+        fastest = fastest.max(run.values()?[0].abs());
+        Ok(())
+    };
+    // What a run that ends early comes to counts all the same.
+    let _ = run.follow(&seldom, look);
+    fastest
+}
+
+/// The outputs of a scene.
+pub fn outputs(scene: &Scene) -> impl Iterator<Item = &Variable> {
+    scene.variables.iter().filter(|variable| matches!(variable.meta.role, Role::Output))
+}
+
+/// How many communication points follow the first.
+pub fn points(Experiment { start, stop, step, .. }: &Experiment) -> usize {
+    ((stop - start) / step - 1e-9).ceil() as usize
+}
+
+/// A run.
+pub struct Run<'s> {
+    /// What moves.
+    pub simulation: General,
+    outputs: Vec<&'s Variable>,
+    references: Vec<u32>,
+    values: Vec<f64>,
+    inputs: Vec<(&'s Input, Place)>,
+    /// When any of them bends or jumps \[s], ascending.
+    bends: Vec<f64>,
+}
+
+impl<'s> Run<'s> {
+    /// Of a scene with its own inputs, of which these outputs are read.
+    pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
+        let place = |name: &str| scene.variables.iter().find(|variable| variable.name == name).map(|it| it.place);
+        let inputs: Vec<_> = scene.inputs.iter().filter_map(|input| Some((input, place(&input.name)?))).collect();
+        let mut bends: Vec<_> = inputs.iter().flat_map(|(input, _)| &input.time).copied().collect();
+        bends.sort_by(f64::total_cmp);
+        bends.dedup();
+        let references = outputs.iter().map(|output| output.place.value_reference()).collect();
+        let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
+        Self { simulation, outputs, references, values, inputs, bends }
+    }
+
+    /// The outputs that are read.
+    pub fn outputs(&self) -> &[&'s Variable] {
+        &self.outputs
+    }
+
+    /// Runs; at each communication point \[s] it is `seen`, that where the motion ends early too.
+    pub fn follow(
+        &mut self,
+        experiment: &Experiment,
+        mut seen: impl FnMut(&mut Self, f64) -> Result<()>,
+    ) -> Result<()> {
+        let Experiment { start, stop, step, tolerance } = *experiment;
+        self.steer(start, |_| true);
+        self.simulation.start_until(start, Some(tolerance), Some(stop))?;
+        seen(self, start)?;
+        let mut from = start;
+        for point in 1..=points(experiment) {
+            // As a host reckons, which tells the length of a step.
+            let next = (start + point as f64 * step).min(stop);
+            let outcome = self.advance(from, from + (next - from));
+            let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
+            if reached > from {
+                seen(self, reached)?;
+            }
+            outcome.map_err(|fault| Error::msg(fault.to_string()))?;
+            from = next;
+        }
+        Ok(())
+    }
+
+    /// Goes to time `to` \[s], with a stop wherever an input bends or jumps on the way.
+    fn advance(&mut self, from: f64, to: f64) -> Result<(), Fault> {
+        let [first, after] = [from, to].map(|t| self.bends.partition_point(|bend| *bend < t));
+        for n in first..after {
+            let bend = self.bends[n];
+            self.simulation.advance(bend)?;
+            self.steer(bend, |input| input.time.contains(&bend));
+        }
+        self.simulation.advance(to)
+    }
+
+    /// Gives these inputs their course from time `t` \[s] on.
+    fn steer(&mut self, t: f64, which: impl Fn(&Input) -> bool) {
+        for (input, place) in self.inputs.iter().filter(|(input, _)| which(input)) {
+            let [value, rate] = input.from(t);
+            self.simulation.set_input(*place, value);
+            self.simulation.set_input_derivative(*place, 1, rate);
+        }
+    }
+
+    /// What the outputs are now.
+    pub fn values(&mut self) -> Result<&[f64]> {
+        self.simulation.read()?;
+        if !self.simulation.reals_at_hand(&self.references, &mut self.values) {
+            for (output, value) in self.outputs.iter().zip(&mut self.values) {
+                *value = self.simulation.value(output.place).context("a scene has its own variables")?;
+                if !value.is_finite() {
+                    let t = self.simulation.time().unwrap_or_default();
+                    bail!("{} is infinite or undefined at t = {t:?} s", output.name);
+                }
+            }
+        }
+        Ok(&self.values)
+    }
+
+    /// The name of its method.
+    pub fn method(&self) -> &'static str {
+        let number = self.simulation.parameters().setup.solver.method_in_force();
+        METHODS.items.iter().find(|item| item.0 == number).map_or("", |item| item.1)
+    }
+}
