@@ -32,6 +32,20 @@ pub fn points(Experiment { start, stop, step, .. }: &Experiment) -> usize {
     ((stop - start) / step - 1e-9).ceil() as usize
 }
 
+/// When any of these inputs bends or jumps \[s], ascending.
+pub fn bends(inputs: &[Input]) -> Vec<f64> {
+    let mut bends: Vec<_> = inputs.iter().flat_map(|input| &input.time).copied().collect();
+    bends.sort_by(f64::total_cmp);
+    bends.dedup();
+    bends
+}
+
+/// Those of them from one time up to another \[s].
+pub fn between(bends: &[f64], from: f64, to: f64) -> &[f64] {
+    let [first, after] = [from, to].map(|t| bends.partition_point(|bend| *bend < t));
+    &bends[first..after]
+}
+
 /// A run.
 pub struct Run<'s> {
     /// What moves.
@@ -49,12 +63,9 @@ impl<'s> Run<'s> {
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
         let place = |name: &str| scene.variables.iter().find(|variable| variable.name == name).map(|it| it.place);
         let inputs: Vec<_> = scene.inputs.iter().filter_map(|input| Some((input, place(&input.name)?))).collect();
-        let mut bends: Vec<_> = inputs.iter().flat_map(|(input, _)| &input.time).copied().collect();
-        bends.sort_by(f64::total_cmp);
-        bends.dedup();
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, inputs, bends }
+        Self { simulation, outputs, references, values, inputs, bends: bends(&scene.inputs) }
     }
 
     /// The outputs that are read.
@@ -89,12 +100,14 @@ impl<'s> Run<'s> {
 
     /// Goes to time `to` \[s], with a stop wherever an input bends or jumps on the way.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), Fault> {
-        let [first, after] = [from, to].map(|t| self.bends.partition_point(|bend| *bend < t));
-        for n in first..after {
-            let bend = self.bends[n];
-            self.simulation.advance(bend)?;
-            self.steer(bend, |input| input.time.contains(&bend));
-        }
+        let bends = std::mem::take(&mut self.bends);
+        let outcome = between(&bends, from, to).iter().try_for_each(|bend| {
+            self.simulation.advance(*bend)?;
+            self.steer(*bend, |input| input.time.contains(bend));
+            Ok(())
+        });
+        self.bends = bends;
+        outcome?;
         self.simulation.advance(to)
     }
 

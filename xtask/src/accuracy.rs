@@ -20,7 +20,7 @@ mod tolerances;
 use crate::progress::Progress;
 use crate::unpacked::unpack;
 use crate::{package, scenes};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result};
 use reference::Reference;
 use row::{OURS, Row, Scale};
 use run::{Setting, Subject};
@@ -47,11 +47,6 @@ const SUBSTEPS: usize = 100;
 /// Packages the scene, measures it, and writes target/accuracy/SCENE/; which peers were left out, and why.
 pub fn accuracy(scene: &str, with_peers: bool) -> Result<Vec<String>> {
     let found = scenes::find(scene)?;
-    ensure!(
-        found.inputs.is_empty(),
-        "{}: has [[input]], which `run` and `demo` follow: accuracy is measured with inputs that stay as they start",
-        found.file.display()
-    );
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let (scene, unpacked) = (found, unpack(&fmu)?);
     let mut subject = Subject::load(&scene, &unpacked.library)?;

@@ -79,6 +79,7 @@ functions! {
     set_integer: "fmi2SetInteger" (Component, *const Reference, usize, *const c_int) -> Status;
     set_boolean: "fmi2SetBoolean" (Component, *const Reference, usize, *const c_int) -> Status;
     get_real: "fmi2GetReal" (Component, *const Reference, usize, *mut c_double) -> Status;
+    set_derivatives: "fmi2SetRealInputDerivatives" (Component, *const Reference, usize, *const c_int, *const c_double) -> Status;
     do_step: "fmi2DoStep" (Component, c_double, c_double, c_int) -> Status;
     get_real_status: "fmi2GetRealStatus" (Component, c_int, *mut c_double) -> Status;
 }
@@ -210,6 +211,15 @@ impl Instance<'_> {
         self.done("fmi2EnterInitializationMode", |component| unsafe { (self.fmu.enter_initialization)(component) })?;
         // SAFETY: as above.
         self.done("fmi2ExitInitializationMode", |component| unsafe { (self.fmu.exit_initialization)(component) })
+    }
+
+    /// Sets the rate of an input.
+    pub fn set_rate(&mut self, reference: Reference, rate: f64) -> Result<()> {
+        let order = 1;
+        // SAFETY: a live instance; one reference, one order and one value.
+        self.done("fmi2SetRealInputDerivatives", |component| unsafe {
+            (self.fmu.set_derivatives)(component, &raw const reference, 1, &raw const order, &raw const rate)
+        })
     }
 
     /// A communication step from time `from` of length `step` \[s], never to be taken back.

@@ -70,6 +70,9 @@ impl Program {
 
 /// Why no peer can run this scene, if so.
 fn refusal(scene: &Scene) -> Option<String> {
+    if !scene.inputs.is_empty() {
+        return Some("Peers are left out: their inputs stay as they start, and the scene has [[input]].".into());
+    }
     let unknown: Vec<_> =
         scene.effects.iter().map(|(info, _)| info.name).filter(|name| !EFFECTS.contains(name)).collect();
     let (known, unknown_names) = (EFFECTS.join(", "), unknown.join(", "));

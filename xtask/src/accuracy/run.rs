@@ -7,9 +7,10 @@ use crate::fmu::{Fmu, Instance, Reference};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
 use nalgebra::Vector3;
-use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::scene::{Experiment, Input, Scene};
 use split_rotor_model::variables::METHODS;
 use split_rotor_model::xml;
+use split_rotor_tools::run::{bends, between};
 use std::path::Path;
 
 /// What is read at each point.
@@ -58,6 +59,9 @@ pub struct Subject<'s> {
     pub experiment: Experiment,
     outputs: [Reference; OUTPUTS.len()],
     costs: [Reference; COSTS.len()],
+    inputs: Vec<(&'s Input, Reference)>,
+    /// When any of them bends or jumps \[s], ascending.
+    bends: Vec<f64>,
 }
 
 /// What a run showed and cost.
@@ -79,7 +83,9 @@ impl<'s> Subject<'s> {
     pub fn load(scene: &'s Scene, library: &Path) -> Result<Self> {
         let fmu = Fmu::load(library, &xml::guid(scene))?;
         let (outputs, costs) = (references(scene, OUTPUTS)?, references(scene, COSTS)?);
-        Ok(Self { fmu, scene, experiment: scene.experiment, outputs, costs })
+        let input = |input: &'s Input| Ok((input, references(scene, [&*input.name])?[0]));
+        let inputs = scene.inputs.iter().map(input).collect::<Result<_>>()?;
+        Ok(Self { fmu, scene, experiment: scene.experiment, outputs, costs, inputs, bends: bends(&scene.inputs) })
     }
 
     /// A run with this setting; between two points that are read, `substeps` communication steps. An error where it takes
@@ -110,7 +116,7 @@ impl<'s> Subject<'s> {
         let began = ThreadTime::now();
         for tenth in stops.chunks(stops.len().div_ceil(ASKED)) {
             for &(to, is_read) in tenth {
-                instance.do_step(at, to - at)?;
+                self.go(&mut instance, at, to)?;
                 at = to;
                 if is_read {
                     points.push(point(instance.get_real(&self.outputs)?));
@@ -132,7 +138,7 @@ impl<'s> Subject<'s> {
         let mut instance = self.started(setting)?;
         let mut at = self.experiment.start;
         for to in times {
-            instance.do_step(at, to - at)?;
+            self.go(&mut instance, at, to)?;
             at = to;
             let [_, _, evaluations] = instance.get_real(&self.costs)?;
             if evaluations > affordable {
@@ -153,8 +159,35 @@ impl<'s> Subject<'s> {
         let is_auto = setting.method == AUTO;
         let mut instance = if is_auto { self.fmu.instantiate_with_log()? } else { self.fmu.instantiate()? };
         self.set(&mut instance, setting)?;
-        instance.initialize(self.experiment.start, self.experiment.stop)?;
+        let start = self.experiment.start;
+        // A start at rest asks for them.
+        self.inputs.iter().try_for_each(|(input, reference)| instance.set_real(*reference, input.from(start)[0]))?;
+        instance.initialize(start, self.experiment.stop)?;
+        self.steer(&mut instance, start, |_| true)?;
         Ok(instance)
+    }
+
+    /// Goes from one time to another \[s], with a stop wherever an input bends or jumps.
+    fn go(&self, instance: &mut Instance, from: f64, to: f64) -> Result<()> {
+        let mut at = from;
+        for &bend in between(&self.bends, from, to) {
+            if bend > at {
+                instance.do_step(at, bend - at)?;
+                at = bend;
+            }
+            self.steer(instance, bend, |input| input.time.contains(&bend))?;
+        }
+        instance.do_step(at, to - at)
+    }
+
+    /// Gives these inputs their course from time `t` \[s] on.
+    fn steer(&self, instance: &mut Instance, t: f64, which: impl Fn(&Input) -> bool) -> Result<()> {
+        for (input, reference) in self.inputs.iter().filter(|(input, _)| which(input)) {
+            let [value, rate] = input.from(t);
+            instance.set_real(*reference, value)?;
+            instance.set_rate(*reference, rate)?;
+        }
+        Ok(())
     }
 
     fn set(&self, instance: &mut Instance, setting: &Setting) -> Result<()> {
