@@ -2,9 +2,8 @@
 
 use crate::SceneError;
 use crate::scene::Scene;
-use numpy::{PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyByteArray, PyDict};
 use split_rotor_model::scene::{Experiment, did_you_mean};
 use split_rotor_model::variables::Variable;
 use split_rotor_tools::run::{Run, outputs, points};
@@ -23,7 +22,7 @@ struct Seen {
 
 /// Runs a scene; of its outputs those of these names, or all. Others run meanwhile.
 ///
-/// Returns a dictionary: `time` (points), `values` (outputs, points), `names`, `units`, `solver`, `log`, `warnings`, and `error` where the run
+/// Returns a dictionary: `time` (points) and `values` (outputs, points) as bytes, how many points were reached (`count`), `names`, `units`, `solver`, `log`, `warnings`, and `error` where the run
 /// ended early.
 #[pyfunction]
 pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> PyResult<Bound<'py, PyDict>> {
@@ -46,10 +45,9 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     solver.set_item("steps", cost.steps)?;
     solver.set_item("rejected", cost.rejected)?;
     solver.set_item("evaluations", cost.evaluations)?;
-    let points = time.len();
     let result = PyDict::new(py);
-    result.set_item("time", PyArray1::from_vec(py, time))?;
-    result.set_item("values", PyArray1::from_vec(py, values).reshape([run.outputs().len(), points])?)?;
+    result.set_item("time", bytes(py, &time))?;
+    result.set_item("values", bytes(py, &values))?;
     result.set_item("count", count)?;
     result.set_item("names", run.outputs().iter().map(|output| &*output.name).collect::<Vec<_>>())?;
     result.set_item("units", run.outputs().iter().map(|output| output.meta.unit.name).collect::<Vec<_>>())?;
@@ -59,6 +57,11 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     result.set_item("warnings", warnings.into_iter().flatten().collect::<Vec<_>>())?;
     result.set_item("error", error)?;
     Ok(result)
+}
+
+/// Numbers as an array of Python takes them.
+fn bytes<'py>(py: Python<'py>, numbers: &[f64]) -> Bound<'py, PyByteArray> {
+    PyByteArray::new(py, bytemuck::cast_slice(numbers))
 }
 
 /// The output of this name.
