@@ -13,9 +13,10 @@ Quantities are in SI units and radians. Names of variables are those of the FMU.
 
 from ._core import RunError, Scene, SceneError
 from .run import Result, run
-from .studies import Campbell, Columns, Response, Study, campbell, package, response
+from .studies import Accuracy, Campbell, Columns, Response, Study, accuracy, campbell, package, response
 
 __all__ = [
+    "Accuracy",
     "Campbell",
     "Columns",
     "Response",
@@ -24,6 +25,7 @@ __all__ = [
     "Scene",
     "SceneError",
     "Study",
+    "accuracy",
     "campbell",
     "package",
     "response",

@@ -13,10 +13,11 @@ class Result(Mapping):
     """What a run showed: `result["r_c.y"]` is an array of as many values as `result.time`."""
 
     def __init__(self, scene, seen):
-        count = seen["count"]
+        time, count = np.frombuffer(seen["time"]), seen["count"]
+        values = np.frombuffer(seen["values"]).reshape(-1, len(time))[:, :count]
         self.scene = scene
         """The scene that ran, with the run's own options."""
-        self.time = np.frombuffer(seen["time"])[:count]
+        self.time = time[:count]
         """Communication points [s], shape (points,)."""
         self.units = dict(zip(seen["names"], seen["units"], strict=True))
         """The unit of each output by its name, "" where it has none."""
@@ -24,8 +25,7 @@ class Result(Mapping):
         """`method`, and what it spent: `steps`, `rejected`, `evaluations`."""
         self.log = seen["log"] + seen["warnings"]
         """What the solver and the rotor had to say."""
-        values = np.frombuffer(seen["values"]).reshape(len(seen["names"]), -1)
-        self._values = dict(zip(seen["names"], values[:, :count], strict=True))
+        self._values = dict(zip(seen["names"], values, strict=True))
 
     def __getitem__(self, name) -> np.ndarray:
         """The values of this output, shape (points,)."""

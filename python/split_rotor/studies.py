@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -86,6 +87,26 @@ class Response(Study):
     def nonlinear(self) -> Columns:
         """A row for each station in each motion that repeats with the revolution, by the laws as they stand."""
         return Columns(self.data["nonlinear"])
+
+
+class Accuracy(Study):
+    """What accuracy costs in time with each method."""
+
+    @property
+    def rows(self) -> Columns:
+        """A row for each method and setting: its error over the motion's own size, CPU time, steps, evaluations."""
+        return Columns(self.data["rows"])
+
+    @property
+    def sentences(self) -> list[str]:
+        """Which setting to take."""
+        return self.data["sentences"]
+
+
+def accuracy(scene) -> Accuracy:
+    """Error against time for every method, of the scene's FMU with the package's own library; it takes about a minute."""
+    with TemporaryDirectory() as folder:
+        return Accuracy(*_core.accuracy(scene, folder))
 
 
 def campbell(scene, *, speeds=None, steps=201, orders=(1.0, 2.0)) -> Campbell:

@@ -25,7 +25,7 @@ mod _core {
     #[pymodule_export]
     use super::scene::Scene;
     #[pymodule_export]
-    use super::studies::{campbell, package, response};
+    use super::studies::{accuracy, campbell, package, response};
     #[pymodule_export]
     use super::{RunError, SceneError};
 }

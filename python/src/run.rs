@@ -1,4 +1,4 @@
-//! A run, and what was seen of it as the bytes of arrays: a crate for arrays would change features of the crates of the model.
+//! A run, and what was seen of it as arrays.
 
 use crate::SceneError;
 use crate::scene::Scene;
@@ -22,7 +22,7 @@ struct Seen {
 
 /// Runs a scene; of its outputs those of these names, or all. Others run meanwhile.
 ///
-/// Returns a dictionary: `time` (points) and `values` (outputs, points) as bytes of doubles, `count` of the points that were reached, `names`, `units`, `solver`, `log`, `warnings`, and `error` where the run
+/// Returns a dictionary: `time` (points) and `values` (outputs, points) as bytes, how many points were reached (`count`), `names`, `units`, `solver`, `log`, `warnings`, and `error` where the run
 /// ended early.
 #[pyfunction]
 pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> PyResult<Bound<'py, PyDict>> {
@@ -46,8 +46,8 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     solver.set_item("rejected", cost.rejected)?;
     solver.set_item("evaluations", cost.evaluations)?;
     let result = PyDict::new(py);
-    result.set_item("time", bytes(py, &time)?)?;
-    result.set_item("values", bytes(py, &values)?)?;
+    result.set_item("time", bytes(py, &time))?;
+    result.set_item("values", bytes(py, &values))?;
     result.set_item("count", count)?;
     result.set_item("names", run.outputs().iter().map(|output| &*output.name).collect::<Vec<_>>())?;
     result.set_item("units", run.outputs().iter().map(|output| output.meta.unit.name).collect::<Vec<_>>())?;
@@ -59,14 +59,9 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     Ok(result)
 }
 
-/// The bytes of these numbers, as this machine has them.
-fn bytes<'py>(py: Python<'py>, numbers: &[f64]) -> PyResult<Bound<'py, PyByteArray>> {
-    PyByteArray::new_with(py, size_of_val(numbers), |bytes| {
-        for (bytes, number) in bytes.chunks_exact_mut(size_of::<f64>()).zip(numbers) {
-            bytes.copy_from_slice(&number.to_ne_bytes());
-        }
-        Ok(())
-    })
+/// Numbers as an array of Python takes them.
+fn bytes<'py>(py: Python<'py>, numbers: &[f64]) -> Bound<'py, PyByteArray> {
+    PyByteArray::new(py, bytemuck::cast_slice(numbers))
 }
 
 /// The output of this name.

@@ -38,6 +38,15 @@ def test_a_body_that_is_not_symmetric_has_its_own_view():
     assert campbell.thresholds.ndim == 1 and set(campbell.modes["direction"]) == {"floquet"}
 
 
+def test_a_tighter_tolerance_costs_more_and_errs_less():
+    accuracy = sr.accuracy(sr.Scene.named("paper").with_values({"experiment.stop": 0.5}))
+    rows = accuracy.rows
+    errors = [rows["error"][(rows["method"] == "dop853") & (rows["value"] == value)].item() for value in [1e-4, 1e-8]]
+    assert errors[1] < 1e-2 * errors[0]
+    assert {"dopri5", "dop853", "symplectic", "stiff", "taylor", "auto"} == set(rows["method"])
+    assert np.nanmin(rows["cpu_time_s"]) > 0.0 and accuracy.sentences and "| error of at most |" in str(accuracy)
+
+
 def test_response_far_above_is_the_offset_of_the_mass_centre():
     response = sr.response(sr.Scene.named("jeffcott"), linear=True)
     linear = response.linear

@@ -1,9 +1,10 @@
 //! What the commands of split-rotor and its Python package share: a run, the linear and the nonlinear view of a scene, the files of its
 //! FMU. It knows no folder of the project and prints nothing.
-#![forbid(unsafe_code)]
 
+pub mod accuracy;
 pub mod archive;
 pub mod campbell;
+pub mod fmu;
 pub mod general;
 pub mod numbers;
 pub mod page;

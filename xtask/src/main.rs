@@ -9,7 +9,6 @@ mod chart;
 mod copies;
 mod demo;
 mod describe;
-mod fmu;
 mod frequency;
 mod fuzz;
 mod hard_cases;
@@ -42,7 +41,7 @@ use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
 use split_rotor_model::scene::SceneError;
-use split_rotor_tools::{numbers, peaks, speeds};
+use split_rotor_tools::{fmu, numbers, peaks, speeds};
 use std::path::PathBuf;
 use std::process::ExitCode;
 

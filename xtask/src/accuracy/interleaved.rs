@@ -1,13 +1,10 @@
 //! CPU times of a method of ours and of a peer's, the runs of both in turn: what else the machine does meets both alike.
 
-use super::row::{Measured, Row};
-use super::run::Subject;
-use super::sweep;
 use crate::run::Conversation;
 use anyhow::{Context, Result};
-
-/// The peer, and the method of ours that solves as it does: by power series.
-pub const PAIR: (&str, &str) = ("heyoka", "taylor");
+use split_rotor_tools::accuracy::row::{Measured, Row};
+use split_rotor_tools::accuracy::run::Subject;
+use split_rotor_tools::accuracy::{PAIR, sweep};
 
 /// The least of so many runs of each setting counts.
 const RUNS: usize = 30;
@@ -69,9 +66,9 @@ fn note(measured: &mut Measured, mut run: impl FnMut() -> Result<f64>) -> Result
 
 #[cfg(test)]
 mod tests {
-    use super::super::row::OURS;
-    use super::super::row::tests::row;
     use super::*;
+    use split_rotor_tools::accuracy::row::OURS;
+    use split_rotor_tools::accuracy::row::sample::row;
     use std::cell::{Cell, RefCell};
 
     #[test]

@@ -1,13 +1,7 @@
 //! What a user would pick instead, measured in the same run: libraries from PyPI, each in an environment of its own, and
 //! two Rust crates. What cannot be installed is named and left out.
 
-use super::interleaved::PAIR;
-use super::motion::{Errors, Point};
-use super::reference::Reference;
-use super::row::{Measured, OURS, Row};
-use super::run::Subject;
-use super::span::{self, POINTS};
-use super::{interleaved, repeats, sweep};
+use super::interleaved;
 use crate::progress::Progress;
 use crate::run::{Conversation, cargo, run};
 use crate::{paths, python};
@@ -15,6 +9,12 @@ use anyhow::{Context, Result};
 use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
 use split_rotor_model::scene::Scene;
+use split_rotor_tools::accuracy::motion::{Errors, Point};
+use split_rotor_tools::accuracy::reference::Reference;
+use split_rotor_tools::accuracy::row::{Measured, OURS, Row};
+use split_rotor_tools::accuracy::run::Subject;
+use split_rotor_tools::accuracy::span::{self, POINTS};
+use split_rotor_tools::accuracy::{PAIR, repeats, sweep};
 use std::process::Command;
 
 /// The effects whose laws stand in the peers' equations.
@@ -196,8 +196,8 @@ fn measured(line: &Value, reference: &Reference) -> Result<Measured> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accuracy::reference::tests::reference;
     use crate::scenes;
+    use split_rotor_tools::accuracy::reference::sample::reference;
 
     #[test]
     fn a_line_of_a_peer_becomes_a_row() {

@@ -1,18 +1,16 @@
 //! `accuracy --tolerances`: the error over the tolerance of all scenes, as docs/accuracy/tolerances.csv and as a table in
 //! docs/accuracy.md.
 
-use super::advice::at_least;
-use super::motion::Relative;
-use super::reference::Reference;
-use super::run::Subject;
-use super::table::{power, range};
-use super::{span, sweep};
 use crate::progress::Progress;
 use crate::unpacked::unpack;
 use crate::{package, paths, scenes, sheets};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use split_rotor_model::scene::Scene;
+use split_rotor_tools::accuracy::motion::Relative;
+use split_rotor_tools::accuracy::reference::Reference;
+use split_rotor_tools::accuracy::run::Subject;
+use split_rotor_tools::accuracy::{at_least, power, range, span, sweep};
 use std::fmt::Write;
 use std::fs;
 

@@ -2,14 +2,14 @@
 
 use super::case::Setting;
 use super::method::Method;
-use crate::accuracy::motion::Point;
-use crate::accuracy::run::{OUTPUTS, point};
 use crate::fmu::{Fmu, Instance, Reference};
 use crate::unpacked::unpack;
 use crate::{paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::variable::Kind;
 use split_rotor_model::xml;
+use split_rotor_tools::accuracy::motion::Point;
+use split_rotor_tools::accuracy::run::{OUTPUTS, point};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 

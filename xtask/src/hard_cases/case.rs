@@ -2,10 +2,10 @@
 
 use super::bench::Bench;
 use super::method::Method;
-use crate::accuracy::motion::Point;
 use anyhow::Result;
 use nalgebra::{Vector2, Vector3};
 use oracles::{motion, rotation};
+use split_rotor_tools::accuracy::motion::Point;
 use std::f64::consts::TAU;
 
 /// Runs a case and tells its error.

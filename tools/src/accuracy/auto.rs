@@ -61,7 +61,7 @@ fn dearest(rows: &[Row], floor: f64) -> Option<(&Row, f64, String)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::row::tests::row;
+    use super::super::row::sample::row;
     use super::*;
 
     #[test]

@@ -4,13 +4,13 @@ use super::motion::Point;
 use super::span::{PARTS, POINTS, end_of_part, time};
 use super::sweep::{AUTO, STEP, TOLERANCE};
 use crate::fmu::{Fmu, Instance, Reference};
+use crate::run::{bends, between};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
 use nalgebra::Vector3;
 use split_rotor_model::scene::{Experiment, Input, Scene};
 use split_rotor_model::variables::METHODS;
 use split_rotor_model::xml;
-use split_rotor_tools::run::{bends, between};
 use std::path::Path;
 
 /// What is read at each point.

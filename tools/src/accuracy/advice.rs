@@ -78,7 +78,7 @@ pub fn at_least(error: f64, floor: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::row::tests::row;
+    use super::super::row::sample::row;
     use super::*;
 
     #[test]

@@ -132,7 +132,7 @@ pub fn count(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::row::tests::row;
+    use super::super::row::sample::row;
     use super::*;
 
     #[test]

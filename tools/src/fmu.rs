@@ -1,4 +1,4 @@
-//! A packaged FMU in this process, called as a host calls it: the only `unsafe` of xtask. Safe to use as long as the
+//! A packaged FMU in this process, called as a host calls it: the only `unsafe` beside the FMI shell. Safe to use as long as the
 //! library is an FMU that keeps to FMI 2.0.
 #![allow(unsafe_code, reason = "the FMU is reached through the C functions of FMI 2.0")]
 
@@ -45,10 +45,10 @@ struct Callbacks {
     environment: *mut c_void,
 }
 
-/// A struct of the functions of an FMU that xtask calls, by the names of the standard, and what loads it.
+/// A struct of the functions of an FMU that are called, by the names of the standard, and what loads it.
 macro_rules! functions {
     ($($name:ident: $symbol:literal ($($argument:ty),*) $(-> $result:ty)?;)*) => {
-        /// The functions of an FMU that xtask calls; they stay valid as long as the library is loaded.
+        /// The functions of an FMU that are called; they stay valid as long as the library is loaded.
         pub struct Fmu {
             guid: CString,
             $($name: unsafe extern "C" fn($($argument),*) $(-> $result)?,)*
@@ -111,7 +111,7 @@ impl Fmu {
             step_finished: None,
             environment: (&raw const *journal).cast_mut().cast(),
         };
-        let (name, guid) = (c"xtask".as_ptr(), self.guid.as_ptr());
+        let (name, guid) = (c"split-rotor".as_ptr(), self.guid.as_ptr());
         // SAFETY: strings and a struct of callbacks that live during the call; the FMU keeps copies. Its journal is boxed
         // and outlives the instance.
         let component =

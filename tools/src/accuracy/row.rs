@@ -2,7 +2,7 @@
 //! of the JSON.
 
 use super::motion::{Errors, Relative};
-use crate::sheets;
+use crate::rows;
 use serde_json::{Value, json};
 
 /// The tool's name in our own rows.
@@ -120,11 +120,12 @@ impl Row {
 
 /// The rows as comma-separated values, with a header.
 pub fn csv(rows: &[Row], scale: Scale) -> String {
-    sheets::csv(&rows.iter().map(|row| row.columns(scale)).collect::<Vec<_>>())
+    rows::csv(&rows.iter().map(|row| row.columns(scale)).collect::<Vec<_>>())
 }
 
-#[cfg(test)]
-pub mod tests {
+/// A row for tests.
+#[cfg(any(test, feature = "samples"))]
+pub mod sample {
     use super::*;
 
     /// A row of ours, or of a peer, with this error \[1] and time \[s]: that of the place, while the axis is right.
@@ -145,6 +146,12 @@ pub mod tests {
         let (tool, version, method, parameter) = (tool.into(), "1.0".into(), method.into(), "tolerance".into());
         Row { tool, version, vector_widths: [None; 2], method, order: None, parameter, value, outcome: Ok(measured) }
     }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sample::row;
+    use super::*;
 
     #[test]
     fn what_is_not_known_stays_empty_and_text_is_quoted() {

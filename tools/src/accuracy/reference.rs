@@ -77,8 +77,9 @@ fn tightest(subject: &Subject, method: &'static str) -> (Setting, Result<Run>) {
     last
 }
 
-#[cfg(test)]
-pub mod tests {
+/// A reference for tests.
+#[cfg(any(test, feature = "samples"))]
+pub mod sample {
     use super::*;
     use nalgebra::Vector3;
 

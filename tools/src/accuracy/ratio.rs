@@ -1,10 +1,12 @@
 //! What the same error costs with a method of ours and with the peer whose runs are timed in turn with its.
 
-use super::interleaved::PAIR;
 use super::reference::Reference;
 use super::row::{Measured, OURS, Row};
 use super::table::{power, short};
 use serde_json::{Value, json};
+
+/// A peer, and the method of ours that solves as it does, by power series: their runs are timed in turn.
+pub const PAIR: (&str, &str) = ("heyoka", "taylor");
 
 /// The errors at which times are compared.
 const GOALS: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
@@ -120,8 +122,8 @@ fn time_for(curve: impl Iterator<Item = (f64, f64)>, goal: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::reference::tests::reference;
-    use super::super::row::tests::row;
+    use super::super::reference::sample::reference;
+    use super::super::row::sample::row;
     use super::*;
 
     #[test]
