@@ -34,7 +34,7 @@ impl Progress {
         let (end, ended) = channel();
         let watched = bar.clone();
         let lines = thread::spawn(move || {
-            while ended.recv_timeout(SIGN_OF_LIFE) == Err(RecvTimeoutError::Timeout) {
+            while ended.recv_timeout(SIGN_OF_LIFE) == Err(RecvTimeoutError::Timeout) && !watched.is_finished() {
                 let of_all = watched.length().map(|parts| format!(", {} of {parts} done", watched.position()));
                 eprintln!("  {}: {} s{}", watched.message(), watched.elapsed().as_secs(), of_all.unwrap_or_default());
             }
