@@ -9,6 +9,9 @@ mod chart;
 mod copies;
 mod demo;
 mod describe;
+mod docs;
+#[cfg(test)]
+mod documents;
 mod fmu;
 mod frequency;
 mod fuzz;
@@ -228,6 +231,8 @@ enum Command {
         #[arg(long)]
         out: Option<PathBuf>,
     },
+    /// Make a site of the documents, with search and equations, that asks nothing of a network: target/book
+    Docs,
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print every key that a scene knows, with its value, unit and meaning, as a scene
@@ -285,6 +290,7 @@ fn dispatch(command: Command) -> Result<()> {
         }
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
+        Command::Docs => docs::docs(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene, xml } => describe::describe(&scene, xml),
     }
