@@ -66,13 +66,14 @@ def setting(row):
     return f"order {row['order']}, {value}" if row["order"] else value
 
 
-def cell(row, name):
-    return f"{short(1e3 * row['time'])} ms, {name} {setting(row)}" if row else "-"
+def cell(row, *words):
+    """What a row takes, and with which method and setting."""
+    return f"{short(1e3 * row['time'])} ms, {' '.join(words)}"
 
 
 def table():
-    """Three lines a scene: the two cheapest of our methods, `auto`, and the cheapest peer."""
-    lines = ["| scene | error | cheapest method | next method | `auto` | cheapest peer |", "|---|--:|---|---|---|---|"]
+    """Three lines a scene: the cheapest of our methods, `auto`, and the cheapest peer."""
+    lines = ["| scene | error | cheapest method | `auto` | cheapest peer |", "|---|--:|---|---|---|"]
     for scene in SCENES:
         rows = read(scene)
         ours = [row for row in rows if row["tool"] == OURS]
@@ -83,11 +84,15 @@ def table():
                 return cheapest((row for row in ours if row["method"] == method), float(goal))
 
             methods = dict.fromkeys(row["method"] for row in ours if row["method"] != "auto")
-            best = sorted(filter(None, map(of, methods)), key=lambda row: row["time"])
-            cells = [cell(row, row["method"]) for row in best[:2]]
+            best = min(filter(None, map(of, methods)), key=lambda row: row["time"], default=None)
             auto, peer = of("auto"), cheapest(peers, float(goal))
-            cells += [cell(auto, auto["taken"]) if auto else "-", cell(peer, f"{peer['tool']} {peer['method']}") if peer else ""]
-            lines.append(f"| `{scene}` | {goal} | {' | '.join(cells)} |")
+            cells = [
+                cell(best, best["method"], setting(best)) if best else "-",
+                cell(auto, setting(auto), f"({auto['taken']})") if auto else "-",
+                cell(peer, peer["tool"], peer["method"], setting(peer)) if peer else "",
+            ]
+            name = f"`{scene}`" if goal == GOALS[0] else ""
+            lines.append(f"| {name} | {goal} | {' | '.join(cells)} |")
     return "\n".join(lines)
 
 

@@ -49,7 +49,7 @@ def families(rows):
         oracles = dict.fromkeys(row["oracle"] for row in members)
         errors = [row["error"] / row["bound"] for row in members if row["bound"] > 0.0]
         mutants = [row["mutant_error"] / row["bound"] for row in members if is_measured(row) and row["mutant_error"] is not None]
-        worst, least = f"{max(errors):.2f}", f"{min(mutants):.0e}" if mutants else "refused"
+        worst, least = f"{max(errors):.2f}", f"{float(f'{min(mutants):.1g}'):.0f}" if mutants else "refused"
         lines.append(f"| {family} | {len(cases)} | {len(members)} | {'; '.join(oracles)} | {worst} | {least} |")
     cases = len({row["case"] for row in rows})
     return "\n".join([*lines, f"| all | {cases} | {len(rows)} | | | |"])
