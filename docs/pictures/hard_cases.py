@@ -46,7 +46,7 @@ def families(rows):
     for family in dict.fromkeys(row["family"] for row in rows):
         members = [row for row in rows if row["family"] == family]
         cases = {row["case"] for row in members}
-        oracles = dict.fromkeys(row["oracle"] for row in members)
+        oracles = dict.fromkeys(part for row in members for part in row["oracle"].split("; "))
         errors = [row["error"] / row["bound"] for row in members if row["bound"] > 0.0]
         mutants = [row["mutant_error"] / row["bound"] for row in members if is_measured(row) and row["mutant_error"] is not None]
         worst, least = f"{max(errors):.2f}", f"{float(f'{min(mutants):.1g}'):.0f}" if mutants else "refused"
