@@ -60,7 +60,8 @@ fn complaint(line: &str) -> Option<String> {
 }
 
 fn complaint_of_command(words: &[&str]) -> Option<String> {
-    let missing = |file: PathBuf| (!paths::root().join(&file).exists()).then(|| format!("{} is not there", file.display()));
+    let missing =
+        |file: PathBuf| (!paths::root().join(&file).exists()).then(|| format!("{} is not there", file.display()));
     let after = |option: &str| words.iter().skip_while(|word| **word != option).nth(1).copied();
     match words {
         [] | ["cargo", "fmt" | "clippy", ..] | ["rustfmt" | "clang-format", ..] => None,

@@ -124,7 +124,8 @@ fn measure<'c>(stages: &Stages, cases: &'c [Member], mutants: bool) -> Result<Ve
             let wrong = Bench::new(stage, method, Some(&case.mutant));
             let mutated = mutants.then(|| self::outcome(case, &wrong));
             ensure!(!mutants || wrong.is_changed(), "{}: its mutant changes nothing", case.name);
-            rows.push(Row { family, case, method, bound: *bound, outcome, mutated, evaluations: bench.spent(), seconds });
+            let (bound, evaluations) = (*bound, bench.spent());
+            rows.push(Row { family, case, method, bound, outcome, mutated, evaluations, seconds });
         }
         measured.lock().expect("no worker panics").push((*number, rows));
         progress.inc(1);
