@@ -8,7 +8,7 @@ mod harness;
 
 use harness::{Instance, reals, scene, scenes};
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::Any;
+use split_rotor_model::simulation::General;
 use split_rotor_model::variable::Place;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ impl Hash {
 /// The hash of a scene's trajectory over the list of all effects.
 fn hash_over_all_effects(name: &str, method: i32) -> u64 {
     let scene = Scene::find(name, &scenes()).unwrap_or_else(|error| panic!("{error}"));
-    let mut simulation = Any::from(scene.parameters());
+    let mut simulation = General::from(scene.parameters());
     let choice = scene.variables.iter().find(|variable| variable.name == "solver.method").expect("it is always there");
     assert!(simulation.set_parameter(choice.place, f64::from(method)));
     simulation.start(0.0, None).unwrap_or_else(|invalid| panic!("{invalid}"));

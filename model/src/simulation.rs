@@ -6,6 +6,8 @@ mod by_series;
 mod closest;
 mod events;
 mod exchange;
+#[cfg(feature = "scenes")]
+mod general;
 mod growth;
 mod integration;
 mod method;
@@ -17,6 +19,8 @@ mod tangents;
 
 use exchange::Exchange;
 pub use exchange::Settled;
+#[cfg(feature = "scenes")]
+pub use general::General;
 pub use tangents::Tangents;
 
 use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
@@ -68,7 +72,7 @@ pub const ALWAYS_INDICATED: usize = 4;
 /// Until it locates an event, a host may try states beyond the chart: to nearly 2π \[rad] their rates are smooth.
 const TRIAL: f64 = 6.0;
 
-/// A rotor of any scene.
+/// A rotor of any scene. [`General`] is the same for programs that only run it.
 #[cfg(feature = "scenes")]
 pub type Any = Simulation<crate::effects::All, { numbers_of_state::<crate::effects::All>() }>;
 

@@ -17,10 +17,10 @@ mod sweep;
 mod table;
 mod tolerances;
 
+use crate::progress::Progress;
 use crate::unpacked::unpack;
 use crate::{package, scenes};
 use anyhow::{Context, Result, ensure};
-use indicatif::{ProgressBar, ProgressStyle};
 use reference::Reference;
 use row::{OURS, Row, Scale};
 use run::{Setting, Subject};
@@ -71,20 +71,18 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
         floor: reference.floor.worst(),
     };
     let curves = sweep::curves(subject);
-    let progress = bar(curves.iter().map(Vec::len).sum());
+    let progress = Progress::of(curves.iter().map(Vec::len).sum());
     let mut rows = Vec::new();
     for curve in &curves {
         if rows.last().is_none_or(|last: &Row| last.method != curve[0].method) {
-            tell(&progress, curve[0].method);
+            progress.tell(&format!("measuring {}", curve[0].method));
         }
         rows.extend(sweep::measure(subject, curve, &reference, || progress.inc(1)));
     }
-    progress.finish_and_clear();
+    drop(progress);
     let mut left_out = Vec::new();
     if with_peers {
-        let progress = bar(peers::PEERS.len());
-        left_out = peers::measure(subject, &reference, &mut rows, &progress);
-        progress.finish_and_clear();
+        left_out = peers::measure(subject, &reference, &mut rows);
     }
     let mut sentences: Vec<_> = span::told(&experiment, &scene.experiment).into_iter().collect();
     sentences.extend(advice::sentences(&rows, scale.floor, scale.simulated));
@@ -92,20 +90,6 @@ fn measure(scene: &Scene, subject: &Subject, with_peers: bool) -> Result<Accurac
     sentences.extend(auto::sentence(&rows, scale.floor));
     sentences.extend(substeps(subject, &curves, &rows, scale)?);
     Ok(Accuracy { reference, rows, scale, experiment, sentences, left_out })
-}
-
-/// A bar where a person watches.
-pub fn bar(length: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}").expect("a valid template");
-    ProgressBar::new(length as u64).with_style(style)
-}
-
-/// Says what is measured now: on the bar, or as a line where there is none.
-pub fn tell(progress: &ProgressBar, what: &str) {
-    progress.set_message(what.to_owned());
-    if progress.is_hidden() {
-        println!("measuring {what}");
-    }
 }
 
 /// What short communication steps cost, at the tightest goal that was reached.

@@ -59,7 +59,7 @@ pub fn must_hold() -> Result<()> {
 fn cargo_bench(name: &str, scene: &str) -> Command {
     let mut command = cargo();
     command
-        .args(["bench", "--quiet", "--bench", name])
+        .args(["bench", "--quiet", "--package", "split-rotor-benches", "--bench", name])
         .env("SPLIT_ROTOR_SCENE", paths::scenes().join(format!("{scene}.toml")))
         // The portable build, as the FMU is packaged, whatever the machine's own settings are.
         .env("RUSTFLAGS", UNPACKED);

@@ -1,6 +1,6 @@
 //! `demo`: the main job, from a scene to a report with pictures.
 
-use crate::run::run;
+use crate::progress::program;
 use crate::{package, paths, python, report, scenes};
 use anyhow::Result;
 use serde_json::{Value, json};
@@ -14,11 +14,7 @@ pub fn demo(scene: &str) -> Result<()> {
     let view = report::linear_view(scene);
     let course = |input: &Input| json!({ "name": input.name, "time": input.time, "value": input.value });
     let inputs: Value = inputs.iter().map(course).collect();
-    run(python::python()?
-        .arg("xtask/python/demo.py")
-        .arg(fmu)
-        .arg("--out")
-        .arg(out)
-        .args(["--inputs", &inputs.to_string()])
-        .args(view))
+    let mut demo = python::python()?;
+    demo.arg("xtask/python/demo.py").arg(fmu).arg("--out").arg(out).args(["--inputs", &inputs.to_string()]).args(view);
+    program("simulating the FMU with fmpy, and making its report", &mut demo)
 }

@@ -22,8 +22,9 @@ mod top;
 mod whirl;
 mod whirling;
 
+use crate::progress::Progress;
 use crate::run::side_by_side;
-use crate::{accuracy, known, package};
+use crate::{known, package};
 use anyhow::{Result, bail, ensure};
 use bench::{Bench, Stages};
 use case::Case;
@@ -111,11 +112,11 @@ fn gallery(whole: bool) -> Vec<Member> {
 }
 
 fn measure<'c>(stages: &Stages, cases: &'c [Member], mutants: bool) -> Result<Vec<Row<'c>>> {
-    let progress = accuracy::bar(cases.len());
+    let progress = Progress::of(cases.len());
     let measured = Mutex::new(Vec::new());
     side_by_side(&cases.iter().enumerate().collect::<Vec<_>>(), |_, (number, (family, case))| {
         let stage = stages.of(case.scene)?;
-        accuracy::tell(&progress, &case.name);
+        progress.tell(&format!("measuring {}", case.name));
         let mut rows = Vec::new();
         for (method, bound) in &case.methods {
             let (bench, began) = (Bench::new(stage, method, None), ThreadTime::now());
@@ -131,7 +132,7 @@ fn measure<'c>(stages: &Stages, cases: &'c [Member], mutants: bool) -> Result<Ve
         progress.inc(1);
         Ok(())
     })?;
-    progress.finish_and_clear();
+    drop(progress);
     let mut measured = measured.into_inner().expect("no worker panics");
     measured.sort_by_key(|(number, _)| *number);
     Ok(measured.into_iter().flat_map(|(_, rows)| rows).collect())

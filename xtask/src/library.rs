@@ -2,6 +2,7 @@
 //! the values of a scene.
 
 use crate::paths;
+use crate::progress::Progress;
 use crate::run::{cargo, compiler, run};
 use anyhow::{Context, Result, anyhow};
 use split_rotor_model::scene::Scene;
@@ -25,7 +26,7 @@ pub fn by_list(scenes: &[Scene]) -> Vec<Vec<&Scene>> {
 }
 
 /// The library of the scene's list, without values: as it was kept, or built by this builder.
-pub fn of(scene: &Scene, builder: usize) -> Result<Vec<u8>> {
+pub fn of(scene: &Scene, builder: usize, progress: &Progress) -> Result<Vec<u8>> {
     let folder = paths::target().join("package");
     let (list, builder) = (scene.list(), folder.join(builder.to_string()));
     let mut name = DefaultHasher::new();
@@ -40,6 +41,7 @@ pub fn of(scene: &Scene, builder: usize) -> Result<Vec<u8>> {
     // Until the library is read: another xtask would overwrite it.
     let lock = File::create(builder.join("lock"))?;
     lock.lock()?;
+    progress.tell(&format!("compiling the library for the effects of {}: half a minute to two", scene.name));
     let began = SystemTime::now();
     let built = build_in(paths::root(), scene, &builder)?;
     let library = fs::read(&built)?;

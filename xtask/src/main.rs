@@ -26,6 +26,7 @@ mod package;
 mod page;
 mod paths;
 mod peaks;
+mod progress;
 mod python;
 mod report;
 mod response;

@@ -1,8 +1,9 @@
 //! `package`: each scene as an FMU, a zip of its modelDescription.xml, the library of its effects with its values, and what describes it
 //! to people.
 
+use crate::progress::Progress;
 use crate::run::side_by_side;
-use crate::{accuracy, library, licences, page, paths, scenes, terminals};
+use crate::{library, licences, page, paths, scenes, terminals};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
@@ -23,12 +24,11 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
     let licences = licences::third_party()?;
-    let progress = accuracy::bar(scenes.len());
+    let progress = Progress::of(scenes.len());
     let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
     // A library is compiled and linked by one thread.
     side_by_side(&library::by_list(&scenes), |builder, scenes| {
-        progress.set_message(format!("building {}", scenes[0].name));
-        let library = library::of(scenes[0], builder)?;
+        let library = library::of(scenes[0], builder, &progress)?;
         scenes.iter().try_for_each(|scene| {
             let library = library::signed(library::filled(library.clone(), scene)?)?;
             let fmu = fmu(scene);
@@ -38,7 +38,7 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
             Ok(())
         })
     })?;
-    progress.finish_and_clear();
+    drop(progress);
     Ok(scenes.iter().map(fmu).collect())
 }
 

@@ -1,8 +1,10 @@
 //! The Python environments: folders in target/, made from pinned and hashed requirements.
 
 use crate::paths;
+use crate::progress::stage;
 use crate::run::run;
 use anyhow::{Context, Result, bail};
+use std::fs;
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::process::Command;
@@ -11,27 +13,35 @@ use std::process::Command;
 struct Environment<'a> {
     /// Its folder in target/.
     folder: &'a str,
-    /// Its requirements in xtask/python/.
-    requirements: &'a str,
+    /// Its requirements in xtask/python/, each a list of its own: what comes later is added to what is there.
+    requirements: &'a [&'a str],
     /// The versions of Python 3 for which they were resolved.
     minors: RangeInclusive<u32>,
 }
 
-/// fmpy, pytest and what draws the report.
+/// fmpy and what makes the report.
 const MAIN: Environment<'static> =
-    Environment { folder: "venv", requirements: "requirements.txt", minors: 10..=u32::MAX };
+    Environment { folder: "venv", requirements: &["requirements.txt"], minors: 10..=u32::MAX };
+
+/// The same, and what draws the other pictures and runs the tests.
+const ALL: Environment<'static> = Environment { requirements: &["requirements.txt", "requirements-all.txt"], ..MAIN };
 
 /// The other simulators. They do not fit beside fmpy of today: CoFMPy holds on to an old one.
 const CLIENTS: Environment<'static> =
-    Environment { folder: "venv-clients", requirements: "requirements-clients.txt", minors: 11..=14 };
+    Environment { folder: "venv-clients", requirements: &["requirements-clients.txt"], minors: 11..=14 };
 
 /// mdBook, and what makes MathML of equations.
 const BOOK: Environment<'static> =
-    Environment { folder: "venv-book", requirements: "requirements-book.txt", minors: 11..=u32::MAX };
+    Environment { folder: "venv-book", requirements: &["requirements-book.txt"], minors: 11..=u32::MAX };
 
-/// A command of the Python that has fmpy and pytest; its environment is made first where it is missing or out of date.
+/// A command of the Python that has fmpy; its environment is made first where it is missing or out of date.
 pub fn python() -> Result<Command> {
     MAIN.python()
+}
+
+/// The same, with matplotlib and pytest.
+pub fn python_with_all() -> Result<Command> {
+    ALL.python()
 }
 
 /// Makes the environment that has the other simulators, where it is missing or out of date.
@@ -64,27 +74,34 @@ pub fn scipy() -> Result<Command> {
 
 fn python_of_peer(name: &str) -> Result<Command> {
     let (folder, requirements) = (format!("venv-peers/{name}"), format!("peers/requirements/{name}.txt"));
-    Environment { folder: &folder, requirements: &requirements, minors: 11..=14 }.python()
+    Environment { folder: &folder, requirements: &[&requirements], minors: 11..=14 }.python()
 }
+
+/// Of pip; the lists are whole, but for what fmpy does not need here (cmake, 30 MB).
+const INSTALL: [&str; 7] =
+    ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--require-hashes"];
 
 impl Environment<'_> {
     fn python(&self) -> Result<Command> {
         let folder = paths::target().join(self.folder);
         let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-        let requirements = paths::root().join("xtask/python").join(self.requirements);
-        let wanted = std::fs::read_to_string(&requirements)?;
-        // What was installed; it is written last, so an environment that was cut short is made anew.
-        let stamp = folder.join("requirements.txt");
-        if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) && python.is_file() {
-            return Ok(command(python));
+        for (number, name) in self.requirements.iter().enumerate() {
+            let requirements = paths::root().join("xtask/python").join(name);
+            let wanted = fs::read_to_string(&requirements)?;
+            // What was installed; it is written last, so an environment that was cut short is made anew.
+            let stamp = folder.join(format!("installed-{number}.txt"));
+            if fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) && python.is_file() {
+                continue;
+            }
+            stage(&format!("making the Python environment {}, {name}", folder.display()), || {
+                if number == 0 {
+                    run(Command::new(self.system_python()?).args(["-m", "venv", "--clear"]).arg(&folder))
+                        .with_context(|| self.needed())?;
+                }
+                run(command(python.clone()).args(INSTALL).arg("--requirement").arg(&requirements))
+            })?;
+            fs::write(stamp, wanted)?;
         }
-        eprintln!("making the Python environment {}", folder.display());
-        run(Command::new(self.system_python()?).args(["-m", "venv", "--clear"]).arg(&folder))
-            .with_context(|| self.needed())?;
-        let install =
-            ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "--requirement"];
-        run(command(python.clone()).args(install).arg(&requirements))?;
-        std::fs::write(stamp, wanted)?;
         Ok(command(python))
     }
 

@@ -18,7 +18,7 @@ pub fn ross() -> Result<()> {
     peer.paragraph()?.iter().for_each(|line| println!("{line}"));
     peer.end()?;
     let folder = paths::target().join("ross");
-    run(python::python()?.arg("xtask/python/against_ross.py").arg(&folder))?;
+    run(python::python_with_all()?.arg("xtask/python/against_ross.py").arg(&folder))?;
     println!("{}", folder.join("ross.svg").display());
     Ok(())
 }

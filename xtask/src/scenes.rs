@@ -4,7 +4,7 @@ use crate::paths;
 use anyhow::Result;
 use split_rotor_model::effects::Info;
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::Any;
+use split_rotor_model::simulation::General;
 use split_rotor_model::variable::Place;
 use split_rotor_model::variables::{Variable, numbers};
 
@@ -21,7 +21,7 @@ pub fn variables_of<'s>(scene: &'s Scene, info: &Info, index: u32) -> impl Itera
 
 /// What a scene's parameters and inputs are at the start, by their names.
 pub fn values(scene: &Scene) -> impl Fn(&str) -> Option<f64> {
-    let told: Any = scene.parameters().into();
+    let told: General = scene.parameters().into();
     move |name| told.value(scene.variables.iter().find(|variable| variable.name == name)?.place)
 }
 

@@ -1,13 +1,13 @@
 //! `run`: a scene simulated in this process, without a package: over the list of all effects, which gives the bits of the scene's FMU.
 
 use crate::numbers::rounded;
-use crate::run::run;
-use crate::{accuracy, paths, python, report, scenes};
+use crate::progress::{Progress, program};
+use crate::{paths, python, report, scenes};
 use anyhow::{Context, Error, Result, bail};
 use cpu_time::ThreadTime;
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Input, Scene};
-use split_rotor_model::simulation::Any;
+use split_rotor_model::simulation::General;
 use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 use split_rotor_model::xml;
@@ -39,7 +39,9 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
         let often = Experiment { step: step / parts, ..scene.experiment };
         Run::of(&scene).record(&often, &folder.join(SAMPLES))?;
         let view = report::linear_view(name);
-        run(python::python()?.arg("xtask/python/run.py").arg(&folder).args(["--table", SAMPLES]).args(view))?;
+        let mut report = python::python()?;
+        report.arg("xtask/python/run.py").arg(&folder).args(["--table", SAMPLES]).args(view);
+        program("making the report", &mut report)?;
     }
     Ok(())
 }
@@ -65,7 +67,7 @@ pub fn fastest(scene: &Scene) -> f64 {
 
 /// A run and what was seen of it.
 struct Run<'s> {
-    simulation: Any,
+    simulation: General,
     outputs: Vec<&'s Variable>,
     watched: Vec<Watched>,
     inputs: &'s [Input],
@@ -95,7 +97,7 @@ impl<'s> Run<'s> {
         let mut bends: Vec<_> = inputs.iter().flat_map(|input| &input.time).copied().collect();
         bends.sort_by(f64::total_cmp);
         bends.dedup();
-        let simulation = Any::from(scene.parameters());
+        let simulation = General::from(scene.parameters());
         Self { simulation, outputs, watched, inputs, places, bends, solving: Duration::ZERO }
     }
 
@@ -116,7 +118,8 @@ impl<'s> Run<'s> {
         self.simulation.start_until(start, Some(tolerance), Some(stop))?;
         seen(self, start)?;
         let points = ((stop - start) / step - 1e-9).ceil() as u64;
-        let (progress, mut from) = (accuracy::bar(points as usize), start);
+        let (progress, mut from) = (Progress::of(points as usize), start);
+        progress.set_message("simulating");
         for point in 1..=points {
             // As a host reckons, which tells the length of a step.
             let next = (start + point as f64 * step).min(stop);
@@ -131,7 +134,6 @@ impl<'s> Run<'s> {
             from = next;
             progress.inc(1);
         }
-        progress.finish_and_clear();
         Ok(())
     }
 

@@ -4,7 +4,7 @@ use crate::{paths, scenes, templates};
 use anyhow::{Context, Result};
 use minijinja::{Value, context};
 use split_rotor_model::scene::Scene;
-use split_rotor_model::simulation::Any;
+use split_rotor_model::simulation::General;
 use split_rotor_model::variable::{Kind, Role};
 use split_rotor_model::variables::Variable;
 use std::path::Path;
@@ -26,7 +26,7 @@ pub fn ssv(scene: &str, out: Option<&Path>) -> Result<()> {
 
 /// What a general FMU must be told to be this scene: which effects act, each parameter, and what each input is until somebody sets it.
 pub fn values<'g>(general: &'g Scene, scene: &Scene) -> Result<Vec<(&'g Variable, f64)>> {
-    let told: Any = scene.parameters().into();
+    let told: General = scene.parameters().into();
     let is_set = |variable: &&Variable| matches!(variable.meta.role, Role::Parameter { .. } | Role::Input { .. });
     let of_scene = scene.variables.iter().filter(is_set).map(|variable| {
         let same = general.variables.iter().find(|own| own.place == variable.place);

@@ -59,7 +59,7 @@ pub fn test(part: &str, long: bool) -> Result<()> {
 }
 
 fn rust_tests() -> Result<()> {
-    run(cargo().args(["test", "--quiet", "--workspace"]))
+    run(cargo().args(["test", "--quiet"]))
 }
 
 /// The comments of the code as pages, without a warning.
@@ -72,8 +72,8 @@ fn driven_tests() -> Result<()> {
     let tests = ["abi", "arguments", "derivatives", "exchange", "inputs", "random_calls", "serialized", "state"]
         .into_iter()
         .flat_map(|name| ["--test", name]);
-    // Of the whole workspace, so that of what it stands on nothing is built anew.
-    run(cargo().args(["test", "--quiet", "--workspace", "--features", "split-rotor/driven"]).args(tests))
+    // Of all members, so that of what it stands on nothing is built anew.
+    run(cargo().args(["test", "--quiet", "--features", "split-rotor/driven"]).args(tests))
 }
 
 /// The bits are the same in every build.
@@ -116,8 +116,8 @@ fn clients() -> Result<()> {
 /// The Rust tests of the model that take long.
 fn long_runs() -> Result<()> {
     // It prints the seed of the day. What costs are is measured, not tested: docs/accuracy.md has the command.
-    // Of the whole workspace, as its tests were built: alone, the model would be built anew.
-    let all = ["test", "--workspace", "--test", "all", "--", "--ignored", "--nocapture"];
+    // Of all members, as their tests were built: alone, the model would be built anew.
+    let all = ["test", "--test", "all", "--", "--ignored", "--nocapture"];
     run(cargo().args(all).args(["--skip", "what_auto_costs"]))
 }
 
@@ -131,7 +131,7 @@ fn peers() -> Result<()> {
 }
 
 fn pytest(arguments: &[&str]) -> Result<()> {
-    run(python::python()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
+    run(python::python_with_all()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
 }
 
 #[cfg(test)]

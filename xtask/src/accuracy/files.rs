@@ -18,7 +18,7 @@ pub fn write(scene: &Scene, result: &Accuracy) -> Result<()> {
     let csv = csv(&result.rows, result.scale);
     let files = [("accuracy.md", &*report), ("accuracy.csv", &csv), ("accuracy.json", &json)];
     let folder = sheets::write(&format!("accuracy/{}", scene.name), files)?;
-    run(python::python()?.arg("xtask/python/accuracy.py").arg(&folder))?;
+    run(python::python_with_all()?.arg("xtask/python/accuracy.py").arg(&folder))?;
     println!("\n{}: {}\n\n{report}", scene.name, scene.title);
     println!("{}", folder.join("accuracy.svg").display());
     Ok(())

@@ -8,10 +8,10 @@ use super::row::{Measured, OURS, Row};
 use super::run::Subject;
 use super::span::{self, POINTS};
 use super::{interleaved, repeats, sweep};
+use crate::progress::Progress;
 use crate::run::{Conversation, cargo, run};
 use crate::{paths, python};
 use anyhow::{Context, Result};
-use indicatif::ProgressBar;
 use nalgebra::Vector3;
 use serde_json::{Map, Value, json};
 use split_rotor_model::scene::Scene;
@@ -77,14 +77,15 @@ fn refusal(scene: &Scene) -> Option<String> {
 }
 
 /// Runs them all, and adds their rows to ours; why there are none of some.
-pub fn measure(subject: &Subject, reference: &Reference, rows: &mut Vec<Row>, progress: &ProgressBar) -> Vec<String> {
+pub fn measure(subject: &Subject, reference: &Reference, rows: &mut Vec<Row>) -> Vec<String> {
     if let Some(why) = refusal(subject.scene) {
         return vec![why];
     }
     let task = task(subject, reference).to_string();
+    let progress = Progress::of(PEERS.len());
     let mut left_out = Vec::new();
     for (name, program) in PEERS {
-        super::tell(progress, name);
+        progress.tell(&format!("measuring {name}"));
         match answers(name, program, &task, subject, reference, rows) {
             Ok(theirs) => {
                 if theirs.iter().all(|row| row.outcome.is_err()) {

@@ -7,7 +7,8 @@ use super::reference::Reference;
 use super::run::Subject;
 use super::sweep::AUTO;
 use super::table::{power, range};
-use super::{bar, span, sweep, tell};
+use super::{span, sweep};
+use crate::progress::Progress;
 use crate::unpacked::unpack;
 use crate::{package, paths, scenes, sheets};
 use anyhow::{Context, Result};
@@ -52,14 +53,14 @@ pub fn tolerances(packaged: bool) -> Result<()> {
     if !packaged {
         package::package(&names, None)?;
     }
-    let progress = bar(names.len());
+    let progress = Progress::of(names.len());
     let mut all = Vec::new();
     for name in &names {
-        tell(&progress, name);
+        progress.tell(&format!("measuring {name}"));
         all.push(measure(name).with_context(|| name.clone())?);
         progress.inc(1);
     }
-    progress.finish_and_clear();
+    drop(progress);
     let rows: Vec<_> = all.iter().flat_map(Measured::rows).collect();
     let table = table(&all);
     let folder = paths::root().join("docs/accuracy");

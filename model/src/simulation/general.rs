@@ -1,0 +1,51 @@
+//! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
+
+use super::Any;
+use crate::effects::All;
+use crate::error::Invalid;
+use crate::integrate::Fault;
+use crate::variable::Place;
+use crate::variables::{Parameters, Reading};
+
+/// [`Any`], for programs that only run it: what is generic there is compiled here.
+#[derive(Clone)]
+pub struct General(Any);
+
+impl From<Parameters<All>> for General {
+    #[inline(never)]
+    fn from(parameters: Parameters<All>) -> Self {
+        Self(parameters.into())
+    }
+}
+
+/// Declares methods that pass their arguments on to those of [`Any`] of the same names.
+macro_rules! passed_on {
+    ($($name:ident(&$($mutable:ident)?, $($argument:ident: $type:ty),*) -> $answer:ty;)*) => {
+        impl General {
+            $(
+                #[doc = concat!("[`super::Simulation::", stringify!($name), "`].")]
+                #[inline(never)]
+                #[allow(clippy::missing_errors_doc, reason = "they are those of what it passes on to")]
+                pub fn $name(&$($mutable)? self $(, $argument: $type)*) -> $answer {
+                    self.0.$name($($argument),*)
+                }
+            )*
+        }
+    };
+}
+
+passed_on! {
+    parameters(&,) -> &Parameters<All>;
+    set_parameter(&mut, place: Place, value: f64) -> bool;
+    set_input(&mut, place: Place, value: f64) -> bool;
+    set_input_derivative(&mut, place: Place, order: u32, value: f64) -> bool;
+    start(&mut, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid>;
+    start_until(&mut, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid>;
+    advance(&mut, t: f64) -> Result<(), Fault>;
+    time(&,) -> Option<f64>;
+    get(&mut, place: Place) -> Result<Option<f64>, Invalid>;
+    value(&, place: Place) -> Option<f64>;
+    read(&mut,) -> Result<&Reading, Invalid>;
+    auto(&,) -> Option<String>;
+    growth(&,) -> Option<(f64, f64)>;
+}
