@@ -2,6 +2,8 @@
 //! they last, and how they change with the speed.
 //!
 //! The equations are those of the simulation, solved by it over a revolution: shooting, and continuation by arc length through folds.
+//! So laws that switch are located as in any run, and bodies whose equations change as they turn need nothing more; harmonic balance would
+//! need a ring's law in many harmonics.
 
 mod branch;
 mod orbit;

@@ -277,7 +277,9 @@ impl<'e, E: Effects> Rotor<'e, E> {
         }
     }
 
-    /// The usual rates where effects have switches, called: they are too long to stand in every stage of a method.
+    /// The usual rates where effects have switches, called: they are too long to stand in every stage of a method. Nothing that takes a
+    /// whole motion may be called within, or all of it is stored for the call. (To ask the effects that act one after another, each
+    /// through a call, was slower: 1.5 to 2.0 times a scene's own FMU instead of 1.0 to 1.4.)
     #[inline(never)]
     fn rates_of_switched<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         let body = self.frame.body.symmetric();

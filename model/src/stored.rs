@@ -1,4 +1,5 @@
-//! What a run remembers, as a row of numbers: written down once, by the same walk that reads it back.
+//! What a run remembers, as a row of numbers: written down once, by the same walk that reads it back. (serde derives nothing for arrays
+//! whose length is generic.)
 
 use nalgebra::{Vector2, Vector3};
 

@@ -72,46 +72,49 @@ pub fn run(extent: &Extent) -> Result<()> {
 }
 
 /// The cases that are to run; an error where there are none.
-fn chosen(extent: &Extent) -> Result<Vec<Case>> {
+fn chosen(extent: &Extent) -> Result<Vec<Member>> {
     let mut cases = gallery(extent.whole);
-    let names: Vec<_> = cases.iter().map(|case| case.name.clone()).collect();
-    cases.retain(|case| extent.part.as_ref().is_none_or(|part| case.name.contains(part)));
+    let names: Vec<_> = cases.iter().map(|(_, case)| case.name.clone()).collect();
+    cases.retain(|(_, case)| extent.part.as_ref().is_none_or(|part| case.name.contains(part)));
     if let (true, Some(part)) = (cases.is_empty(), &extent.part) {
         let meant = known::meant(part, names.iter().map(String::as_str));
         bail!("no case's name holds {part:?}{meant}: there are\n  {}", names.join("\n  "));
     }
     if extent.longer {
-        let shortened: Vec<_> = gallery(false).into_iter().map(|case| case.name).collect();
-        cases.retain(|case| !shortened.contains(&case.name));
+        let shortened: Vec<_> = gallery(false).into_iter().map(|(_, case)| case.name).collect();
+        cases.retain(|(_, case)| !shortened.contains(&case.name));
     }
     ensure!(!cases.is_empty(), "no case is longer in full");
     Ok(cases)
 }
 
-/// All cases; the long ones in full, or shortened.
-fn gallery(whole: bool) -> Vec<Case> {
+/// A case and the name of its family.
+type Member = (&'static str, Case);
+
+/// All cases, family by family; the long ones in full, or shortened.
+fn gallery(whole: bool) -> Vec<Member> {
     let families = [
-        free::cases(whole),
-        asymmetric::cases(whole),
-        antipode::cases(),
-        whirl::cases(whole),
-        whirling::cases(),
-        spin::cases(),
-        times::cases(),
-        stiffness::cases(),
-        top::cases(),
-        inputs::cases(),
-        rotors::cases(),
-        runaways::cases(),
-        refusals::cases(),
+        ("free rotors", free::cases(whole)),
+        ("free asymmetric rotors", asymmetric::cases(whole)),
+        ("passages of −e", antipode::cases()),
+        ("steady whirl", whirl::cases(whole)),
+        ("resonance and growth", whirling::cases()),
+        ("high spin", spin::cases()),
+        ("times and steps", times::cases()),
+        ("soft and stiff supports", stiffness::cases()),
+        ("tops", top::cases()),
+        ("jumps of a torque", inputs::cases()),
+        ("ordinary rotors", rotors::cases()),
+        ("runaways", runaways::cases()),
+        ("refusals", refusals::cases()),
     ];
-    families.into_iter().flatten().collect()
+    families.into_iter().flat_map(|(family, cases)| cases.into_iter().map(move |case| (family, case))).collect()
 }
 
-fn measure<'c>(stages: &Stages, cases: &'c [Case], mutants: bool) -> Result<Vec<Row<'c>>> {
+fn measure<'c>(stages: &Stages, cases: &'c [Member], mutants: bool) -> Result<Vec<Row<'c>>> {
     let progress = Progress::of(cases.len());
     let measured = Mutex::new(Vec::new());
-    side_by_side(&cases.iter().enumerate().collect::<Vec<_>>(), |_, (number, case)| {
+    side_by_side(&cases.iter().enumerate().collect::<Vec<_>>(), |_, (number, (family, case))| {
         let stage = stages.of(case.scene)?;
         progress.tell(&format!("measuring {}", case.name));
         let mut rows = Vec::new();
@@ -122,7 +125,8 @@ fn measure<'c>(stages: &Stages, cases: &'c [Case], mutants: bool) -> Result<Vec<
             let wrong = Bench::new(stage, method, Some(&case.mutant));
             let mutated = mutants.then(|| self::outcome(case, &wrong));
             ensure!(!mutants || wrong.is_changed(), "{}: its mutant changes nothing", case.name);
-            rows.push(Row { case, method, bound: *bound, outcome, mutated, evaluations: bench.spent(), seconds });
+            let (bound, evaluations) = (*bound, bench.spent());
+            rows.push(Row { family, case, method, bound, outcome, mutated, evaluations, seconds });
         }
         measured.lock().expect("no worker panics").push((*number, rows));
         progress.inc(1);

@@ -9,6 +9,9 @@ mod chart;
 mod copies;
 mod demo;
 mod describe;
+mod docs;
+#[cfg(test)]
+mod documents;
 mod frequency;
 mod fuzz;
 mod hard_cases;
@@ -226,6 +229,8 @@ enum Command {
     },
     /// Build the Python package `split_rotor` into target/wheel, install it into a new environment without Rust, and test it there
     Wheel,
+    /// Make a site of the documents, with search and equations, that asks nothing of a network: target/book
+    Docs,
     /// List the scenes and the effects that each calls for
     Scenes,
     /// Print every key that a scene knows, with its value, unit and meaning, as a scene
@@ -284,6 +289,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
         Command::Wheel => wheel::wheel().map(drop),
+        Command::Docs => docs::docs(),
         Command::Scenes => scenes::list(),
         Command::Describe { scene, xml } => describe::describe(&scene, xml),
     }

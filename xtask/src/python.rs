@@ -39,6 +39,10 @@ const BUILDER: Environment<'static> =
 const USER: Environment<'static> =
     Environment { folder: "venv-user", requirements: &["python/tests/requirements.txt"], minors: 10..=u32::MAX };
 
+/// mdBook, and what makes MathML of equations.
+const BOOK: Environment<'static> =
+    Environment { folder: "venv-book", requirements: &["requirements-book.txt"], minors: 11..=u32::MAX };
+
 /// A command of the Python that has fmpy; its environment is made first where it is missing or out of date.
 pub fn python() -> Result<Command> {
     MAIN.python()
@@ -73,6 +77,11 @@ pub fn clients() -> Result<()> {
     run(CLIENTS.python()?.args(["-c", load])).context(
         "the clients cannot be loaded; ecospy needs the library libtbb.so.12 (Debian: apt-get install libtbb12)",
     )
+}
+
+/// A command of the Python that makes the site of the documents.
+pub fn book() -> Result<Command> {
+    BOOK.python()
 }
 
 /// A command that runs this module of xtask/python/peers; each has a Python of its own, so that one that cannot be installed

@@ -1,4 +1,7 @@
 //! A number with its unit, as a scene may have it in quotes: `"30000 rpm"`, `"20 mm"`, `"5 N.m.s/rad"`.
+//!
+//! A power of ten shifts the point of the number that is written, so that 20 mm have the bits of 0.02; libraries that read units
+//! multiply by rounded factors.
 
 use super::similar::did_you_mean;
 use std::f64::consts::PI;

@@ -9,6 +9,8 @@ pub type Outcome = Result<Found, String>;
 
 /// A case with one method.
 pub struct Row<'c> {
+    /// The case's family.
+    pub family: &'static str,
     /// What happens, what is hard about it, and who knows the answer.
     pub case: &'c Case,
     /// By which method.
@@ -58,6 +60,7 @@ impl Row<'_> {
             Err(why) => json!(why),
         });
         vec![
+            ("family", json!(self.family)),
             ("case", json!(self.case.name)),
             ("hard", json!(self.case.hard)),
             ("oracle", json!(self.case.oracle)),

@@ -7,6 +7,8 @@ use wide::f64x2;
 
 /// Coefficients of t, two and two as products need them, and of what is multiplied by t or by t×dt/dt. Those that run backwards
 /// begin with the highest power.
+///
+/// They are stored as they are loaded, in pairs: a pair that is stored as two numbers makes its load wait.
 pub struct Axis<'r> {
     xy: &'r mut Powers,
     zx: &'r mut Powers,
