@@ -33,7 +33,7 @@ class Scene:
         values as in a scene: numbers in SI units, or texts with a unit ("3000 rpm")."""
 
     def with_inputs(self, inputs: Sequence[tuple[str, Sequence[float], Sequence[float]]]) -> Scene:
-        """This scene with these inputs over time, in place of its own of the same names: name, times [s], values."""
+        """This scene with these inputs over time, in place of its own of the same names: name, times in s, values."""
 
     @property
     def name(self) -> str: ...

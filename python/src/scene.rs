@@ -58,7 +58,7 @@ impl Scene {
         Self::from_toml(document.to_string(), self.scene.file.clone())
     }
 
-    /// This scene with these inputs over time, in place of its own of the same names: name, times [s], values.
+    /// This scene with these inputs over time, in place of its own of the same names: name, times in s, values.
     fn with_inputs(&self, inputs: Vec<(String, Vec<f64>, Vec<f64>)>) -> PyResult<Self> {
         let mut document = self.document()?;
         let all = document.entry("input").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));

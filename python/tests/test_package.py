@@ -1,8 +1,11 @@
 """FMUs made by the package, without a compiler."""
 
+from importlib.metadata import files
+
 import fmpy
 import numpy as np
 import pytest
+from conftest import ROOT
 from fmpy.validation import validate_fmu
 
 import split_rotor as sr
@@ -61,3 +64,11 @@ def test_what_the_library_has_no_room_for_is_told(tmp_path):
     assert not list(tmp_path.iterdir())
     with pytest.raises(RuntimeError, match="cannot write"):
         sr.package(sr.Scene.named("paper"), tmp_path / "nosuch" / "paper.fmu")
+
+
+def test_no_file_of_the_wheel_names_the_folder_where_it_was_built():
+    # pip writes down from where it installed, and where it compiled to.
+    travels = [file for file in files("split-rotor") if file.name != "direct_url.json" and file.suffix != ".pyc"]
+    assert len(travels) > 20
+    for file in travels:
+        assert str(ROOT).encode() not in file.locate().read_bytes(), file

@@ -8,8 +8,9 @@ import split_rotor as sr
 
 def test_exact_critical_speeds_of_the_turbo_rotor(turbo):
     campbell = sr.campbell(turbo)
-    # Along its axis: one bearing of 1e6 N/m. In a plane, without the tilt: both.
-    axial = np.sqrt(1e6 / 12.0 - (500.0 / 24.0) ** 2)
+    # Along its axis: one bearing, and the mass with that of the unbalance, whose radius is the radius of gyration.
+    mass = 12.0 + 4e-5 / np.sqrt(0.04 / 12.0)
+    axial = np.sqrt(1e6 / mass - (500.0 / (2.0 * mass)) ** 2)
     modes, critical = campbell.modes, campbell.critical_speeds
     once = critical["speed_rad_s"][(critical["order"] == 1.0) & (critical["direction"] == "axial")]
     assert once == pytest.approx([axial], rel=1e-9)

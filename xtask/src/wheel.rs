@@ -56,7 +56,7 @@ fn fill(data: &Path) -> Result<()> {
         fs::copy(paths::scenes().join(&file), data.join("scenes").join(&file))?;
     }
     let mut cargo = python::wheel_builder("cargo-zigbuild")?;
-    cargo.arg("rustc").args(["--target", &format!("{TARGET}.{GLIBC}")]);
+    cargo.args(["rustc", "--quiet", "--target", &format!("{TARGET}.{GLIBC}")]);
     let target = paths::target().join("package/portable");
     library::build_with(&mut cargo, paths::root(), &scenes::find(GENERAL)?, &target)?;
     let name = format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}");
