@@ -11,8 +11,9 @@ import numpy as np
 from looks import BLACK, BLUE, GREEN, PURPLE, STYLE, VERMILLION
 from matplotlib import rc_context
 from matplotlib.figure import Figure
-from report import measure, paper
-from report.notation import number
+from report import measure, paper, stations
+from report.notation import RPM, multiple, number
+from report.turns import turns
 
 WIDTH = 7.2  # [in]
 
@@ -131,6 +132,18 @@ def orbits(figure, result, scene):
         panel.plot(y[-1], z[-1], "s", color=VERMILLION, markersize=5)
         panel.set(title=probe, xlabel="y [m]", xlim=_limits(y, half), ylim=_limits(z, half), aspect="equal")
     panels[0].set_ylabel("z [m]")
+
+
+@_inline(2.6, "Whirl of a station, turn by turn, against the speed")
+def whirl(figure, result, scene):
+    """The largest distance of a station from its middle in each turn, against the speed of that turn."""
+    station = stations.looked_at(scene)[0]
+    found = turns(station, result)
+    unit, size = multiple(found.whirl.max(), "m")
+    axes = figure.add_subplot()
+    axes.plot(found.speed[1:] * RPM, found.whirl[1:] / size, color=BLUE, linewidth=0.8)
+    axes.ticklabel_format(style="plain", axis="x")
+    axes.set(title=f"{scene.title}: {station.name}", xlabel="speed [rpm]", ylabel=f"whirl [{unit}]", ylim=(0.0, None))
 
 
 @_inline(2.6, "Distance of the mass centre from the x axis against time, on a logarithmic scale")

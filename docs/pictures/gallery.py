@@ -16,10 +16,12 @@ from report.scene import Scene  # noqa: E402
 from report.simulate import respond, simulate  # noqa: E402
 
 PICTURES = {
+    "centrifuge": figures.whirl,
     "coupled": figures.trajectory,
     "driven": figures.spin,
     "dzhanibekov": figures.portrait,
     "film_bearings": figures.spin,
+    "flywheel": figures.orbits,
     "free_top": figures.attitude,
     "heavy_top": figures.portrait,
     "high_spin": figures.attitude,
@@ -27,12 +29,16 @@ PICTURES = {
     "long_run": figures.energy,
     "overhung": figures.spin,
     "paper": figures.trajectory,
+    "reaction_wheel": figures.whirl,
     "rotor": figures.energy,
     "rubbing": figures.orbits,
     "run_up": figures.spin,
+    "spindle": figures.whirl,
     "stiff_support": figures.attitude,
     "tumbling": figures.passage,
+    "turbo": figures.whirl,
     "unstable_whirl": figures.growth,
+    "washing_machine": figures.whirl,
 }
 MOST = 1000
 """Points of a slow curve; more make the file larger and look the same."""
@@ -49,7 +55,7 @@ def picture(name):
     else:
         run = simulate(fmu, description, scene)
         # What is quick in these would be lost between the steps of the experiment.
-        is_quick = draw in (figures.portrait, figures.passage)
+        is_quick = draw in (figures.portrait, figures.passage, figures.whirl)
         result = run.columns if is_quick else run.at_steps[:: max(1, len(run.at_steps) // MOST)]
     return draw(result, scene)
 

@@ -19,6 +19,10 @@ def turbo(package):
     return package("turbo", block("toml"))
 
 
+def test_its_scene_is_that_of_the_project():
+    assert block("toml") in (project.ROOT / "scenes" / "turbo.toml").read_text(encoding="utf-8")
+
+
 def test_its_python_lines_run_the_turbo_rotor_through_its_critical_speed(turbo):
     lines = block("python").replace("target/fmu/turbo.fmu", str(turbo.path))
     assert str(turbo.path) in lines

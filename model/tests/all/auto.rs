@@ -49,11 +49,13 @@ fn what_it_takes_in_each_scene_and_why() {
         "auto takes taylor: the motion has a power series; and it takes stiff as long as stability alone";
     const PAIR: &str = "auto takes dop853: the motion has no power series while";
     const COLLOCATION: &str = "auto goes on with stiff from t = ";
-    const TAKEN: [(&str, &str); 17] = [
+    const TAKEN: [(&str, &str); 23] = [
+        ("centrifuge", PAIR),
         ("coupled", SERIES),
         ("driven", SERIES),
         ("dzhanibekov", EXACT),
         ("film_bearings", PAIR),
+        ("flywheel", PAIR),
         ("free_top", EXACT),
         ("heavy_top", SERIES),
         ("high_spin", COLLOCATION),
@@ -61,12 +63,16 @@ fn what_it_takes_in_each_scene_and_why() {
         ("long_run", SERIES),
         ("overhung", "auto goes on with "),
         ("paper", SERIES),
+        ("reaction_wheel", PAIR),
         ("rotor", SERIES),
         ("rubbing", "auto "),
         ("run_up", PAIR),
+        ("spindle", PAIR),
         ("stiff_support", COLLOCATION),
         ("tumbling", EXACT),
+        ("turbo", PAIR),
         ("unstable_whirl", SERIES),
+        ("washing_machine", PAIR),
     ];
     assert_eq!(TAKEN.map(|(name, _)| name).to_vec(), names());
     for (name, what) in TAKEN {

@@ -11,6 +11,8 @@ from .turns import turns
 
 MOST = 5
 """Critical speeds that are named."""
+SHARP = 2.5
+"""From this amplification factor on a resonance counts as a critical speed (API Std 617 and RP 684); below it is critically damped."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +26,8 @@ class Finding:
 
 def findings(result, view):
     """All that this run and its linear view have."""
-    found = [_critical(view), _stability(result, view), *_motion(result), _load(result), _time(result), _energy(result)]
+    found = [_critical(view), *_passed(result, view), _stability(result, view), *_motion(result), _contact(result), _load(result)]
+    found += [_time(result), _energy(result)]
     return [finding for finding in found if finding]
 
 
@@ -40,6 +43,26 @@ def _critical(view):
     return Finding(" · ".join(speeds[:MOST]) + "\u00a0rpm", f"critical speeds (1×){more}")
 
 
+def _passed(result, view):
+    """Critical speeds among the speeds of this run, or nearer to them than half their width at 0.707 of their peak, with little damping."""
+    if view is None or view.floquet:
+        return
+    spin = np.abs(result.columns["omega_phi"])
+    for crossing in view.critical:
+        speed, ratio = crossing["speed_rad_s"], crossing["damping_ratio"]
+        away = max(spin.min() - speed, speed - spin.max())
+        # An unbalance goes round forward: a round machine does not whirl backward by it.
+        if away <= max(ratio, linear.NEITHER) * speed and crossing["direction"] != linear.BACKWARD and 2.0 * ratio * SHARP <= 1.0:
+            where = f"critical speed {'within' if away <= 0.0 else 'next to'} the speeds of this run, {_range(spin)}"
+            sharp = f"amplification factor {number(0.5 / ratio, 2)}" if ratio > linear.NEITHER else "undamped"
+            yield Finding(rpm(speed), f"{where}; {sharp} (from {SHARP} on it counts as critical, API 617)", "bad")
+
+
+def _range(spin):
+    """The speeds of a run [rad/s] in rpm; one if it hardly changes."""
+    return f"{rpm(spin.min())} to {rpm(spin.max())}" if np.ptp(spin) > 0.01 * spin.max() else rpm(spin.max())
+
+
 def _stability(result, view):
     if view is None:
         return None
@@ -53,15 +76,36 @@ def _stability(result, view):
     spin = np.clip(spin, min(looked), max(looked))
     row = view.least_damped((spin.min(), spin.max()))
     ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
-    range_ = f"{rpm(spin.min())} to {rpm(spin.max())}" if np.ptp(spin) > 0.01 * spin.max() else rpm(spin.max())
+    range_ = _range(spin)
     if abs(ratio) <= linear.NEITHER:
         return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}")
     size = linear.decrement(ratio)
     how = f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
     if ratio < 0.0:
-        bounds = "".join(f"; threshold {rpm(speed)}" for speed in view.thresholds)
-        return Finding("unstable", f"{row['direction']} mode grows {at}, {how}{bounds}", "bad")
+        bounds = "".join(f"; threshold {rpm(speed)}{_when(result, speed)}" for speed in view.thresholds)
+        in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
+        grows = f"grows by e in {in_}" if in_ else "grows"
+        return Finding("unstable", f"{row['direction']} mode {grows} {at}, {how}{bounds}", "bad")
     return Finding("stable", f"at {range_}; least {how}, {row['direction']} mode {at}", "good")
+
+
+def _when(result, threshold):
+    """When a run first comes above a speed [rad/s] that it began below, in words; nothing where it does not."""
+    spin = np.abs(result.columns["omega_phi"])
+    above = np.flatnonzero(spin > threshold)
+    return f", passed at {number(result.columns['time'][above[0]], 3)}\u00a0s" if len(above) and above[0] else ""
+
+
+def _contact(result):
+    """Where the shaft came to touch a ring: its station went as far as the gap."""
+    columns = result.columns
+    touches = {ring: columns["time"][columns[f"{ring}.contact"] > 0.0] for ring in result.scene.blocks("rub")}
+    first = {ring: times[0] for ring, times in touches.items() if len(times)}
+    if not first:
+        return None
+    ring = min(first, key=first.get)
+    gap = quantity(result.scene.value(f"{ring}.gap"), "m")
+    return Finding("contact", f"the shaft touches {ring}, whose gap is {gap}, first at {number(first[ring], 3)}\u00a0s", "bad")
 
 
 def _motion(result):

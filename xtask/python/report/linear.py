@@ -7,7 +7,7 @@ import numpy as np
 
 NEITHER = 1e-6
 """A damping ratio of less, of either sign, is one of 0."""
-AXIAL = "axial"
+AXIAL, BACKWARD = "axial", "backward"
 
 
 @dataclass(frozen=True)

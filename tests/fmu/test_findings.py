@@ -1,0 +1,79 @@
+"""What the report's results warn of, from runs and linear views that are known."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import project
+import pytest
+
+
+@pytest.fixture
+def findings(monkeypatch):
+    """The module, and the linear view's."""
+    monkeypatch.syspath_prepend(str(project.ROOT / "xtask" / "python"))
+    from report import findings
+
+    return findings
+
+
+def run(speeds, **columns):
+    """A run of 1 s through these speeds [rad/s], evenly."""
+    columns = {"time": np.linspace(0.0, 1.0, 101), "omega_phi": np.interp(np.linspace(0, 1, 101), [0, 1], speeds), **columns}
+    table = np.zeros(101, dtype=[(name, float) for name in columns])
+    for name, values in columns.items():
+        table[name] = values
+    scene = SimpleNamespace(blocks=lambda *kinds: ["rub[1]"], value=lambda name: 0.01)
+    return SimpleNamespace(columns=table, scene=scene)
+
+
+def view(findings, **crossing):
+    """A linear view with one critical speed, at 200 rad/s."""
+    crossing = {"speed_rad_s": 200.0, "damping_ratio": 0.05, "direction": "forward"} | crossing
+    return findings.linear.Linear(modes=[], critical=[crossing], thresholds=[], floquet=False)
+
+
+def passed(findings, speeds, **crossing):
+    return [found.what for found in findings._passed(run(speeds), view(findings, **crossing))]
+
+
+def test_exact_a_critical_speed_among_those_of_the_run_is_told_with_its_amplification_factor(findings):
+    (what,) = passed(findings, [0.0, 600.0])
+    assert what.startswith("critical speed within the speeds of this run, 0\u00a0rpm to 5\u202f730\u00a0rpm; amplification factor 10 (")
+    assert "API 617" in what
+    (what,) = passed(findings, [0.0, -600.0])  # either sense
+    assert "amplification factor 10" in what
+    (what,) = passed(findings, [300.0, 100.0], damping_ratio=0.0)
+    assert "; undamped (" in what
+
+
+def test_exact_it_is_next_to_the_run_as_far_as_its_peak_is_wide(findings):
+    (what,) = passed(findings, [0.0, 191.0])  # 200 rad/s less 5 %: 190 rad/s
+    assert what.startswith("critical speed next to the speeds of this run")
+    assert passed(findings, [0.0, 189.0]) == [] == passed(findings, [211.0, 400.0])
+
+
+def test_exact_no_alarm_where_it_is_damped_or_goes_backward(findings):
+    assert len(passed(findings, [0.0, 600.0], damping_ratio=0.199)) == 1  # 1/(2 · 2.5) = 0.2
+    assert passed(findings, [0.0, 600.0], damping_ratio=0.201) == []
+    assert passed(findings, [0.0, 600.0], direction="backward") == []
+
+
+def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(findings):
+    """A mode that swings at 20 rad/s and grows by 0.4 1/s, above 40 rad/s."""
+    rate, swing = 0.4, 20.0
+    ratio = -rate / np.hypot(rate, swing)
+    row = {"mode": 1, "direction": "forward", "frequency_rad_s": swing}
+    modes = [row | {"speed_rad_s": speed, "damping_ratio": ratio if speed > 40.0 else 0.1} for speed in (0.0, 30.0, 60.0)]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[40.0], floquet=False)
+    found = findings._stability(run([0.0, 60.0]), linear)
+    assert found.judged == "bad" and "forward mode grows by e in 2.5\u00a0s at 573\u00a0rpm" in found.what
+    assert found.what.endswith("threshold 382\u00a0rpm, passed at 0.67\u00a0s")  # the first sample after 2/3 s
+    assert findings._stability(run([60.0, 60.0]), linear).what.endswith("threshold 382\u00a0rpm")
+    assert findings._stability(run([0.0, 30.0]), linear).judged == "good"
+
+
+def test_exact_contact_is_told_with_its_first_time_and_gap(findings):
+    touches = np.where(np.linspace(0.0, 1.0, 101) > 0.305, 1.0, 0.0)
+    found = findings._contact(run([0.0, 60.0], **{"rub[1].contact": touches}))
+    assert found.what == "the shaft touches rub[1], whose gap is 10\u00a0mm, first at 0.31\u00a0s"
+    assert findings._contact(run([0.0, 60.0], **{"rub[1].contact": 0.0 * touches})) is None
