@@ -13,7 +13,7 @@ from page import put
 
 SCENES = ("paper", "tumbling", "driven", "high_spin", "stiff_support", "long_run")
 GOALS = ("1e-3", "1e-6", "1e-9")
-SAME_TIME = 1.05  # as in xtask/src/accuracy/advice.rs
+SAME_TIME = 1.05  # as in tools/src/accuracy/advice.rs
 OURS = "split-rotor"
 HERE = Path(__file__).parent
 FOUND = HERE.parents[1] / "target" / "accuracy"
@@ -47,7 +47,7 @@ def cheapest(rows, goal):
 
 
 def short(value):
-    """Two digits, as in xtask/src/accuracy/table.rs."""
+    """Two digits, as in tools/src/accuracy/table.rs."""
     if not 0.1 <= value < 1000.0:
         return power(f"{value:.1e}")
     return f"{value:.2f}" if value < 1.0 else f"{value:.1f}" if value < 10.0 else f"{value:.0f}"

@@ -64,7 +64,7 @@ fn complaint_of_command(words: &[&str]) -> Option<String> {
         |file: PathBuf| (!paths::root().join(&file).exists()).then(|| format!("{} is not there", file.display()));
     let after = |option: &str| words.iter().skip_while(|word| **word != option).nth(1).copied();
     match words {
-        [] | ["cargo", "fmt" | "clippy", ..] | ["rustfmt" | "clang-format", ..] => None,
+        [] | ["cargo", "fmt" | "clippy", ..] | ["rustfmt" | "clang-format" | "pip", ..] => None,
         ["cargo", "xtask", rest @ ..] => complaint_of_xtask(rest),
         ["cargo", "test", ..] => {
             let test = after("--test")?;
@@ -146,7 +146,8 @@ fn texts(folder: &Path, end: &str) -> String {
 
 #[test]
 fn what_only_another_test_can_run_has_one() {
-    let tests = texts(&paths::root().join("tests"), ".py") + &texts(&paths::root().join("xtask/src"), "copies.rs");
+    let folders = [("tests", ".py"), ("python/tests", ".py"), ("xtask/src", "copies.rs")];
+    let tests = folders.map(|(folder, end)| texts(&paths::root().join(folder), end)).concat();
     for (page, text) in pages() {
         for Block { page, language, .. } in blocks(&name(&page), &text) {
             match &*language {
