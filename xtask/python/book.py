@@ -63,7 +63,9 @@ def main():
         copy = SOURCE / file.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         if file in pages:
-            copy.write_text(with_equations(file.read_text(encoding="utf-8")), encoding="utf-8")
+            # mdBook makes the index of the README, and does not follow links to it.
+            page = re.sub(r"\]\((\.\./)?README\.md", r"](\1index.md", file.read_text(encoding="utf-8"))
+            copy.write_text(with_equations(page), encoding="utf-8")
         else:
             shutil.copyfile(file, copy)
     # mdBook wants both at the root of what it reads.
