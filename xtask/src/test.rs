@@ -5,6 +5,7 @@ use crate::run::{cargo, run};
 use crate::{accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel};
 use anyhow::{Result, bail, ensure};
 use split_rotor_model::scene::Scene;
+use std::thread;
 use std::time::Instant;
 
 /// What a job does, and what runs it; where it cannot, that is an error, which names what is to be installed.
@@ -131,8 +132,11 @@ fn peers() -> Result<()> {
     Ok(())
 }
 
+/// Runs these tests, as many files at a time as there are processors.
 fn pytest(arguments: &[&str]) -> Result<()> {
-    run(python::python_with_all()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
+    let workers = thread::available_parallelism()?.to_string();
+    let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--dist", "loadfile", "-n", &workers];
+    run(python::python_with_all()?.args(pytest).args(arguments))
 }
 
 #[cfg(test)]
