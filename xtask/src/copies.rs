@@ -6,9 +6,18 @@ use crate::{c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::scene::Scene;
-use std::fs;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// Until it is dropped no other xtask works on copies: they share what is built of them.
+fn alone() -> Result<File> {
+    let folder = paths::target().join("copies");
+    fs::create_dir_all(&folder)?;
+    let lock = File::create(folder.join("lock"))?;
+    lock.lock()?;
+    Ok(lock)
+}
 
 /// A fresh copy of what git knows, as it stands here, in target/copies/`name`.
 fn copied(name: &str) -> Result<PathBuf> {
@@ -37,6 +46,7 @@ fn text(copy: &Path, scene: &Scene) -> Result<Vec<u8>> {
 /// The machine code of `paper` is the same to the byte where every effect that it does not call for is taken out of the
 /// catalogue, at the same path.
 pub fn absence_is_free() -> Result<()> {
+    let _alone = alone()?;
     let copy = copied("absence")?;
     let scene = scenes::find(&copy.join("scenes/paper.toml").display().to_string())?;
     let all = text(&copy, &scene)?;
@@ -58,6 +68,7 @@ pub fn absence_is_free() -> Result<()> {
 
 /// Adds the effect of the page, runs the test that holds every effect to its power, and packages the page's scene.
 pub fn example_is_right() -> Result<()> {
+    let _alone = alone()?;
     let page = fs::read_to_string(paths::root().join("docs/adding-an-effect.md"))?;
     let block = |language: &str| -> Result<&str> {
         let after = page.split_once(&format!("```{language}\n")).with_context(|| format!("no block of {language}"))?.1;

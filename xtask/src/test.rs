@@ -1,10 +1,14 @@
 //! `test`: everything that must hold, as a list of jobs.
 
 use crate::hard_cases::{self, Extent};
-use crate::run::{cargo, run};
+use crate::progress::Progress;
+use crate::run::{cargo, run, side_by_side};
 use crate::{accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel};
 use anyhow::{Result, bail, ensure};
 use split_rotor_model::scene::Scene;
+use std::env;
+use std::process::{Command, Stdio};
+use std::thread;
 use std::time::Instant;
 
 /// What a job does, and what runs it; where it cannot, that is an error, which names what is to be installed.
@@ -20,31 +24,34 @@ const SHORT: [Job; 6] = [
     ("hard cases, shortened, with mutants", gallery),
 ];
 
-/// What takes long, or needs more than the README asks for.
+/// What takes long, or needs more than the README asks for. Several run side by side, so what takes longest comes first.
 const LONG: [Job; 13] = [
     ("third-party clients", clients),
+    ("the example of an effect", copies::example_is_right),
+    ("fuzz", fuzz::fuzz),
     ("long runs", long_runs),
-    ("bits of wide builds", wide_builds),
-    ("hard cases in full", whole_gallery),
-    ("peers", peers),
-    ("against ROSS", ross::ross),
     ("sanitizers", sanitize::sanitizers),
     ("memcheck", memcheck::valgrind),
     ("counts that must hold", bench::must_hold),
+    ("hard cases in full", whole_gallery),
     ("absence is free", copies::absence_is_free),
-    ("the example of an effect", copies::example_is_right),
+    ("bits of wide builds", wide_builds),
     ("Python package", || wheel::wheel().map(drop)),
-    ("fuzz", fuzz::fuzz),
+    ("peers", peers),
+    ("against ROSS", ross::ross),
 ];
 
 /// Runs the short jobs, and the long ones too where they are asked for, those whose names hold `part`; says what each took.
 pub fn test(part: &str, long: bool) -> Result<()> {
-    let jobs = SHORT.iter().chain(LONG.iter().filter(|_| long));
-    let jobs: Vec<_> = jobs.filter(|(name, _)| name.contains(part)).collect();
+    let of = |jobs: &'static [Job]| jobs.iter().filter(|(name, _)| name.contains(part)).collect::<Vec<_>>();
+    let (mut jobs, mut beside) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
+    if beside.len() == 1 {
+        jobs.append(&mut beside);
+    }
     let names = |jobs: &[Job]| jobs.iter().map(|(name, _)| format!("\n  {name}")).collect::<String>();
     // Nothing run would pass for nothing wrong.
     ensure!(
-        !jobs.is_empty(),
+        !jobs.is_empty() || !beside.is_empty(),
         "no job's name holds {part:?}{}: there are{}\nand with --long also{}",
         known::meant(part, SHORT.iter().chain(&LONG).map(|(name, _)| *name)),
         names(&SHORT),
@@ -56,7 +63,24 @@ pub fn test(part: &str, long: bool) -> Result<()> {
         job()?;
         println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
     }
-    Ok(())
+    together(&beside)
+}
+
+/// Runs these long jobs side by side, each by an xtask of its own, whose words are shown when it has ended.
+fn together(jobs: &[&Job]) -> Result<()> {
+    let progress = Progress::of(jobs.len());
+    side_by_side(jobs, |_, (name, _)| {
+        progress.tell(&format!("== {name} begins"));
+        let mut job = Command::new(env::current_exe()?);
+        let output = job.args(["test", name, "--long"]).stdin(Stdio::null()).output()?;
+        progress.suspend(|| {
+            print!("{}", String::from_utf8_lossy(&output.stdout));
+            eprint!("{}", String::from_utf8_lossy(&output.stderr));
+        });
+        progress.inc(1);
+        ensure!(output.status.success(), "the job {name:?} failed ({})", output.status);
+        Ok(())
+    })
 }
 
 fn rust_tests() -> Result<()> {
@@ -81,7 +105,7 @@ fn driven_tests() -> Result<()> {
 fn other_builds() -> Result<()> {
     // Where nothing is optimised, the laws of all effects stand on the stack one within another: 2 MB of it.
     let stack = (8 << 20).to_string();
-    ["unoptimised", "release"].iter().try_for_each(|profile| {
+    side_by_side(&["unoptimised", "release"], |_, profile| {
         run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", profile]).env("RUST_MIN_STACK", &stack))
     })
 }
@@ -131,8 +155,11 @@ fn peers() -> Result<()> {
     Ok(())
 }
 
+/// Runs these tests, as many files at a time as there are processors.
 fn pytest(arguments: &[&str]) -> Result<()> {
-    run(python::python_with_all()?.args(["-m", "pytest", "-q", "-p", "no:cacheprovider"]).args(arguments))
+    let workers = thread::available_parallelism()?.to_string();
+    let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--dist", "loadfile", "-n", &workers];
+    run(python::python_with_all()?.args(pytest).args(arguments))
 }
 
 #[cfg(test)]
