@@ -18,7 +18,7 @@ use crate::scene::{self, Effects, Simulation};
 use split_rotor_model::error::Invalid;
 use split_rotor_model::integrate::Cost;
 use split_rotor_model::log::{ALL, Category};
-use split_rotor_model::simulation::Integrator;
+use split_rotor_model::simulation::{Growth, Integrator};
 use split_rotor_model::variable::{Kind, Place, Role};
 use split_rotor_model::variables::{Parameters, TOLERANCES};
 
@@ -57,7 +57,7 @@ pub struct Memory {
     experiment: Experiment,
     /// Whether the last step could not be done.
     step_failed: bool,
-    /// Whether it was said that the tilt is large, that the motion grows, and that all inputs are 0.
+    /// Whether it was said that the tilt is large, that the motion grows, which it does still, and that all inputs are 0.
     warned: [bool; 3],
 }
 
@@ -218,7 +218,7 @@ impl Instance {
         Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once each that the tilt is large, where that matters, and that the linear motion grows.
+    /// Says once that the tilt is large, where that matters, and whenever the linear motion begins to grow.
     fn warn(&mut self) {
         let [of_tilt, of_growth, _] = &mut self.memory.warned;
         if !*of_tilt && self.memory.simulation.has_tilted() {
@@ -227,10 +227,12 @@ impl Instance {
                            beyond 3.1 rad no step is possible";
             self.logger.log(Severity::Warning, Category::Warning, message);
         }
-        if !*of_growth && let Some((rate, t)) = self.memory.simulation.growth() {
-            *of_growth = true;
+        let growth = self.memory.simulation.growth();
+        let known = std::mem::replace(of_growth, growth.is_some());
+        if !known && let Some(Growth { rate, t, speed }) = growth {
             let message = format!(
-                "the rotor is unstable: small motions about its state at t = {t:?} s grow by a factor of e every {:.3e} s",
+                "the rotor is unstable: small motions about its state at t = {t:?} s, at {speed:.1} rad/s, grow by a factor of e \
+                 every {:.3e} s",
                 1.0 / rate
             );
             self.logger.log(Severity::Warning, Category::Warning, &message);

@@ -17,6 +17,7 @@ mod tangents;
 
 use exchange::Exchange;
 pub use exchange::Settled;
+pub use growth::Growth;
 pub use tangents::Tangents;
 
 use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
@@ -308,8 +309,9 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
-    /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was \[s].
-    pub fn growth(&self) -> Option<(f64, f64)> {
+    /// What of the linear motion about the present state grows, as it was when that was seen first; looked at again where the spin
+    /// has changed by some per cent.
+    pub fn growth(&self) -> Option<Growth> {
         match self.run.as_ref()? {
             Run::Method(integration) => integration.growth(),
             Run::Exchange(exchange) => exchange.growth(),

@@ -7,10 +7,11 @@ use anyhow::{Context, Error, Result, bail};
 use cpu_time::ThreadTime;
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Input, Scene};
-use split_rotor_model::simulation::Any;
+use split_rotor_model::simulation::{Any, Growth};
 use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 use split_rotor_model::xml;
+use std::f64::consts::PI;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -68,6 +69,8 @@ struct Run<'s> {
     simulation: Any,
     outputs: Vec<&'s Variable>,
     watched: Vec<Watched>,
+    /// What began to grow on the way.
+    grown: Vec<Growth>,
     inputs: &'s [Input],
     places: Vec<Place>,
     /// When any of them bends or jumps \[s], ascending.
@@ -96,7 +99,7 @@ impl<'s> Run<'s> {
         bends.sort_by(f64::total_cmp);
         bends.dedup();
         let simulation = Any::from(scene.parameters());
-        Self { simulation, outputs, watched, inputs, places, bends, solving: Duration::ZERO }
+        Self { simulation, outputs, watched, grown: Vec::new(), inputs, places, bends, solving: Duration::ZERO }
     }
 
     /// Runs, and writes each communication point as a line of `file`, that where the motion ends early too.
@@ -165,6 +168,11 @@ impl<'s> Run<'s> {
             }
             values.push(value);
         }
+        if let Some(growth) = self.simulation.growth()
+            && self.grown.last() != Some(&growth)
+        {
+            self.grown.push(growth);
+        }
         for watched in &mut self.watched {
             let size = watched.columns.iter().fold(0.0_f64, |size, column| size.hypot(values[*column]));
             if size > watched.largest {
@@ -196,8 +204,12 @@ impl<'s> Run<'s> {
                 _ => println!("  whirl      {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
             }
         }
-        if let Some((rate, t)) = self.simulation.growth() {
-            println!("  unstable   small motions about that of {t} s grow by a factor of e every {:.3e} s", 1.0 / rate);
+        for Growth { rate, t, speed } in &self.grown {
+            let (rpm, time) = (rounded(speed * 30.0 / PI), rounded(1.0 / rate));
+            println!(
+                "  unstable   from {} s on, at {rpm} rpm: small motions grow by a factor of e in {time} s",
+                rounded(*t)
+            );
         }
         Ok(())
     }
