@@ -57,7 +57,7 @@ pub struct Memory {
     experiment: Experiment,
     /// Whether the last step could not be done.
     step_failed: bool,
-    /// Whether it was said that the tilt is large, that the motion grows, and that all inputs are 0.
+    /// Whether it was said that the tilt is large, that the motion grows, which it does still, and that all inputs are 0.
     warned: [bool; 3],
 }
 
@@ -218,15 +218,17 @@ impl Instance {
         Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once each that the tilt is large, where that matters, and that the linear motion grows.
+    /// Says once that the tilt is large, where that matters, and whenever the linear motion begins to grow.
     fn warn(&mut self) {
         let [of_tilt, of_growth, _] = &mut self.memory.warned;
         if !*of_tilt && let Some(message) = self.memory.simulation.warns_of_tilt() {
             *of_tilt = true;
             self.logger.log(Severity::Warning, Category::Warning, message);
         }
-        if !*of_growth && let Some(message) = self.memory.simulation.warns_of_growth() {
-            *of_growth = true;
+        let growth = self.memory.simulation.growth();
+        let known = std::mem::replace(of_growth, growth.is_some());
+        if !known && let Some(growth) = growth {
+            let message = growth.to_string();
             self.logger.log(Severity::Warning, Category::Warning, &message);
         }
     }

@@ -21,6 +21,7 @@ use exchange::Exchange;
 pub use exchange::Settled;
 #[cfg(feature = "scenes")]
 pub use general::General;
+pub use growth::Growth;
 pub use tangents::Tangents;
 
 use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
@@ -312,8 +313,9 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
-    /// How fast the linear motion about a state on the way grows [1/s], if it does, and when that was \[s].
-    pub fn growth(&self) -> Option<(f64, f64)> {
+    /// What of the linear motion about the present state grows, as it was when that was seen first; looked at again where the spin
+    /// has changed by some per cent.
+    pub fn growth(&self) -> Option<Growth> {
         match self.run.as_ref()? {
             Run::Method(integration) => integration.growth(),
             Run::Exchange(exchange) => exchange.growth(),
@@ -325,17 +327,6 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let words = "the tilt |gamma| exceeds pi/2; a spring or torque that follows gamma has no limit at pi, and beyond 3.1 rad no \
                      step is possible";
         self.has_tilted().then_some(words)
-    }
-
-    /// What to warn of where the linear motion grows ([`Simulation::growth`]).
-    pub fn warns_of_growth(&self) -> Option<String> {
-        let words = |(rate, t): (f64, f64)| {
-            let longer = 1.0 / rate;
-            format!(
-                "the rotor is unstable: small motions about its state at t = {t:?} s grow by a factor of e every {longer:.3e} s"
-            )
-        };
-        self.growth().map(words)
     }
 
     /// The value of a variable at the communication point, before the start as the parameters have it; None where there

@@ -5,6 +5,7 @@ use crate::scene::Scene;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use split_rotor_model::scene::{Experiment, did_you_mean};
+use split_rotor_model::simulation::Growth;
 use split_rotor_model::variables::Variable;
 use split_rotor_tools::run::{Run, outputs, points};
 use std::time::{Duration, Instant};
@@ -53,8 +54,9 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     result.set_item("units", run.outputs().iter().map(|output| output.meta.unit.name).collect::<Vec<_>>())?;
     result.set_item("solver", solver)?;
     result.set_item("log", run.simulation.auto().into_iter().collect::<Vec<_>>())?;
-    let warnings = [run.simulation.warns_of_tilt().map(str::to_owned), run.simulation.warns_of_growth()];
-    result.set_item("warnings", warnings.into_iter().flatten().collect::<Vec<_>>())?;
+    let of_tilt = run.simulation.warns_of_tilt().map(str::to_owned);
+    let warnings: Vec<_> = of_tilt.into_iter().chain(run.grown().iter().map(Growth::to_string)).collect();
+    result.set_item("warnings", warnings)?;
     result.set_item("error", error)?;
     Ok(result)
 }

@@ -3,7 +3,7 @@
 use anyhow::{Context, Error, Result, bail};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Input, Scene};
-use split_rotor_model::simulation::General;
+use split_rotor_model::simulation::{General, Growth};
 use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 
@@ -56,6 +56,7 @@ pub struct Run<'s> {
     inputs: Vec<(&'s Input, Place)>,
     /// When any of them bends or jumps \[s], ascending.
     bends: Vec<f64>,
+    grown: Vec<Growth>,
 }
 
 impl<'s> Run<'s> {
@@ -65,7 +66,12 @@ impl<'s> Run<'s> {
         let inputs: Vec<_> = scene.inputs.iter().filter_map(|input| Some((input, place(&input.name)?))).collect();
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, inputs, bends: bends(&scene.inputs) }
+        Self { simulation, outputs, references, values, inputs, bends: bends(&scene.inputs), grown: Vec::new() }
+    }
+
+    /// What began to grow on the way.
+    pub fn grown(&self) -> &[Growth] {
+        &self.grown
     }
 
     /// The outputs that are read.
@@ -82,6 +88,7 @@ impl<'s> Run<'s> {
         let Experiment { start, stop, step, tolerance } = *experiment;
         self.steer(start, |_| true);
         self.simulation.start_until(start, Some(tolerance), Some(stop))?;
+        self.grown.extend(self.simulation.growth());
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {
@@ -90,6 +97,7 @@ impl<'s> Run<'s> {
             let outcome = self.advance(from, from + (next - from));
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
+                self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
                 seen(self, reached)?;
             }
             outcome.map_err(|fault| Error::msg(fault.to_string()))?;

@@ -6,9 +6,11 @@ use crate::{paths, python, report, scenes};
 use anyhow::{Context, Result};
 use cpu_time::ThreadTime;
 use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::simulation::Growth;
 use split_rotor_model::variables::Variable;
 use split_rotor_model::xml;
 use split_rotor_tools::run::{self, Run};
+use std::f64::consts::PI;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -110,8 +112,12 @@ impl<'s> Recorded<'s> {
                 _ => println!("  whirl      {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
             }
         }
-        if let Some((rate, t)) = self.run.simulation.growth() {
-            println!("  unstable   small motions about that of {t} s grow by a factor of e every {:.3e} s", 1.0 / rate);
+        for Growth { rate, t, speed } in self.run.grown() {
+            let (rpm, time) = (rounded(speed * 30.0 / PI), rounded(1.0 / rate));
+            println!(
+                "  unstable   from {} s on, at {rpm} rpm: small motions grow by a factor of e in {time} s",
+                rounded(*t)
+            );
         }
         Ok(())
     }

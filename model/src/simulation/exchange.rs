@@ -2,7 +2,7 @@
 
 use super::ALWAYS_INDICATED;
 use super::events::{Events, indicators};
-use super::growth::Watch;
+use super::growth::{Growth, Watch};
 use super::start::Motion;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::energy::kinetic;
@@ -117,8 +117,8 @@ impl<const N: usize> Exchange<N> {
         self.tilted
     }
 
-    /// How fast a motion grows [1/s], and since when that is known \[s].
-    pub(super) fn growth(&self) -> Option<(f64, f64)> {
+    /// What grows, as it was when it was seen first.
+    pub(super) fn growth(&self) -> Option<Growth> {
         self.watch.found()
     }
 

@@ -1,6 +1,6 @@
 //! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
 
-use super::Any;
+use super::{Any, Growth};
 use crate::effects::All;
 use crate::error::Invalid;
 use crate::integrate::Fault;
@@ -48,7 +48,6 @@ passed_on! {
     reals_at_hand(&, references: &[u32], values: &mut [f64]) -> bool;
     read(&mut,) -> Result<&Reading, Invalid>;
     auto(&,) -> Option<String>;
-    growth(&,) -> Option<(f64, f64)>;
+    growth(&,) -> Option<Growth>;
     warns_of_tilt(&,) -> Option<&'static str>;
-    warns_of_growth(&,) -> Option<String>;
 }

@@ -8,14 +8,41 @@ use crate::state::{Coordinates, GAMMA, PHI, own, rigid};
 use crate::stored::stored;
 use nalgebra::linalg::Schur;
 use nalgebra::{Complex, Normed, SMatrix, SVector};
+use std::fmt::{self, Display, Formatter};
+
+/// A motion that grows, as it was when that was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Growth {
+    /// How fast [1/s]: by a factor of e in the inverse of it.
+    pub rate: f64,
+    /// When \[s].
+    pub t: f64,
+    /// ω_φ there [rad/s].
+    pub speed: f64,
+}
+
+stored!(Growth { rate, t, speed });
+
+impl Display for Growth {
+    /// What to warn of.
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self { rate, t, speed } = self;
+        write!(
+            f,
+            "the rotor is unstable: small motions about its state at t = {t:?} s, at {speed:.1} rad/s, grow by a factor of e every \
+             {:.3e} s",
+            1.0 / rate
+        )
+    }
+}
 
 /// Looks at the linear equations whenever the spin has changed much.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Watch {
     /// Between these |K| nothing new is expected [kg·m²/s].
     known: [f64; 2],
-    /// The growth that was found [1/s], and when \[s].
-    found: Option<(f64, f64)>,
+    /// What grows, since it began to.
+    found: Option<Growth>,
 }
 
 stored!(Watch { known, found });
@@ -31,7 +58,7 @@ const VELOCITY: usize = 3;
 const MOMENTUM: usize = 6;
 
 /// |K| has changed much by this part of itself, and of what nutates as fast as the fastest motion \[1].
-const MUCH: f64 = 0.1;
+const MUCH: f64 = 0.05;
 
 /// A motion grows if it does so by this part of its own rate, and of the fastest one: what is less may be rounding, which
 /// parts equal eigenvalues by the root of ε \[1].
@@ -45,22 +72,33 @@ const STILL: f64 = 3.0;
 const ASYMMETRIC: f64 = 1e-3;
 
 impl Watch {
-    /// What grows [1/s], and since when that is known \[s].
-    pub fn found(&self) -> Option<(f64, f64)> {
+    /// What grows, as it was when it was seen first; None where nothing does any more.
+    pub fn found(&self) -> Option<Growth> {
         self.found
     }
 
     /// Looks at the rotor at time `t` \[s] and state `y`, if that is due.
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
-        let momentum = Coordinates::from_slice(rigid(y)).k.norm();
+        // The state lacks what an imposed speed passed on.
+        let momentum = if E::FACTS.imposes {
+            rotor.motion(t, y).momentum().norm()
+        } else {
+            Coordinates::from_slice(rigid(y)).k.norm()
+        };
         let [low, high] = self.known;
-        if self.found.is_some() || (low..high).contains(&momentum) {
+        if (low..high).contains(&momentum) {
             return;
         }
-        let (fastest, growth) = Self::growth(rotor, t, y);
+        let (fastest, rate) = Self::growth(rotor, t, y);
         let much = MUCH * (momentum + fastest / rotor.frame.body.per_jt);
         self.known = [momentum - much, momentum + much];
-        self.found = growth.map(|rate| (rate, t));
+        let motion = rotor.motion(t, y);
+        self.found = match self.found {
+            _ if rate == 0.0 => None,
+            // While it grows, it may well come to move fast.
+            None if rate > STILL * motion.gamma_rate().norm() => Some(Growth { rate, t, speed: motion.axial_rate() }),
+            found => found,
+        };
     }
 
     /// The linear equations with velocities that count as much as places do: lengths in radii of gyration, and both beside the largest
@@ -85,30 +123,26 @@ impl Watch {
         (rate > 0.0).then(|| Linear::from_fn(|i, j| plain[(i, j)] * (part(j) / part(i))))
     }
 
-    /// The fastest rate of the linear equations [rad/s], and how fast a motion grows [1/s], if one does.
-    fn growth<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> (f64, Option<f64>) {
+    /// The fastest rate of the linear equations [rad/s], and how fast a motion grows [1/s], 0 if none does.
+    fn growth<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> (f64, f64) {
         const ITERATIONS: usize = 1000;
         let excess = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
         // The balanced rotor: what an unbalance adds turns with it.
         let Frame { body, chart, turns, .. } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
         let jacobian = balanced.jacobian(t, y);
-        let tilting = balanced.motion(t, y).gamma_rate().norm();
         let first = own(N);
         let Some(matrix) = Self::scaled(&Linear::from_fn(|i, j| jacobian[first + i][first + j]), &balanced.frame.body)
         else {
-            return (0.0, None);
+            return (0.0, 0.0);
         };
         let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS);
         let rates: SVector<Complex<f64>, LINEAR> = match schur {
             Some(schur) if excess <= ASYMMETRIC * rotor.frame.body.per_jt => schur.complex_eigenvalues(),
-            _ => return (f64::INFINITY, None),
+            _ => return (f64::INFINITY, 0.0),
         };
         let fastest = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
-        let grows = |rate: &&Complex<f64>| {
-            rate.re > SEEN * rate.norm() && rate.re > ROUNDING * fastest && rate.re > STILL * tilting
-        };
-        let most = rates.iter().filter(grows).map(|rate| rate.re).fold(0.0, f64::max);
-        (fastest, (most > 0.0).then_some(most))
+        let grows = |rate: &&Complex<f64>| rate.re > SEEN * rate.norm() && rate.re > ROUNDING * fastest;
+        (fastest, rates.iter().filter(grows).map(|rate| rate.re).fold(0.0, f64::max))
     }
 }

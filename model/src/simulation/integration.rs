@@ -4,7 +4,7 @@ use super::auto::Auto;
 use super::by_series::BySeries;
 use super::closest::closest_to_origin;
 use super::events::{Events, indicators};
-use super::growth::Watch;
+use super::growth::{Growth, Watch};
 use super::method::Method;
 use super::plan::Plan;
 use super::start::{Motion, tolerance};
@@ -211,8 +211,8 @@ impl<const N: usize> Integration<N> {
         self.tilted
     }
 
-    /// How fast a motion grows [1/s], and since when that is known \[s].
-    pub(super) fn growth(&self) -> Option<(f64, f64)> {
+    /// What grows, as it was when it was seen first.
+    pub(super) fn growth(&self) -> Option<Growth> {
         self.watch.found()
     }
 

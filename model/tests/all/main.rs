@@ -28,6 +28,7 @@ mod imposed_speed;
 mod invariants;
 mod ledger;
 mod linear;
+mod machines;
 mod motion;
 mod motor;
 mod order;

@@ -4,6 +4,7 @@
 use crate::harness::named::Named;
 use crate::harness::{largest, within};
 use nalgebra::Vector3;
+use oracles::forward_whirl::ForwardWhirl;
 pub use oracles::machine::known::ordinary;
 use oracles::machine::{Bearing, Machine, Start};
 use split_rotor_model::simulation::Integrator;
@@ -105,9 +106,9 @@ fn regress_an_unstable_rotor_is_told_of_and_ends() {
             let mut named = by(&unstable(cross), method, 1e-4);
             named.set("solver.max_evaluations", 1e6);
             named.simulation.start_until(0.0, None, Some(6.0)).expect("a possible scene");
-            let (found, t) = named.simulation.growth().expect("a motion that grows");
-            println!("{method}: {found} 1/s from {t} s, {:?}", named.simulation.advance(6.0));
-            within("growth", (found / growth - 1.0).abs(), 1e-3);
+            let found = named.simulation.growth().expect("a motion that grows");
+            println!("{method}: {found:?}, {:?}", named.simulation.advance(6.0));
+            within("growth", (found.rate / growth - 1.0).abs(), 1e-3);
         }
     }
 }
@@ -175,11 +176,48 @@ fn exact_growth_of_what_turns_slowly_or_fast() {
                 let nutates = speed / 0.7;
                 let seen = exact > 1e-6 * nutates;
                 match named.simulation.growth() {
-                    Some((found, _)) => worst = worst.max((found / exact - 1.0).abs()),
+                    Some(found) => worst = worst.max((found.rate / exact - 1.0).abs()),
                     None => assert!(!seen, "{size} {speed} {stiffness}"),
                 }
             }
         }
     }
     within("growth", worst, RATE);
+}
+
+/// Friction inside as large as the damping outside drives a whirl above twice its own 20 rad/s.
+const INNER: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\n[[effects.bearing]]\nposition = 0.0\nkyy = 2000.0\nkzz = 2000.0\n\
+    cyy = 40.0\nczz = 40.0\nkt = 500.0\nct = 1.0\n[effects.rotating_damping]\nd = 40.0\n[effects.imposed_speed]\n";
+const THRESHOLD: f64 = 40.0;
+
+/// Of the speed at which it is told, above the threshold: the spin changes by so much between two looks, by the rate of the nutation \[1].
+const LATE: f64 = 0.2;
+
+#[test]
+fn exact_growth_along_a_run_is_told_at_each_onset() {
+    let mut named = Named::started(INNER);
+    assert_eq!(named.simulation.growth(), None, "at rest");
+    // Up through the threshold and down again, twice, by 1 rad/s in 0.1 s.
+    let mut onsets = Vec::new();
+    for i in 1..=240 {
+        let speed = f64::from(60 - (i % 120 - 60_i32).abs());
+        named.set("imposed_speed.w", speed);
+        named.simulation.advance(f64::from(i) * 0.1).expect("a possible motion");
+        match named.simulation.growth() {
+            None => assert!(speed < THRESHOLD * (1.0 + LATE), "{speed} rad/s"),
+            Some(growth) => {
+                assert!(speed > THRESHOLD * (1.0 - LATE), "{speed} rad/s");
+                if onsets.last() != Some(&growth) {
+                    onsets.push(growth);
+                }
+            }
+        }
+    }
+    assert_eq!(onsets.len(), 2, "{onsets:?}");
+    for growth in onsets {
+        assert!((0.0..LATE).contains(&(growth.speed / THRESHOLD - 1.0)), "{growth:?}");
+        let whirl = ForwardWhirl { m: 5.0, c: 40.0, d: 40.0, k: 2000.0, s: 0.0 };
+        let exact = whirl.rates(growth.speed).map(|rate| rate.re).into_iter().fold(f64::MIN, f64::max);
+        within("growth", (growth.rate / exact - 1.0).abs(), RATE);
+    }
 }

@@ -1,0 +1,37 @@
+"""What an FMU logs of a motion that grows: once for each onset along a run."""
+
+import re
+
+import numpy as np
+from host import Host
+
+# Friction inside as large as the damping outside: whirl of 20 rad/s grows above 40 rad/s.
+ROTOR = {
+    "support.c1": 2000.0,
+    "support.d1": 40.0,
+    "support.c2": 500.0,
+    "support.d2": 1.0,
+    "rotor.l": 0.0,
+    "rotating_damping.d": 40.0,
+    "start.r_c.x": 0.0,
+    "start.omega.x": 0.0,
+}
+SWITCHES = {"effects.gravity": False, "effects.support": True, "effects.rotating_damping": True, "effects.imposed_speed": True}
+SAID = re.compile(r"t = ([\d.]+) s, at ([\d.]+) rad/s, grow by a factor of e every ([\d.e+-]+) s")
+
+
+def test_exact_growth_is_logged_at_each_onset_with_time_speed_and_time_constant(fmus):
+    with Host(fmus["rotor"]) as host:
+        host.slave.setBoolean([host.reference(name) for name in SWITCHES], list(SWITCHES.values()))
+        host.start(ROTOR)
+        speeds = [*range(0, 61), *range(60, 0, -1)] * 2
+        for i, speed in enumerate(speeds):
+            host.set({"imposed_speed.w": float(speed)})
+            assert host.step(0.1 * i, 0.1) == 0
+        warnings = [line for line in host.log if "unstable" in line]
+        assert len(warnings) == 2, host.log
+        for line, turn in zip(warnings, (0, 1), strict=True):
+            t, speed, e = map(float, SAID.search(line).groups())
+            assert 40.0 < speed < 50.0 and 4.0 < t - 12.2 * turn < 5.2
+            exact = np.roots([5.0, 80.0, 2000.0 - 40.0j * speed]).real.max()  # m z̈ + (c + d) ż + (k − i d ω) z = 0
+            assert abs(e * exact - 1.0) < 1e-3  # as it is printed
