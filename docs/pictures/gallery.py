@@ -4,6 +4,7 @@ Needs what the demo needs:  cargo xtask package SCENE ... && python gallery.py [
 """
 
 import sys
+import tomllib
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -53,7 +54,8 @@ def picture(name):
     if draw is figures.response:
         result = respond(fmu, description, scene)
     else:
-        run = simulate(fmu, description, scene)
+        inputs = tomllib.loads((ROOT / "scenes" / f"{name}.toml").read_text(encoding="utf-8")).get("input", ())
+        run = simulate(fmu, description, scene, inputs)
         # What is quick in these would be lost between the steps of the experiment.
         is_quick = draw in (figures.portrait, figures.passage, figures.whirl)
         result = run.columns if is_quick else run.at_steps[:: max(1, len(run.at_steps) // MOST)]
