@@ -3,12 +3,11 @@
 `result` is a structured array, `time` and the outputs in SI units, `scene` a `report.scene.Scene`.
 """
 
-import io
 import re
 from functools import wraps
 
 import numpy as np
-from looks import BLACK, BLUE, GREEN, PURPLE, STYLE, VERMILLION
+from looks import BLACK, BLUE, GREEN, PURPLE, STYLE, VERMILLION, svg
 from matplotlib import rc_context
 from matplotlib.figure import Figure
 from report import measure, paper, stations
@@ -27,9 +26,8 @@ def _inline(height, label):
             with rc_context(STYLE):
                 figure = Figure(figsize=(WIDTH, height), layout="constrained")
                 draw(figure, result, scene)
-                text = io.StringIO()
-                figure.savefig(text, format="svg", metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")))
-            return _element(text.getvalue(), draw.__name__, label)
+                text = svg(figure)
+            return _element(text, draw.__name__, label)
 
         return render
 

@@ -1,11 +1,17 @@
 """What the pictures of this folder share: their style, and how they are saved. Needs matplotlib."""
 
+import sys
 from pathlib import Path
 
 import matplotlib
 
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "xtask" / "python"))
+
+from looks import svg  # noqa: E402
 
 BLUE, ORANGE, GREY = "#1f5fa8", "#c8500a", "#666666"
 
@@ -24,5 +30,4 @@ plt.rcParams.update(
 
 def save(figure, name):
     """Write the figure beside this file; the same picture gives the same bytes."""
-    metadata = dict.fromkeys(("Date", "Creator", "Format", "Type"))
-    figure.savefig(Path(__file__).with_name(name), metadata=metadata)
+    HERE.joinpath(name).write_text(svg(figure), encoding="utf-8")

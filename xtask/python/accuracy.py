@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter, NullLocator
 
-from looks import BLACK, BLUE, GREEN, ORANGE, PURPLE, STYLE, VERMILLION
+from looks import BLACK, BLUE, GREEN, ORANGE, PURPLE, STYLE, VERMILLION, svg
 
 OURS = "split-rotor"
 AUTO = "auto"
@@ -145,7 +145,7 @@ def main():
     with rc_context(STYLE | {"font.size": 10}):
         figure = Figure(figsize=SIZE, layout="constrained")
         draw(figure, found)
-        figure.savefig(folder / "accuracy.svg", metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")))
+        (folder / "accuracy.svg").write_text(svg(figure), encoding="utf-8")
 
 
 if __name__ == "__main__":
