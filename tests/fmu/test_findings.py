@@ -28,7 +28,7 @@ def run(speeds, **columns):
 
 def view(findings, **crossing):
     """A linear view with one critical speed, at 200 rad/s."""
-    crossing = {"speed_rad_s": 200.0, "damping_ratio": 0.05, "direction": "forward"} | crossing
+    crossing = {"speed_rad_s": 200.0, "damping_ratio": 0.05, "direction": "forward", "sense": 1.0} | crossing
     return findings.linear.Linear(modes=[], critical=[crossing], thresholds=[], floquet=False)
 
 
@@ -43,7 +43,9 @@ def test_exact_a_critical_speed_among_those_of_the_run_is_told_with_its_amplific
     (what,) = passed(findings, [0.0, -600.0])  # either sense
     assert "amplification factor 10" in what
     (what,) = passed(findings, [300.0, 100.0], damping_ratio=0.0)
-    assert "; undamped (" in what
+    assert what.endswith("; without damping")
+    (what,) = passed(findings, [300.0, 100.0], damping_ratio=-0.1)
+    assert what.endswith("; its mode grows by itself")
 
 
 def test_exact_it_is_next_to_the_run_as_far_as_its_peak_is_wide(findings):
@@ -55,7 +57,8 @@ def test_exact_it_is_next_to_the_run_as_far_as_its_peak_is_wide(findings):
 def test_exact_no_alarm_where_it_is_damped_or_goes_backward(findings):
     assert len(passed(findings, [0.0, 600.0], damping_ratio=0.199)) == 1  # 1/(2 · 2.5) = 0.2
     assert passed(findings, [0.0, 600.0], damping_ratio=0.201) == []
-    assert passed(findings, [0.0, 600.0], direction="backward") == []
+    assert passed(findings, [0.0, 600.0], direction="backward", sense=-1.0) == []
+    assert len(passed(findings, [0.0, 600.0], direction="backward", sense=-0.999)) == 1, "an ellipse holds a circle forward"
 
 
 def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(findings):
@@ -64,11 +67,11 @@ def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(fi
     ratio = -rate / np.hypot(rate, swing)
     row = {"mode": 1, "direction": "forward", "frequency_rad_s": swing}
     modes = [row | {"speed_rad_s": speed, "damping_ratio": ratio if speed > 40.0 else 0.1} for speed in (0.0, 30.0, 60.0)]
-    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[40.0], floquet=False)
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[(40.0, "above")], floquet=False)
     found = findings._stability(run([0.0, 60.0]), linear)
     assert found.judged == "bad" and "forward mode grows by e in 2.5\u00a0s at 573\u00a0rpm" in found.what
-    assert found.what.endswith("threshold 382\u00a0rpm, passed at 0.67\u00a0s")  # the first sample after 2/3 s
-    assert findings._stability(run([60.0, 60.0]), linear).what.endswith("threshold 382\u00a0rpm")
+    assert found.what.endswith("it grows above 382\u00a0rpm, passed at 0.67\u00a0s")  # the first sample after 2/3 s
+    assert findings._stability(run([60.0, 60.0]), linear).what.endswith("it grows above 382\u00a0rpm")
     assert findings._stability(run([0.0, 30.0]), linear).judged == "good"
 
 

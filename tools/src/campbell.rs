@@ -51,7 +51,7 @@ impl<'m> View<'m> {
             Err(Obstacle::Asymmetric) => return Ok(Self::Turning(Turning::of(scene, ends, steps)?)),
             machine => machine.as_ref().map_err(Clone::clone).with_context(file)?,
         };
-        let speeds = speeds::range(scene, Some(machine), ends, steps).with_context(file)?;
+        let speeds = speeds::on_its_side(scene, Some(machine), ends, steps).with_context(file)?;
         let campbell = Campbell::of(machine, &speeds).with_context(file)?;
         let crossed = |order: &f64| Ok((*order, campbell.critical_speeds(*order).with_context(file)?));
         let critical = orders.iter().map(crossed).collect::<Result<_>>()?;
@@ -89,6 +89,15 @@ fn number(branch: usize) -> usize {
     branch + 1
 }
 
+impl Diagram<'_> {
+    /// On which side of a threshold its mode grows: `above` or `below`.
+    fn grows(&self, threshold: &Crossing) -> &'static str {
+        let points = &self.campbell.branches[threshold.branch].points;
+        let above = points.iter().find(|point| point.speed > threshold.speed);
+        if above.is_some_and(|point| point.mode.grows()) { "above" } else { "below" }
+    }
+}
+
 /// A row for each mode at each speed.
 fn modes(diagram: &Diagram) -> Vec<rows::Row> {
     let branches = diagram.campbell.branches.iter().enumerate();
@@ -113,7 +122,13 @@ fn json(diagram: &Diagram) -> Value {
             "frequency_rad_s": crossing.mode.frequency(),
             "damping_ratio": crossing.mode.damping_ratio(),
             "direction": crossing.mode.direction.name(),
+            "sense": crossing.mode.sense,
         })
+    };
+    let threshold = |one: &Crossing| {
+        let mut row = crossing(one);
+        row["grows"] = json!(diagram.grows(one));
+        row
     };
     let all = |crossings: &[Crossing]| crossings.iter().map(crossing).collect::<Vec<_>>();
     let critical = diagram.critical.iter().map(|(order, speeds)| json!({ "order": order, "speeds": all(speeds) }));
@@ -129,7 +144,7 @@ fn json(diagram: &Diagram) -> Value {
         "scene": diagram.scene.name,
         "title": diagram.scene.title,
         "critical_speeds": critical.collect::<Vec<_>>(),
-        "thresholds": all(&diagram.thresholds),
+        "thresholds": diagram.thresholds.iter().map(threshold).collect::<Vec<_>>(),
         "steady_states": steady.collect::<Vec<_>>(),
         "modes": rows::objects(modes(diagram)),
     })

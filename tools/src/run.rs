@@ -7,14 +7,17 @@ use split_rotor_model::simulation::{General, Growth};
 use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 
-/// The highest |ω_φ| [rad/s] that a run of the scene comes to, looked at a thousand times.
+/// The ω_φ of the largest size [rad/s] that a run of the scene comes to, looked at a thousand times.
 pub fn fastest(scene: &Scene) -> f64 {
     let speed = outputs(scene).filter(|output| output.name == "omega_phi").collect();
     let (mut run, mut fastest) = (Run::of(scene, speed), 0.0_f64);
     let Experiment { start, stop, .. } = scene.experiment;
     let seldom = Experiment { step: (stop - start) / 1e3, ..scene.experiment };
     let look = |run: &mut Run, _| {
-        fastest = fastest.max(run.values()?[0].abs());
+        let speed = run.values()?[0];
+        if speed.abs() > fastest.abs() {
+            fastest = speed;
+        }
         Ok(())
     };
     // What a run that ends early comes to counts all the same.

@@ -16,7 +16,7 @@ pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, ste
     ensure!(steps >= 2, "steps {steps}: at least 2 speeds are needed");
     let (from, to) = match ends {
         Some(&[from, to]) => (from, to),
-        _ => (0.0, HIGHER * highest(scene, machine)?),
+        _ => (0.0, HIGHER * highest(scene, machine)?.abs()),
     };
     ensure!(
         from.abs() <= HIGHEST && to.abs() <= HIGHEST && from < to,
@@ -32,17 +32,26 @@ pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, ste
     Ok(speeds)
 }
 
-/// The highest speed [rad/s] that a scene tells: of its start, its drive or its tables, or to which its inputs bring it; else its
+/// The same, on that side of 0 on which the scene runs: loads that depend on the spin's sign are not alike on both.
+pub fn on_its_side(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+    let speeds = range(scene, machine, ends, steps)?;
+    let is_backward = ends.is_none() && highest(scene, machine)? < 0.0;
+    Ok(if is_backward { speeds.into_iter().rev().map(|speed| 0.0 - speed).collect() } else { speeds })
+}
+
+/// The speed of the largest size [rad/s] that a scene tells: of its start, its drive or its tables, or to which its inputs bring it; else its
 /// fastest mode's at rest.
 fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     let told = scenes::values(scene);
-    let value = |name: &str| told(name).unwrap_or_default().abs();
+    let value = |name: &str| told(name).unwrap_or_default();
     let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
     let reached = if scene.inputs.is_empty() { 0.0 } else { run::fastest(scene) };
     let told = [imposed, reached, value("start.omega.x"), value("motor.synchronous_speed")];
-    let highest = nodes(scene).chain(told).fold(0.0, f64::max);
+    let reached = told.into_iter().fold(0.0_f64, |most, speed| if speed.abs() > most.abs() { speed } else { most });
+    // Tables are of the size of the speed.
+    let highest = nodes(scene).fold(reached.abs(), f64::max);
     if highest > 0.0 {
-        return Ok(highest);
+        return Ok(highest.copysign(reached));
     }
     let modes = machine.map(|machine| machine.modes(0.0, None)).transpose()?.map_or_else(Vec::new, |(_, modes)| modes);
     let fastest = modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);

@@ -109,13 +109,13 @@ impl<'s> Recorded<'s> {
                 1 => println!("  energy     {name} at most {largest:.2e} J"),
                 // Probes that are off see nothing.
                 _ if *largest == 0.0 => {}
-                _ => println!("  whirl      {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
+                _ => println!("  deflection {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
             }
         }
         for Growth { rate, t, speed } in self.run.grown() {
             let (rpm, time) = (rounded(speed * 30.0 / PI), rounded(1.0 / rate));
             println!(
-                "  unstable   from {} s on, at {rpm} rpm: small motions grow by a factor of e in {time} s",
+                "  unstable   seen at {} s, {rpm} rpm: small motions grow by a factor of e in {time} s",
                 rounded(*t)
             );
         }

@@ -18,6 +18,9 @@ pub struct Mode {
     pub shape: Shape,
     /// Which way it whirls.
     pub direction: Direction,
+    /// The area that its orbits sweep over that of circles, forward if positive \[1]: ±1 of circles, 0 of lines, and of what does not swing
+    /// across the axis.
+    pub sense: f64,
 }
 
 /// Which way a mode whirls, by what its own orbits do.
@@ -150,7 +153,8 @@ impl Steady {
     fn mode(&self, value: Complex<f64>, shape: Shape) -> Mode {
         let swings = value.im > SWINGS * value.modulus();
         let value = if swings { value } else { Complex::from(value.re) };
-        Mode { eigenvalue: value * self.rate, shape, direction: self.direction(&shape, swings) }
+        let (direction, sense) = self.direction(&shape, swings);
+        Mode { eigenvalue: value * self.rate, shape, direction, sense }
     }
 
     /// How place and tilt move across the axis.
@@ -160,22 +164,25 @@ impl Steady {
         [shape.fixed_rows::<3>(0).into_owned(), tilt].map(|moved| across.transpose() * moved)
     }
 
-    fn direction(&self, shape: &Shape, swings: bool) -> Direction {
+    /// Which way it whirls, and [`Mode::sense`].
+    fn direction(&self, shape: &Shape, swings: bool) -> (Direction, f64) {
         if !swings {
-            return Direction::Creep;
+            return (Direction::Creep, 0.0);
         }
         let orbits = self.orbits(shape);
         let wide: f64 = orbits.iter().map(Vector2::norm_squared).sum();
         let along = self.axis.map(Complex::from).dot(&shape.fixed_rows::<3>(0)).modulus_squared();
         if along > ALONG * (along + wide) {
-            return Direction::Axial;
+            return (Direction::Axial, 0.0);
         }
         let spin = if self.speed < 0.0 { -1.0 } else { 1.0 };
-        match spin * swept(&orbits, &orbits).re / wide {
-            part if part > LINE => Direction::Forward,
-            part if part < -LINE => Direction::Backward,
+        let sense = spin * swept(&orbits, &orbits).re / wide;
+        let direction = match sense {
+            sense if sense > LINE => Direction::Forward,
+            sense if sense < -LINE => Direction::Backward,
             _ => Direction::Plane,
-        }
+        };
+        (direction, sense)
     }
 }
 

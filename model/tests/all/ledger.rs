@@ -21,6 +21,9 @@ fn residual(name: &str, method: f64, tolerance: f64, span: f64) -> f64 {
     let mut named = Named::new(name, Integrator::Method);
     named.set("solver.method", method);
     named.set("solver.relative_tolerance", tolerance);
+    for input in named.scene.inputs.clone() {
+        named.set(&input.name, input.value.into_iter().fold(0.0, f64::max));
+    }
     named.start();
     let span = span.min(named.scene.experiment.stop);
     let (mut worst, mut kinetic, mut work) = (0.0_f64, named.get("energy.kinetic"), 0.0);

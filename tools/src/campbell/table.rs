@@ -33,16 +33,14 @@ fn critical_speeds(diagram: &Diagram, text: &mut String) {
 }
 
 fn stability(diagram: &Diagram, text: &mut String) {
-    for Crossing { branch, speed, mode } in &diagram.thresholds {
-        let points = &diagram.campbell.branches[*branch].points;
-        let grows_above = points.iter().find(|point| point.speed > *speed).is_some_and(|point| point.mode.grows());
+    for threshold @ Crossing { branch, speed, mode } in &diagram.thresholds {
         let _ = writeln!(
             text,
             "Mode {} ({}, {} rad/s) grows {} {} rad/s ({} rpm).",
             number(*branch),
             mode.direction.name(),
             rounded(mode.eigenvalue.im),
-            if grows_above { "above" } else { "below" },
+            diagram.grows(threshold),
             rounded(*speed),
             rounded(rpm(*speed))
         );

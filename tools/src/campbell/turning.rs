@@ -32,7 +32,7 @@ impl<'s> Turning<'s> {
     /// Of a scene, between these speeds [rad/s], at so many of them.
     pub(super) fn of(scene: &'s Scene, ends: Option<&[f64]>, steps: u32) -> Result<Self> {
         let file = || scene.file.display().to_string();
-        let all = speeds::range(scene, None, ends, steps).with_context(file)?;
+        let all = speeds::on_its_side(scene, None, ends, steps).with_context(file)?;
         let fastest = all.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
         let rotating = Rotating::of(&balanced(&scene.parameters())).with_context(file)?;
         let (mut orbits, mut missed): (Vec<Orbit>, u32) = (Vec::new(), 0);

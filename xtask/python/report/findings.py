@@ -14,6 +14,9 @@ MOST = 5
 SHARP = 2.5
 """From this amplification factor on a resonance counts as a critical speed (API Std 617 and RP 684); below it is critically damped."""
 
+CIRCLE_BACKWARD = -1.0 + 1e-6
+"""Up to this sense, the area of orbits over that of circles, a mode whirls backward in circles."""
+
 
 @dataclass(frozen=True)
 class Finding:
@@ -51,11 +54,17 @@ def _passed(result, view):
     for crossing in view.critical:
         speed, ratio = crossing["speed_rad_s"], crossing["damping_ratio"]
         away = max(spin.min() - speed, speed - spin.max())
-        # An unbalance goes round forward: a round machine does not whirl backward by it.
-        if away <= max(ratio, linear.NEITHER) * speed and crossing["direction"] != linear.BACKWARD and 2.0 * ratio * SHARP <= 1.0:
+        # An unbalance goes round forward: it does not drive a mode whose orbits are circles backward, as those of a round machine are.
+        is_driven = crossing["sense"] > CIRCLE_BACKWARD
+        if away <= max(ratio, linear.NEITHER) * speed and is_driven and 2.0 * ratio * SHARP <= 1.0:
             where = f"critical speed {'within' if away <= 0.0 else 'next to'} the speeds of this run, {_range(spin)}"
-            sharp = f"amplification factor {number(0.5 / ratio, 2)}" if ratio > linear.NEITHER else "undamped"
-            yield Finding(rpm(speed), f"{where}; {sharp} (from {SHARP} on it counts as critical, API 617)", "bad")
+            if ratio < -linear.NEITHER:
+                how = "its mode grows by itself"
+            elif ratio <= linear.NEITHER:
+                how = "without damping"
+            else:
+                how = f"amplification factor {number(0.5 / ratio, 2)} (from {SHARP} on it counts as critical, API 617)"
+            yield Finding(rpm(speed), f"{where}; {how}", "bad")
 
 
 def _range(spin):
@@ -82,7 +91,10 @@ def _stability(result, view):
     size = linear.decrement(ratio)
     how = f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
     if ratio < 0.0:
-        bounds = "".join(f"; threshold {rpm(speed)}{_when(result, speed)}" for speed in view.thresholds)
+        bounds = "".join(
+            f"; it grows {grows} {rpm(speed)}{_when(result, speed)}" if grows else f"; threshold {rpm(speed)}"
+            for speed, grows in view.thresholds
+        )
         in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
         grows = f"grows by e in {in_}" if in_ else "grows"
         return Finding("unstable", f"{row['direction']} mode {grows} {at}, {how}{bounds}", "bad")

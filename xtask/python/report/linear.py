@@ -7,7 +7,7 @@ import numpy as np
 
 NEITHER = 1e-6
 """A damping ratio of less, of either sign, is one of 0."""
-AXIAL, BACKWARD = "axial", "backward"
+AXIAL = "axial"
 
 
 @dataclass(frozen=True)
@@ -18,8 +18,8 @@ class Linear:
     """A row a mode and speed, as in campbell.csv."""
     critical: list[dict]
     """Where a mode's frequency is the speed itself, ascending; modes along the axis left out, which no unbalance drives."""
-    thresholds: list[float]
-    """Speeds at which motions begin or cease to grow [rad/s]."""
+    thresholds: list[tuple[float, str]]
+    """Speeds [rad/s], and on which side of them motions grow, "above" or "below"; "" where that is not told."""
     floquet: bool
     """Of a body that is not symmetric: exponents of its revolutions in place of modes."""
 
@@ -32,10 +32,13 @@ class Linear:
 
     def least_damped(self, speeds):
         """The row of the least damping ratio from the first to the second of these speeds [rad/s]."""
-        grid = np.unique([row["speed_rad_s"] for row in self.modes])
-        low, high = (grid[np.abs(grid - speed).argmin()] for speed in speeds)
-        rows = (row for row in self.modes if low <= row["speed_rad_s"] <= high and row["direction"] != AXIAL)
-        return min(rows, key=lambda row: row["damping_ratio"])
+        low, high = speeds
+        found = []
+        for number in {row["mode"] for row in self.modes}:
+            rows = [row for row in self.modes if row["mode"] == number and row["direction"] != AXIAL]
+            found += [row for row in rows if low < row["speed_rad_s"] < high]
+            found += [between for speed in (low, high) if (between := _between(rows, speed))]
+        return min(found, key=lambda row: row["damping_ratio"])
 
     def growth(self):
         """Speeds [rad/s] and the fastest growth at each [1/s], of a body that is not symmetric."""
@@ -54,15 +57,34 @@ def read(file):
     """The linear view in a campbell.json."""
     found = json.loads(file.read_text(encoding="utf-8"))
     crossed = [speed for line in found.get("critical_speeds", []) if line["order"] == 1.0 for speed in line["speeds"]]
-    thresholds = [t if isinstance(t, float) else t["speed_rad_s"] for t in found["thresholds"]]
+    thresholds = [(t, "") if isinstance(t, float) else (t["speed_rad_s"], t["grows"]) for t in found["thresholds"]]
     # A motion that neither swings nor grows has no damping ratio.
     modes = [row | {"damping_ratio": row["damping_ratio"] or 0.0} for row in found["modes"]]
+    critical = [crossing for crossing in crossed if crossing["direction"] != AXIAL]
+    # Speeds are shown by their size. A rotor that runs the other way round is looked at there.
+    if all(row["speed_rad_s"] <= 0.0 for row in modes):
+        modes = [row | {"speed_rad_s": -row["speed_rad_s"]} for row in reversed(modes)]
+        critical = [crossing | {"speed_rad_s": -crossing["speed_rad_s"]} for crossing in reversed(critical)]
+        other = {"above": "below", "below": "above", "": ""}
+        thresholds = [(-speed, other[grows]) for speed, grows in reversed(thresholds)]
     return Linear(
         modes=modes,
-        critical=[crossing for crossing in crossed if crossing["direction"] != AXIAL],
+        critical=critical,
         thresholds=thresholds,
         floquet=found.get("floquet", False),
     )
+
+
+def _between(rows, speed):
+    """A mode at a speed [rad/s] between those of two of its rows; None beyond them."""
+    after = next((n for n, row in enumerate(rows) if row["speed_rad_s"] >= speed), None)
+    if after is None or (after == 0 and rows[0]["speed_rad_s"] > speed):
+        return None
+    below, above = rows[max(after - 1, 0)], rows[after]
+    width = above["speed_rad_s"] - below["speed_rad_s"]
+    part = (speed - below["speed_rad_s"]) / width if width else 1.0
+    numbers = ("damping_ratio", "frequency_rad_s")
+    return above | {"speed_rad_s": speed} | {name: (1.0 - part) * below[name] + part * above[name] for name in numbers}
 
 
 def decrement(damping_ratio):
