@@ -309,7 +309,9 @@ impl Reader<'_> {
         for (section, variables) in missing {
             let key = |variable: &Variable| {
                 let key = variable.name[section.len() + 1..].to_owned();
-                format!("`{key} = ...`, the {}{}", variable.meta.description, brackets(variable.meta.unit))
+                let has_moment = is_unbalance(section) && moment::INSTEAD_OF.contains(&&*key);
+                let or = if has_moment { ", or `moment = ...` instead of mass and radius" } else { "" };
+                format!("`{key} = ...`, the {}{}{or}", variable.meta.description, brackets(variable.meta.unit))
             };
             let (keys, at) =
                 (variables.iter().map(|variable| key(variable)), headings.iter().find(|(of, _)| of == section));

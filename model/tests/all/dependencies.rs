@@ -74,7 +74,7 @@ const CANCELLED: [(&[&str], &[&str], &[&str]); 4] = [
     ),
     (&["dzhanibekov"], &["v_c.x", "v_c.y", "v_c.z"], &["state.K.x", "state.K.y", "state.K.z"]),
     (
-        &["jeffcott"],
+        &["jeffcott", "washing_machine"],
         &["omega_phi"],
         &["state.K.x", "state.K.y", "state.K.z", "state.gamma.y", "state.gamma.z", "state.phi"],
     ),
