@@ -79,10 +79,13 @@ static void live(struct rotor *rotor, fmi2Type type, int n)
     const struct variable *most = variable("solver.max_evaluations");
     const fmi2Real too_fast = 1e100;
     const fmi2Real few = 1000;
+    const struct variable *at_rest = variable("start.at_rest");
+    const fmi2Boolean moves = fmi2False;
     fmi2Real value;
     bool fails = n % 10 == 9;
     if (fails) {
         DONE(rotor, SetReal, &speed->reference, 1, &too_fast);
+        DONE(rotor, SetBoolean, &at_rest->reference, 1, &moves);
         /* What is free finds no limit but this one: of millions of evaluations, a hundred times, that would be minutes. */
         DONE(rotor, SetReal, &most->reference, 1, &few);
     }
