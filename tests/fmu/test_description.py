@@ -21,8 +21,12 @@ def declared_units(fmu):
 
 
 def unknowns(fmu, kind):
-    """Pairs of index and dependencies of an element of ModelStructure."""
+    """Pairs of index and dependencies of an element of ModelStructure. A start at rest is found from all that is set before."""
     found = fmu.xml.findall(f"ModelStructure/{kind}/Unknown")
+    if kind == "InitialUnknowns" and fmu.variables["start.at_rest"].start == "true":
+        assert {u.get("dependencies") for u in found} == {None}
+        known = indices(fmu, lambda v, _: v.get("causality") in {"parameter", "input"})
+        return [(int(u.get("index")), known) for u in found]
     return [(int(u.get("index")), [int(word) for word in u.get("dependencies").split()]) for u in found]
 
 
