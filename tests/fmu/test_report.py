@@ -1,7 +1,9 @@
 """The report as a browser shows it, and the numbers that it takes from a run, against motions that are known."""
 
+import json
 import subprocess
 import sys
+import tomllib
 
 import browser
 import numpy as np
@@ -27,13 +29,19 @@ def demo(fmus, xtask, tmp_path_factory):
             done = xtask("campbell", scene)
             campbell = project.ROOT / "target" / "campbell" / scene / "campbell.json"
             view = ["--no-linear", done.stderr] if done.returncode else ["--linear", campbell]
-            command = [sys.executable, PYTHON / "demo.py", fmus[scene].path, "--out", out, *view]
+            command = [sys.executable, PYTHON / "demo.py", fmus[scene].path, "--out", out, "--inputs", _inputs(scene), *view]
             done = subprocess.run(command, capture_output=True, encoding="utf-8", check=False)
             assert (done.returncode, done.stderr) == (0, "")
             made[scene] = out / "report.html"
         return made[scene]
 
     return make
+
+
+def _inputs(scene):
+    """The inputs over time of a scene, as the command hands them on."""
+    text = (project.ROOT / "scenes" / f"{scene}.toml").read_text(encoding="utf-8")
+    return json.dumps(tomllib.loads(text).get("input", []))
 
 
 def _shows(page, folder):

@@ -30,7 +30,8 @@ def main():
         description = read_model_description(arguments.fmu)
         scene = Scene.of(description)
         result = simulate(arguments.fmu, description, scene, arguments.inputs)
-        if responds(description):
+        # Inputs over time are the run that is asked for, a run-up mostly.
+        if responds(description) and not arguments.inputs:
             result = replace(result, response=respond(arguments.fmu, description, scene))
     except (BadZipFile, ValidationError, SimulationFailed) as failure:
         print(f"error: {arguments.fmu}: {failure}", file=sys.stderr)

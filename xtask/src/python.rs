@@ -41,7 +41,7 @@ const USER: Environment<'static> =
 
 /// mdBook, and what makes MathML of equations.
 const BOOK: Environment<'static> =
-    Environment { folder: "venv-book", requirements: &["requirements-book.txt"], minors: 11..=u32::MAX };
+    Environment { folder: "venv-book", requirements: &["xtask/python/requirements-book.txt"], minors: 11..=u32::MAX };
 
 /// A command of the Python that has fmpy; its environment is made first where it is missing or out of date.
 pub fn python() -> Result<Command> {
