@@ -8,8 +8,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
-# Those that name no adaptive method are too stiff, too fast or too long for most methods and for differences.
-UNLIKE = ('method = "auto"', 'method = "symplectic"')
+# Those that name no adaptive method are too stiff, too fast or too long for most methods and for differences; so are the machines that
+# inputs over time drive.
+UNLIKE = ('method = "auto"', 'method = "symplectic"', "[[input]]")
 GENTLE = [
     scene for scene in SCENES if not any(word in (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8") for word in UNLIKE)
 ]

@@ -34,6 +34,7 @@ def observed_later(fmu, calculated):
     unknowns = [name for name in calculated if name not in states and name != "state.chart"]
     pairs = set()
     with fmu.host(kind=MODEL_EXCHANGE) as host:
+        host.slave.setBoolean([host.reference("start.at_rest")], [False])
         host.start(ASKEW).slave.enterContinuousTimeMode()
         references = [host.reference(name) for name in unknowns]
         for name in states + names_of(fmu, "input"):

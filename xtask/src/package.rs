@@ -20,6 +20,7 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
     let licences = licences::third_party("split-rotor")?;
     let progress = Progress::of(scenes.len());
+    progress.set_message("packaging");
     let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
     // A library is compiled and linked by one thread.
     side_by_side(&library::by_list(&scenes), |builder, scenes| {
