@@ -16,7 +16,8 @@ pub type Add<'a> = dyn FnMut(&str, &[u8]) -> Result<()> + 'a;
 
 /// Writes an FMU of what `fill` adds: whole, or it stays as it was before.
 pub fn archive(fmu: &Path, fill: impl FnOnce(&mut Add) -> Result<()>) -> Result<()> {
-    let beside = fmu.with_extension("fmu.part");
+    // Another process may write the same.
+    let beside = fmu.with_extension(format!("fmu.{}.part", std::process::id()));
     let written = write_archive(&beside, fill).and_then(|()| Ok(fs::rename(&beside, fmu)?));
     if written.is_err() {
         // Where it cannot be removed either, what went wrong says more.
