@@ -23,20 +23,30 @@ SAME_TIME = 0.12  # relative: times within 5 % are alike, and two digits are sho
 FILES = {"accuracy.csv", "accuracy.json", "accuracy.md", "accuracy.svg"}
 
 
+def measure(xtask, scene, text):
+    """The folder with the result of a scene, and what was printed."""
+    scene.write_text(text, encoding="utf-8")
+    done = xtask("accuracy", scene)
+    assert done.returncode == 0, done.stderr
+    return project.ROOT / "target" / "accuracy" / scene.stem, done.stdout
+
+
+def read(folder):
+    """The result."""
+    return json.loads((folder / "accuracy.json").read_text(encoding="utf-8"))
+
+
 @pytest.fixture(scope="module")
 def measured(xtask, tmp_path_factory):
     """The folder with the result, and what was printed."""
     paper = (project.ROOT / "scenes" / "paper.toml").read_text(encoding="utf-8")
     scene = tmp_path_factory.mktemp("scene") / f"{NAME}.toml"
-    scene.write_text(paper.replace("stop = 10.0", f"stop = {STOP}"), encoding="utf-8")
-    done = xtask("accuracy", scene)
-    assert done.returncode == 0, done.stderr
-    return project.ROOT / "target" / "accuracy" / NAME, done.stdout
+    return measure(xtask, scene, paper.replace("stop = 10.0", f"stop = {STOP}"))
 
 
 @pytest.fixture(scope="module")
 def found(measured):
-    return json.loads((measured[0] / "accuracy.json").read_text(encoding="utf-8"))
+    return read(measured[0])
 
 
 def test_exact_files_are_there_and_tell_the_same(measured, found):
@@ -206,11 +216,7 @@ PUSHED_TO = 2.0 / 5.0 * (1.0 / 6.0 + 1.0 / 2.0)  # [m]; a ramp of a second to 2 
 
 @pytest.mark.long
 def test_exact_inputs_are_followed(xtask, tmp_path):
-    scene = tmp_path / "accuracy_of_an_input.toml"
-    scene.write_text(PUSHED, encoding="utf-8")
-    done = xtask("accuracy", scene)
-    assert done.returncode == 0, done.stderr
-    found = json.loads((project.ROOT / "target" / "accuracy" / scene.stem / "accuracy.json").read_text(encoding="utf-8"))
+    found = read(measure(xtask, tmp_path / "accuracy_of_an_input.toml", PUSHED)[0])
     assert found["sizes"]["place_m"] == pytest.approx(PUSHED_TO, rel=1e-12)
     loose = [row for row in found["rows"] if row["value"] == 1e-4 and row["failure"] is None]
     assert loose and all(row["error"] < 1e-8 for row in loose), "polynomials of time"
@@ -253,12 +259,8 @@ GOALS = (1e-3, 1e-6, 1e-9)
 @pytest.mark.long
 def test_regress_an_ordinary_rotor_is_drawn_and_advised_by_its_whirl(xtask, tmp_path):
     """Its axis does not tilt: judged by the axis alone the picture was empty, and the advice wrong by 62 %."""
-    scene = tmp_path / "accuracy_of_the_ordinary.toml"
-    scene.write_text(ORDINARY, encoding="utf-8")
-    done = xtask("accuracy", scene)
-    assert done.returncode == 0, done.stderr
-    folder = project.ROOT / "target" / "accuracy" / scene.stem
-    found = json.loads((folder / "accuracy.json").read_text(encoding="utf-8"))
+    folder, _ = measure(xtask, tmp_path / "accuracy_of_the_ordinary.toml", ORDINARY)
+    found = read(folder)
     assert found["sizes"]["place_m"] == pytest.approx(WHIRL, rel=SEEN)
     assert found["reference"]["agreement"]["error"] < 1e-9
     words = words_of(folder / "accuracy.svg")

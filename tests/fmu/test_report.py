@@ -3,12 +3,16 @@
 import json
 import subprocess
 import sys
-import tomllib
 
 import browser
 import numpy as np
 import project
 import pytest
+
+try:
+    import tomllib
+except ModuleNotFoundError:  # Python 3.10, where pytest brings it
+    import tomli as tomllib
 
 PYTHON = project.ROOT / "xtask" / "python"
 WIDTHS = (1280, 400)  # [px]

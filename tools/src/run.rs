@@ -1,10 +1,11 @@
 //! A scene run over the list of all effects, which gives the bits of the scene's FMU.
 
+use crate::course::Course;
 use anyhow::{Context, Error, Result, bail};
 use split_rotor_model::integrate::Fault;
-use split_rotor_model::scene::{Experiment, Input, Scene};
+use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::simulation::{General, Growth};
-use split_rotor_model::variable::{Place, Role};
+use split_rotor_model::variable::Role;
 use split_rotor_model::variables::{METHODS, Variable};
 
 /// The ω_φ of the largest size [rad/s] that a run of the scene comes to, looked at a thousand times.
@@ -35,20 +36,6 @@ pub fn points(Experiment { start, stop, step, .. }: &Experiment) -> usize {
     ((stop - start) / step - 1e-9).ceil() as usize
 }
 
-/// When any of these inputs bends or jumps \[s], ascending.
-pub fn bends(inputs: &[Input]) -> Vec<f64> {
-    let mut bends: Vec<_> = inputs.iter().flat_map(|input| &input.time).copied().collect();
-    bends.sort_by(f64::total_cmp);
-    bends.dedup();
-    bends
-}
-
-/// Those of them from one time up to another \[s].
-pub fn between(bends: &[f64], from: f64, to: f64) -> &[f64] {
-    let [first, after] = [from, to].map(|t| bends.partition_point(|bend| *bend < t));
-    &bends[first..after]
-}
-
 /// A run.
 pub struct Run<'s> {
     /// What moves.
@@ -56,20 +43,16 @@ pub struct Run<'s> {
     outputs: Vec<&'s Variable>,
     references: Vec<u32>,
     values: Vec<f64>,
-    inputs: Vec<(&'s Input, Place)>,
-    /// When any of them bends or jumps \[s], ascending.
-    bends: Vec<f64>,
+    course: Course<'s>,
     grown: Vec<Growth>,
 }
 
 impl<'s> Run<'s> {
     /// Of a scene with its own inputs, of which these outputs are read.
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
-        let place = |name: &str| scene.variables.iter().find(|variable| variable.name == name).map(|it| it.place);
-        let inputs: Vec<_> = scene.inputs.iter().filter_map(|input| Some((input, place(&input.name)?))).collect();
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, inputs, bends: bends(&scene.inputs), grown: Vec::new() }
+        Self { simulation, outputs, references, values, course: Course::of(scene), grown: Vec::new() }
     }
 
     /// What began to grow on the way.
@@ -89,7 +72,7 @@ impl<'s> Run<'s> {
         mut seen: impl FnMut(&mut Self, f64) -> Result<()>,
     ) -> Result<()> {
         let Experiment { start, stop, step, tolerance } = *experiment;
-        self.steer(start, |_| true);
+        self.course.begin(&mut self.simulation, start).map_err(stuck)?;
         self.simulation.start_until(start, Some(tolerance), Some(stop))?;
         self.grown.extend(self.simulation.growth());
         seen(self, start)?;
@@ -97,38 +80,16 @@ impl<'s> Run<'s> {
         for point in 1..=points(experiment) {
             // As a host reckons, which tells the length of a step.
             let next = (start + point as f64 * step).min(stop);
-            let outcome = self.advance(from, from + (next - from));
+            let outcome = self.course.go(&mut self.simulation, from, from + (next - from));
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
                 self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
                 seen(self, reached)?;
             }
-            outcome.map_err(|fault| Error::msg(fault.to_string()))?;
+            outcome.map_err(stuck)?;
             from = next;
         }
         Ok(())
-    }
-
-    /// Goes to time `to` \[s], with a stop wherever an input bends or jumps on the way.
-    fn advance(&mut self, from: f64, to: f64) -> Result<(), Fault> {
-        let bends = std::mem::take(&mut self.bends);
-        let outcome = between(&bends, from, to).iter().try_for_each(|bend| {
-            self.simulation.advance(*bend)?;
-            self.steer(*bend, |input| input.time.contains(bend));
-            Ok(())
-        });
-        self.bends = bends;
-        outcome?;
-        self.simulation.advance(to)
-    }
-
-    /// Gives these inputs their course from time `t` \[s] on.
-    fn steer(&mut self, t: f64, which: impl Fn(&Input) -> bool) {
-        for (input, place) in self.inputs.iter().filter(|(input, _)| which(input)) {
-            let [value, rate] = input.from(t);
-            self.simulation.set_input(*place, value);
-            self.simulation.set_input_derivative(*place, 1, rate);
-        }
     }
 
     /// What the outputs are now.
@@ -151,4 +112,8 @@ impl<'s> Run<'s> {
         let number = self.simulation.parameters().setup.solver.method_in_force();
         METHODS.items.iter().find(|item| item.0 == number).map_or("", |item| item.1)
     }
+}
+
+fn stuck(fault: Fault) -> Error {
+    Error::msg(fault.to_string())
 }

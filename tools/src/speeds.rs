@@ -13,10 +13,28 @@ pub const HIGHEST: f64 = 1e9;
 
 /// So many speeds [rad/s] from the first of these to the second, and 0 and the nodes of tables where they lie between; where none are given, from 0 to beyond what the scene reaches.
 pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+    grid(scene, ends, steps, || highest(scene, machine).map(f64::abs))
+}
+
+/// The same, on that side of 0 on which the scene runs: loads that depend on the spin's sign are not alike on both.
+pub fn on_its_side(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+    grid(scene, ends, steps, || highest(scene, machine))
+}
+
+/// So many speeds [rad/s] between these, or between 0 and beyond the one that is reached.
+fn grid(
+    scene: &Scene,
+    ends: Option<&[f64]>,
+    steps: u32,
+    reached: impl FnOnce() -> Result<f64, Obstacle>,
+) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "steps {steps}: at least 2 speeds are needed");
     let (from, to) = match ends {
         Some(&[from, to]) => (from, to),
-        _ => (0.0, HIGHER * highest(scene, machine)?.abs()),
+        _ => {
+            let beyond = HIGHER * reached()?;
+            (beyond.min(0.0), beyond.max(0.0))
+        }
     };
     ensure!(
         from.abs() <= HIGHEST && to.abs() <= HIGHEST && from < to,
@@ -32,21 +50,15 @@ pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, ste
     Ok(speeds)
 }
 
-/// The same, on that side of 0 on which the scene runs: loads that depend on the spin's sign are not alike on both.
-pub fn on_its_side(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
-    let speeds = range(scene, machine, ends, steps)?;
-    let is_backward = ends.is_none() && highest(scene, machine)? < 0.0;
-    Ok(if is_backward { speeds.into_iter().rev().map(|speed| 0.0 - speed).collect() } else { speeds })
-}
-
 /// The speed of the largest size [rad/s] that a scene tells: of its start, its drive or its tables, or to which its inputs bring it; else its
 /// fastest mode's at rest.
 fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     let told = scenes::values(scene);
     let value = |name: &str| told(name).unwrap_or_default();
-    let imposed = value("imposed_speed.w") + value("imposed_speed.a") * scene.experiment.stop;
+    let imposed = value("imposed_speed.w");
+    let last = imposed + value("imposed_speed.a") * scene.experiment.stop;
     let reached = if scene.inputs.is_empty() { 0.0 } else { run::fastest(scene) };
-    let told = [imposed, reached, value("start.omega.x"), value("motor.synchronous_speed")];
+    let told = [imposed, last, reached, value("start.omega.x"), value("motor.synchronous_speed")];
     let reached = told.into_iter().fold(0.0_f64, |most, speed| if speed.abs() > most.abs() { speed } else { most });
     // Tables are of the size of the speed.
     let highest = nodes(scene).fold(reached.abs(), f64::max);

@@ -3,12 +3,13 @@
 use super::motion::Point;
 use super::span::{PARTS, POINTS, end_of_part, time};
 use super::sweep::{AUTO, STEP, TOLERANCE};
+use crate::course::{Course, Driven};
 use crate::fmu::{Fmu, Instance, Reference};
-use crate::run::{bends, between};
 use anyhow::{Context, Result, bail};
 use cpu_time::ThreadTime;
 use nalgebra::Vector3;
-use split_rotor_model::scene::{Experiment, Input, Scene};
+use split_rotor_model::scene::{Experiment, Scene};
+use split_rotor_model::variable::Place;
 use split_rotor_model::variables::METHODS;
 use split_rotor_model::xml;
 use std::path::Path;
@@ -59,9 +60,7 @@ pub struct Subject<'s> {
     pub experiment: Experiment,
     outputs: [Reference; OUTPUTS.len()],
     costs: [Reference; COSTS.len()],
-    inputs: Vec<(&'s Input, Reference)>,
-    /// When any of them bends or jumps \[s], ascending.
-    bends: Vec<f64>,
+    course: Course<'s>,
 }
 
 /// What a run showed and cost.
@@ -83,9 +82,7 @@ impl<'s> Subject<'s> {
     pub fn load(scene: &'s Scene, library: &Path) -> Result<Self> {
         let fmu = Fmu::load(library, &xml::guid(scene))?;
         let (outputs, costs) = (references(scene, OUTPUTS)?, references(scene, COSTS)?);
-        let input = |input: &'s Input| Ok((input, references(scene, [&*input.name])?[0]));
-        let inputs = scene.inputs.iter().map(input).collect::<Result<_>>()?;
-        Ok(Self { fmu, scene, experiment: scene.experiment, outputs, costs, inputs, bends: bends(&scene.inputs) })
+        Ok(Self { fmu, scene, experiment: scene.experiment, outputs, costs, course: Course::of(scene) })
     }
 
     /// A run with this setting; between two points that are read, `substeps` communication steps. An error where it takes
@@ -116,7 +113,7 @@ impl<'s> Subject<'s> {
         let began = ThreadTime::now();
         for tenth in stops.chunks(stops.len().div_ceil(ASKED)) {
             for &(to, is_read) in tenth {
-                self.go(&mut instance, at, to)?;
+                self.course.go(&mut instance, at, to)?;
                 at = to;
                 if is_read {
                     points.push(point(instance.get_real(&self.outputs)?));
@@ -138,7 +135,7 @@ impl<'s> Subject<'s> {
         let mut instance = self.started(setting)?;
         let mut at = self.experiment.start;
         for to in times {
-            self.go(&mut instance, at, to)?;
+            self.course.go(&mut instance, at, to)?;
             at = to;
             let [_, _, evaluations] = instance.get_real(&self.costs)?;
             if evaluations > affordable {
@@ -161,33 +158,11 @@ impl<'s> Subject<'s> {
         self.set(&mut instance, setting)?;
         let start = self.experiment.start;
         // A start at rest asks for them.
-        self.inputs.iter().try_for_each(|(input, reference)| instance.set_real(*reference, input.from(start)[0]))?;
+        let set = |(input, value): (Place, f64)| instance.set_real(input.value_reference(), value);
+        self.course.values(start).try_for_each(set)?;
         instance.initialize(start, self.experiment.stop)?;
-        self.steer(&mut instance, start, |_| true)?;
+        self.course.begin(&mut instance, start)?;
         Ok(instance)
-    }
-
-    /// Goes from one time to another \[s], with a stop wherever an input bends or jumps.
-    fn go(&self, instance: &mut Instance, from: f64, to: f64) -> Result<()> {
-        let mut at = from;
-        for &bend in between(&self.bends, from, to) {
-            if bend > at {
-                instance.do_step(at, bend - at)?;
-                at = bend;
-            }
-            self.steer(instance, bend, |input| input.time.contains(&bend))?;
-        }
-        instance.do_step(at, to - at)
-    }
-
-    /// Gives these inputs their course from time `t` \[s] on.
-    fn steer(&self, instance: &mut Instance, t: f64, which: impl Fn(&Input) -> bool) -> Result<()> {
-        for (input, reference) in self.inputs.iter().filter(|(input, _)| which(input)) {
-            let [value, rate] = input.from(t);
-            instance.set_real(*reference, value)?;
-            instance.set_rate(*reference, rate)?;
-        }
-        Ok(())
     }
 
     fn set(&self, instance: &mut Instance, setting: &Setting) -> Result<()> {
@@ -207,6 +182,19 @@ impl<'s> Subject<'s> {
             instance.set_real(tolerance, LOOSE)?;
         }
         instance.set_real(parameter, setting.value)
+    }
+}
+
+impl Driven for Instance<'_> {
+    type Error = anyhow::Error;
+
+    fn go(&mut self, from: f64, to: f64) -> Result<()> {
+        self.do_step(from, to - from)
+    }
+
+    fn steer(&mut self, input: Place, [value, rate]: [f64; 2]) -> Result<()> {
+        self.set_real(input.value_reference(), value)?;
+        self.set_rate(input.value_reference(), rate)
     }
 }
 
