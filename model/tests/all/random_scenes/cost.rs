@@ -71,7 +71,7 @@ pub fn of(number: u64, trial: &Trial, truth: &Truth) -> Vec<Cost> {
 }
 
 /// How many are told of.
-const WORST: usize = 3;
+const WORST: usize = 10;
 
 /// A table in markdown of the dearest, and how many are how dear.
 pub fn table(costs: &mut [Cost]) -> String {
