@@ -8,9 +8,10 @@ use split_rotor_model::linear::Machine;
 use split_rotor_model::scene;
 use split_rotor_tools::accuracy::run::Subject;
 use split_rotor_tools::accuracy::{measure, span, sweep};
-use split_rotor_tools::archive;
+use split_rotor_tools::archive::{self, Origin};
 use split_rotor_tools::campbell::View;
 use split_rotor_tools::general::{self, GENERAL};
+use split_rotor_tools::platform::Platform;
 use split_rotor_tools::response::Found;
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
@@ -77,9 +78,11 @@ pub fn package(py: Python, scene: &Scene, path: PathBuf) -> PyResult<()> {
     let data = data(py)?;
     let scene = scene.again()?;
     py.detach(|| {
-        let licences = std::fs::read_to_string(data.join("third-party.txt"))?;
+        let read = |name: &str| std::fs::read_to_string(data.join(name));
+        let origin = Origin { licences: read("third-party.txt")?, bill: read("bill-of-materials.cdx.json")? };
         let (scene, library) = over_general(&data, scene)?;
-        archive::archive(&path, |add| archive::fill(&scene, &library, &licences, add))
+        let libraries = [(Platform::here()?, library)];
+        archive::archive(&path, |add| archive::fill(&scene, &libraries, &origin, add))
     })
     .map_err(failed)
 }

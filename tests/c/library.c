@@ -1,8 +1,37 @@
 #include "library.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
+
+#ifdef _WIN32
+#include <windows.h>
+
+enum { RTLD_NOW, RTLD_LOCAL = 0 };
+
+static void *dlopen(const char *file, int mode)
+{
+    (void)mode;
+    return LoadLibraryA(file);
+}
+
+static void *dlsym(void *library, const char *name)
+{
+    void *function;
+    FARPROC found = GetProcAddress(library, name);
+    memcpy(&function, &found, sizeof function);
+    return function;
+}
+
+static const char *dlerror(void)
+{
+    static char message[64];
+    snprintf(message, sizeof message, "the library cannot be loaded: error %lu", GetLastError());
+    return message;
+}
+#else
+#include <dlfcn.h>
+#endif
 
 struct fmi2 fmi;
 

@@ -1,5 +1,6 @@
 """The FMU as a zip archive: what is in it, and that it is packed as FMI 2.0.4 (2.3) asks, alike every time."""
 
+import json
 import re
 import shutil
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
@@ -28,6 +29,7 @@ def test_exact_what_is_in_it(fmu, entries):
         "documentation/index.html",
         "documentation/licenses/license.txt",
         "documentation/licenses/third-party.txt",
+        "documentation/licenses/bill-of-materials.cdx.json",
         "terminalsAndIcons/terminalsAndIcons.xml",
         "terminalsAndIcons/icon.png",
     ]
@@ -54,7 +56,7 @@ def test_exact_packaging_again_gives_the_same_bytes(paper, xtask, tmp_path):
         stamp.unlink()
     for known in (project.ROOT / "target/package").glob("*/fmu/.fingerprint/split-rotor-*"):
         shutil.rmtree(known)
-    done = xtask("package", "paper", "--out", tmp_path)
+    done = xtask("package", "paper", "--platforms", "here", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
     again = (tmp_path / "paper.fmu").read_bytes()
     assert again == paper.path.read_bytes(), "or target/fmu is out of date: run `cargo xtask package paper`"
@@ -66,3 +68,13 @@ def test_exact_the_licence_of_each_linked_crate_is_there(fmu):
     crates = re.findall(r"^=+\n(\S+) \d+\.\d+\.\d+: ([^\n]+)\n=+\n(.*?)(?=^=+\n|\Z)", text, re.MULTILINE | re.DOTALL)
     assert {"nalgebra", "libm", "libc"} <= {name for name, _, _ in crates}
     assert [name for name, _, licence in crates if "Copyright" not in licence and "Apache License" not in licence] == []
+
+
+def test_exact_the_bill_of_materials_names_the_same_crates(fmu):
+    with ZipFile(fmu.path) as archive:
+        bill = json.loads(archive.read("documentation/licenses/bill-of-materials.cdx.json"))
+        text = archive.read("documentation/licenses/third-party.txt").decode("utf-8")
+    assert (bill["bomFormat"], bill["specVersion"], bill["metadata"]["component"]["name"]) == ("CycloneDX", "1.6", "split-rotor")
+    listed = [f"pkg:cargo/{name}@{version}" for name, version in re.findall(r"^=+\n(\S+) (\S+): ", text, re.MULTILINE)]
+    assert [component["purl"] for component in bill["components"]] == listed
+    assert all(component["licenses"][0]["expression"] for component in bill["components"])

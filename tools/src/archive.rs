@@ -1,10 +1,10 @@
 //! An FMU: a zip of its modelDescription.xml, its library, and what describes it to people.
 
+use crate::platform::{AARCH64_LINUX, LINUX64, Libraries};
 use crate::{page, terminals};
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
-use std::env::consts::{ARCH, DLL_SUFFIX, OS};
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::Path;
@@ -37,15 +37,31 @@ fn write_archive(file: &Path, fill: impl FnOnce(&mut Add) -> Result<()>) -> Resu
     Ok(())
 }
 
-/// Adds what the FMU of a scene holds, with this library and the licences of what is in it.
-pub fn fill(scene: &Scene, library: &[u8], third_party: &str, add: &mut Add) -> Result<()> {
+/// What others made of a library.
+pub struct Origin {
+    /// Their licences, a text.
+    pub licences: String,
+    /// The bill of materials, CycloneDX in JSON.
+    pub bill: String,
+}
+
+/// Adds what the FMU of a scene holds, with these libraries and what others made of them.
+pub fn fill(scene: &Scene, libraries: &Libraries, origin: &Origin, add: &mut Add) -> Result<()> {
     let licence = licence("The licences of the libraries in its binary stand in third-party.txt.");
     add("modelDescription.xml", xml::model_description(scene).as_bytes())?;
     add("model.png", ICON)?;
-    add(&library_path(&scene.identifier())?, library)?;
+    let identifier = scene.identifier();
+    for (platform, library) in libraries {
+        add(&platform.library_path(&identifier), library)?;
+    }
+    if let [(AARCH64_LINUX, library)] = libraries {
+        // fmpy takes any Linux for this one.
+        add(&LINUX64.library_path(&identifier), library)?;
+    }
     add("documentation/index.html", page::page(scene)?.as_bytes())?;
     add("documentation/licenses/license.txt", licence.as_bytes())?;
-    add("documentation/licenses/third-party.txt", third_party.as_bytes())?;
+    add("documentation/licenses/third-party.txt", origin.licences.as_bytes())?;
+    add("documentation/licenses/bill-of-materials.cdx.json", origin.bill.as_bytes())?;
     add("terminalsAndIcons/terminalsAndIcons.xml", terminals::terminals_and_icons(scene)?.as_bytes())?;
     // Where FMI 3.0, which defines that file, looks for the icon.
     add("terminalsAndIcons/icon.png", ICON)
@@ -62,24 +78,10 @@ pub fn licence(others: &str) -> String {
     )
 }
 
-/// Where the library of this machine's platform lies in an FMU.
-pub fn library_path(identifier: &str) -> Result<String> {
-    Ok(format!("binaries/{}/{identifier}{DLL_SUFFIX}", platform()?))
-}
-
-/// FMI 2.0's name of this machine's platform.
-fn platform() -> Result<&'static str> {
-    match (OS, ARCH) {
-        ("linux", "x86_64") => Ok("linux64"),
-        ("macos", _) => Ok("darwin64"),
-        ("windows", "x86_64") => Ok("win64"),
-        _ => bail!("FMI 2.0 has no name for the platform {OS} on {ARCH}"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{archive, fill};
+    use super::{Origin, archive, fill};
+    use crate::platform::LINUX64;
     use crate::scenes;
     use std::{env, fs};
 
@@ -91,7 +93,9 @@ mod tests {
         fs::create_dir_all(&fmu).unwrap();
         fs::write(fmu.join("file"), "as it was").unwrap();
         let scene = scenes::find("paper");
-        archive(&fmu, |add| fill(&scene, b"library", "licences", add)).expect_err("a folder is there");
+        let origin = Origin { licences: String::new(), bill: String::new() };
+        archive(&fmu, |add| fill(&scene, &[(LINUX64, b"library".to_vec())], &origin, add))
+            .expect_err("a folder is there");
         assert_eq!(fs::read_to_string(fmu.join("file")).unwrap(), "as it was");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
         fs::remove_dir_all(&folder).unwrap();

@@ -10,6 +10,7 @@ pub mod general;
 pub mod numbers;
 pub mod page;
 pub mod peaks;
+pub mod platform;
 pub mod response;
 pub mod rows;
 pub mod run;

@@ -87,5 +87,5 @@ pub fn example_is_right() -> Result<()> {
         run(cargo().current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest))
     };
     within(&["test", "--package", "split-rotor-model", "--test", "all", "power::"])?;
-    within(&["run", "--package", "xtask", "--", "package", "tethered"])
+    within(&["run", "--package", "xtask", "--", "package", "tethered", "--platforms", "here"])
 }

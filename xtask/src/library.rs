@@ -2,14 +2,14 @@
 //! the values of a scene.
 
 use crate::paths;
+use crate::platforms::Toolchain;
 use crate::progress::Progress;
-use crate::run::{cargo, compiler, run};
+use crate::run::run;
 use anyhow::{Context, Result, anyhow};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::{section, xml};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
-use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs::{self, File};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -25,15 +25,15 @@ pub fn by_list(scenes: &[Scene]) -> Vec<Vec<&Scene>> {
     lists
 }
 
-/// The library of the scene's list, without values: as it was kept, or built by this builder.
-pub fn of(scene: &Scene, builder: usize, progress: &Progress) -> Result<Vec<u8>> {
+/// The library of the scene's list for a platform, without values: as it was kept, or built by this builder.
+pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progress) -> Result<Vec<u8>> {
     let folder = paths::target().join("package");
-    let (list, builder) = (scene.list(), folder.join(builder.to_string()));
+    let (list, builder) = (scene.list(), folder.join(toolchain.folder(builder)));
     let mut name = DefaultHasher::new();
-    (&list, scene.room()).hash(&mut name);
-    let kept = folder.join("lists").join(format!("{:016x}{DLL_SUFFIX}", name.finish()));
+    (&list, scene.room(), toolchain.key()).hash(&mut name);
+    let kept = folder.join("lists").join(format!("{:016x}{}", name.finish(), toolchain.platform.suffix));
     let stamp = kept.with_extension("stamp");
-    if let Some(library) = fs::read(&kept).ok().filter(|_| is_fresh(&stamp)) {
+    if let Some(library) = fs::read(&kept).ok().filter(|_| is_fresh(&stamp, toolchain)) {
         return Ok(library);
     }
     fs::create_dir_all(&builder)?;
@@ -41,16 +41,18 @@ pub fn of(scene: &Scene, builder: usize, progress: &Progress) -> Result<Vec<u8>>
     // Until the library is read: another xtask would overwrite it.
     let lock = File::create(builder.join("lock"))?;
     lock.lock()?;
-    progress.tell(&format!("compiling the library for the effects of {}: half a minute to two", scene.name));
+    let (name, platform) = (&scene.name, toolchain.platform.name);
+    progress.tell(&format!("compiling the library for the effects of {name}, {platform}: half a minute to two"));
     let began = SystemTime::now();
-    let built = build_in(paths::root(), scene, &builder)?;
+    let built = build_with(toolchain, paths::root(), scene, &builder)?;
     let library = fs::read(&built)?;
+    toolchain.check(&library)?;
     // Without its stamp a library is not taken, so one that is cut is none.
     let _ = fs::remove_file(&stamp);
     fs::write(&kept, &library)?;
     let sources = sources(&fs::read_to_string(built.with_extension("d"))?);
     if sources.iter().all(|file| is_older(file, began)) {
-        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources)?, sources.join("\n")))?;
+        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources, toolchain)?, sources.join("\n")))?;
     }
     Ok(library)
 }
@@ -79,20 +81,20 @@ pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
     command.env("SPLIT_ROTOR_LIST", scene.list()).env("SPLIT_ROTOR_ROOM", scene.room().to_string())
 }
 
-/// Builds the library of the scene's list, of the project in the folder `root`.
+/// Builds the library of the scene's list, of the project in the folder `root`, for this machine.
 pub fn build_in(root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
-    build_with(cargo().args(["rustc", "--quiet"]), root, scene, target)?;
-    Ok(target.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")))
+    build_with(&Toolchain::own()?, root, scene, target)
 }
 
-/// Builds it with this command, `rustc` of cargo or of what stands in for it.
-pub fn build_with(cargo: &mut Command, root: &Path, scene: &Scene, target: &Path) -> Result<()> {
-    run(of_list(cargo, scene)
+fn build_with(toolchain: &Toolchain, root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
+    let flags = [&[flags(root)?.as_str()], toolchain.flags()].concat().join("\x1f");
+    run(of_list(&mut toolchain.cargo()?, scene)
         .current_dir(root)
         .args(["--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib", "--target-dir"])
         .arg(target)
-        .env("CARGO_ENCODED_RUSTFLAGS", flags(root)?)
-        .env_remove("RUSTFLAGS"))
+        .env("CARGO_ENCODED_RUSTFLAGS", flags)
+        .env_remove("RUSTFLAGS"))?;
+    Ok(toolchain.built(target))
 }
 
 /// What the compiler must not do with the physics: to pack scalars into vectors by itself, which makes the right-hand side
@@ -138,17 +140,17 @@ fn is_older(file: &str, time: SystemTime) -> bool {
 }
 
 /// Whether nothing has changed of what the library with this stamp was made of.
-fn is_fresh(stamp: &Path) -> bool {
+fn is_fresh(stamp: &Path, toolchain: &Toolchain) -> bool {
     let stamp = fs::read_to_string(stamp).unwrap_or_default();
     let Some((then, sources)) = stamp.split_once('\n') else { return false };
     let sources: Vec<_> = sources.lines().map(str::to_owned).collect();
-    fingerprint(&sources).is_ok_and(|now| now == then)
+    fingerprint(&sources, toolchain).is_ok_and(|now| now == then)
 }
 
 /// Of the compiler, its flags, the settings of cargo in the environment, and of what these files hold, and which files a folder.
-fn fingerprint(sources: &[String]) -> Result<String> {
+fn fingerprint(sources: &[String], toolchain: &Toolchain) -> Result<String> {
     let mut all = DefaultHasher::new();
-    compiler()?.hash(&mut all);
+    toolchain.compiler()?.hash(&mut all);
     flags(paths::root())?.hash(&mut all);
     let is_setting =
         |name: &str| ["CARGO_BUILD_", "CARGO_PROFILE_", "RUSTC"].iter().any(|begin| name.starts_with(begin));
@@ -170,7 +172,7 @@ fn fingerprint(sources: &[String]) -> Result<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{MANIFESTS, filled, fingerprint, fs, is_fresh, is_older, paths, sources};
+    use super::{MANIFESTS, Toolchain, filled, fingerprint, fs, is_fresh, is_older, paths, sources};
     use crate::scenes;
     use split_rotor_model::section;
     use std::path::PathBuf;
@@ -200,9 +202,9 @@ mod tests {
     #[test]
     fn a_kept_library_is_stale_where_any_source_changes_comes_or_goes() {
         let (folder, sources) = made("stamp");
-        let stamp = folder.join("stamp");
-        assert!(!is_fresh(&stamp), "none was written");
-        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources).unwrap(), sources.join("\n"))).unwrap();
+        let (stamp, own) = (folder.join("stamp"), Toolchain::own().unwrap());
+        assert!(!is_fresh(&stamp, &own), "none was written");
+        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources, &own).unwrap(), sources.join("\n"))).unwrap();
         let changes: [(&str, Option<&str>); 4] = [
             ("lib.rs", Some("One")),
             ("effects/drag.rs", Some("")),
@@ -210,19 +212,19 @@ mod tests {
             ("effects/drag.rs", None),
         ];
         for (file, text) in changes {
-            assert!(is_fresh(&stamp), "before {file} changes");
+            assert!(is_fresh(&stamp, &own), "before {file} changes");
             let (file, before) = (folder.join(file), fs::read(folder.join(file)));
             match text {
                 Some(text) => fs::write(&file, text).unwrap(),
                 None => fs::remove_file(&file).unwrap(),
             }
-            assert!(!is_fresh(&stamp), "{} is {text:?}", file.display());
+            assert!(!is_fresh(&stamp, &own), "{} is {text:?}", file.display());
             match before {
                 Ok(before) => fs::write(&file, before).unwrap(),
                 Err(_) => fs::remove_file(&file).unwrap(),
             }
         }
-        assert!(is_fresh(&stamp), "all is as it was");
+        assert!(is_fresh(&stamp, &own), "all is as it was");
     }
 
     #[test]

@@ -1,12 +1,27 @@
-//! The licences of the crates in a library.
+//! What others made of a library: their licences, and a bill of materials.
 
 use crate::run::{cargo, compiler, output};
 use anyhow::{Context, Result};
-use serde_json::Value;
-use std::path::Path;
+use serde_json::{Value, json};
+use split_rotor_tools::archive::Origin;
+use std::path::{Path, PathBuf};
 
-/// The licences of the crates that are linked into the library of this package, in the order of their names.
-pub fn third_party(package: &str) -> Result<String> {
+/// A crate that is linked in.
+struct Crate {
+    name: String,
+    version: String,
+    /// As SPDX writes it.
+    licence: String,
+    folder: PathBuf,
+}
+
+/// What is linked into the library of this package, in the order of names.
+pub fn of(package: &str) -> Result<Origin> {
+    let crates = crates(package)?;
+    Ok(Origin { licences: third_party(&crates)?, bill: bill(package, &crates)? })
+}
+
+fn crates(package: &str) -> Result<Vec<Crate>> {
     let tree = ["tree", "--package", package, "--edges", "normal,no-proc-macro", "--prefix", "none"];
     let linked = output(cargo().args(tree).args(["--format", "{p}|{l}"]))?;
     // Of this platform only: cargo would fetch the crates of all others.
@@ -16,19 +31,47 @@ pub fn third_party(package: &str) -> Result<String> {
     let metadata = output(cargo().args(metadata))?;
     let metadata: Value = serde_json::from_str(&metadata).context("cargo metadata prints JSON")?;
     let packages = metadata["packages"].as_array().context("cargo metadata lists packages")?;
-    let mut crates: Vec<_> = linked.lines().map(|line| line.trim_end_matches(" (*)")).collect();
-    crates.sort_unstable();
-    crates.dedup();
-    let mut text = "Rust's standard library is licensed under the MIT licence or the Apache licence 2.0.\n".to_owned();
-    for line in crates.into_iter().filter(|line| !line.starts_with("split-rotor")) {
+    let mut lines: Vec<_> = linked.lines().map(|line| line.trim_end_matches(" (*)")).collect();
+    lines.sort_unstable();
+    lines.dedup();
+    let others = lines.into_iter().filter(|line| !line.starts_with("split-rotor"));
+    let crates = others.map(|line| {
         let (package, licence) = line.split_once('|').context("a crate and its licence")?;
         let (name, version) = package.split_once(" v").context("a name and a version")?;
         let found = packages.iter().find(|package| package["name"] == name && package["version"] == version);
         let manifest = found.and_then(|package| package["manifest_path"].as_str()).context("a crate has a manifest")?;
-        let folder = Path::new(manifest).parent().context("a manifest lies in a folder")?;
+        let folder = Path::new(manifest).parent().context("a manifest lies in a folder")?.to_owned();
+        // Older crates write MIT/Apache-2.0.
+        Ok(Crate { name: name.into(), version: version.into(), licence: licence.replace('/', " OR "), folder })
+    });
+    crates.collect()
+}
+
+fn third_party(crates: &[Crate]) -> Result<String> {
+    let mut text = "Rust's standard library is licensed under the MIT licence or the Apache licence 2.0.\n".to_owned();
+    for Crate { name, version, licence, folder } in crates {
         text += &format!("\n{0}\n{name} {version}: {licence}\n{0}\n{1}", "=".repeat(80), texts(folder)?);
     }
     Ok(text)
+}
+
+/// The bill of materials, as CycloneDX 1.6 writes it in JSON.
+fn bill(package: &str, crates: &[Crate]) -> Result<String> {
+    let library = |name: &str, version: &str, licence: &str| json!({ "type": "library", "name": name, "version": version, "licenses": [{ "expression": licence }] });
+    let own = "MIT OR Apache-2.0";
+    let components = crates.iter().map(|Crate { name, version, licence, .. }| {
+        let mut component = library(name, version, licence);
+        component["purl"] = format!("pkg:cargo/{name}@{version}").into();
+        component
+    });
+    let bill = json!({
+        "bomFormat": "CycloneDX",
+        "specVersion": "1.6",
+        "version": 1,
+        "metadata": { "component": library(package, env!("CARGO_PKG_VERSION"), own) },
+        "components": components.collect::<Vec<_>>(),
+    });
+    Ok(serde_json::to_string_pretty(&bill)? + "\n")
 }
 
 /// The texts of the licences in a crate's folder.

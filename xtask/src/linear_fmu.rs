@@ -10,7 +10,8 @@ use split_rotor_model::scene::Scene;
 use split_rotor_model::variable::units::Unit;
 use split_rotor_model::variables::Variable;
 use split_rotor_model::xml;
-use split_rotor_tools::archive::{ICON, archive, library_path, licence};
+use split_rotor_tools::archive::{ICON, archive, licence};
+use split_rotor_tools::platform::Platform;
 use split_rotor_tools::templates;
 use std::env::consts::DLL_SUFFIX;
 use std::fs;
@@ -39,7 +40,8 @@ pub fn write(scene: &Scene, space: &StateSpace, folder: &Path) -> Result<PathBuf
         fs::copy(paths::root().join("modelDescription/linear").join(source), sources.join(source))?;
     }
     fs::write(sources.join(MATRICES), matrices)?;
-    let library = library_path(&identifier).and_then(|path| Ok((path, fs::read(library(scene, &[])?)?)));
+    let library =
+        Platform::here().and_then(|here| Ok((here.library_path(&identifier), fs::read(library(scene, &[])?)?)));
     let fmu = folder.join(format!("{name}.fmu"));
     archive(&fmu, |add| {
         add("modelDescription.xml", description.as_bytes())?;

@@ -1,5 +1,6 @@
 //! `cargo xtask`: the commands of split-rotor. One file a command; `cargo xtask --help` lists them.
 
+mod abroad;
 mod accuracy;
 mod bench;
 mod c;
@@ -22,6 +23,7 @@ mod linear_fmu;
 mod memcheck;
 mod package;
 mod paths;
+mod platforms;
 mod progress;
 mod python;
 mod report;
@@ -43,6 +45,7 @@ mod wheel;
 use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
+use platforms::Toolchain;
 use split_rotor_model::scene::SceneError;
 use split_rotor_tools::{fmu, numbers, peaks, speeds};
 use std::path::PathBuf;
@@ -81,6 +84,10 @@ enum Command {
         /// Where the FMUs go
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
+        /// For which platforms, with commas between: `here` is this machine and its like, which is the quickest. Without it, for all
+        /// for which nothing must be fetched
+        #[arg(long, value_delimiter = ',', value_name = "PLATFORM", value_parser = platforms::NAMES)]
+        platforms: Vec<String>,
     },
     /// Simulate a scene without packaging it, in a moment: a summary, a report with pictures, and every output as CSV in target/run/SCENE
     Run {
@@ -262,7 +269,11 @@ fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { part, long } => test::test(&part, long),
-        Command::Package { scenes, out } => package::package(&scenes, out.as_deref()).map(drop),
+        Command::Package { scenes, out, platforms } => {
+            let named = || platforms.iter().map(|name| Toolchain::named(name)).collect();
+            let toolchains = if platforms.is_empty() { Toolchain::at_hand() } else { named() }?;
+            package::package_for(&scenes, &toolchains, out.as_deref()).map(drop)
+        }
         Command::Run { scene, no_report } => simulate::simulate(&scene, !no_report),
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),
         Command::Accuracy { scene, peers, .. } => accuracy::accuracy(&scene, peers).map(drop),

@@ -1,5 +1,6 @@
 //! `package`: each scene as an FMU, with the library of its effects.
 
+use crate::platforms::Toolchain;
 use crate::progress::Progress;
 use crate::run::side_by_side;
 use crate::{library, licences, paths, scenes};
@@ -9,8 +10,13 @@ use split_rotor_tools::archive::{archive, fill};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Packages these scenes, into target/fmu where `out` is not given; the paths of the FMUs.
+/// Packages these scenes for this machine, into target/fmu where `out` is not given; the paths of the FMUs.
 pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
+    package_for(names, &[Toolchain::own()?], out)
+}
+
+/// Packages them with a library of each of these toolchains.
+pub fn package_for(names: &[String], toolchains: &[Toolchain], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     // All scenes are read first: a slip in the last should not cost the time of building the others.
     let scenes = names.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
     if let Some((first, second)) = same_name(&scenes) {
@@ -18,22 +24,31 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     }
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
-    let licences = licences::third_party("split-rotor")?;
-    let progress = Progress::of(scenes.len());
+    let origin = licences::of("split-rotor")?;
+    let lists = library::by_list(&scenes);
+    let libraries = lists.iter().flat_map(|scenes| toolchains.iter().map(move |toolchain| (scenes[0], toolchain)));
+    let libraries: Vec<_> = libraries.collect();
+    let progress = Progress::of(libraries.len());
     progress.set_message("packaging");
-    let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
     // A library is compiled and linked by one thread.
-    side_by_side(&library::by_list(&scenes), |builder, scenes| {
-        let library = library::of(scenes[0], builder, &progress)?;
-        scenes.iter().try_for_each(|scene| {
-            let library = library::signed(library::filled(library.clone(), scene)?)?;
-            let fmu = fmu(scene);
-            archive(&fmu, |add| fill(scene, &library, &licences, add))?;
-            progress.inc(1);
-            progress.suspend(|| println!("{}", fmu.display()));
-            Ok(())
-        })
+    side_by_side(&libraries, |builder, (scene, toolchain)| {
+        library::of(scene, toolchain, builder, &progress)?;
+        progress.inc(1);
+        Ok(())
     })?;
+    let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
+    for scenes in lists {
+        let kept = |toolchain| library::of(scenes[0], toolchain, 0, &progress);
+        let kept = toolchains.iter().map(|toolchain| Ok((toolchain.platform, kept(toolchain)?)));
+        let kept = kept.collect::<Result<Vec<_>>>()?;
+        for scene in scenes {
+            let filled = |library: &Vec<u8>| library::signed(library::filled(library.clone(), scene)?);
+            let libraries = kept.iter().map(|(platform, library)| Ok((*platform, filled(library)?)));
+            let (libraries, fmu) = (libraries.collect::<Result<Vec<_>>>()?, fmu(scene));
+            archive(&fmu, |add| fill(scene, &libraries, &origin, add))?;
+            progress.suspend(|| println!("{}", fmu.display()));
+        }
+    }
     drop(progress);
     Ok(scenes.iter().map(fmu).collect())
 }

@@ -63,9 +63,21 @@ pub fn wheel_builder(program: &str) -> Result<Command> {
     Ok(command)
 }
 
+/// Zig as a compiler of C for a target.
+pub fn zig_cc(target: &str) -> Result<Command> {
+    let mut zig = BUILDER.python()?;
+    zig.args(["-m", "ziglang", "cc", "-target", target]);
+    Ok(zig)
+}
+
+/// Whether its programs are here already.
+pub fn has_wheel_builder() -> bool {
+    BUILDER.folder().join("installed-0.txt").is_file()
+}
+
 /// The Python of a new environment with this wheel.
 pub fn of_wheel(wheel: &Path) -> Result<Command> {
-    let _ = fs::remove_dir_all(paths::target().join(USER.folder));
+    let _ = fs::remove_dir_all(USER.folder());
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--no-index"];
     run(USER.python()?.args(install).arg(wheel))?;
     USER.python()
@@ -109,9 +121,13 @@ const INSTALL: [&str; 7] =
     ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-deps", "--require-hashes"];
 
 impl Environment<'_> {
+    fn folder(&self) -> PathBuf {
+        paths::target().join(self.folder)
+    }
+
     /// Its Python; it is made first where it is missing or out of date.
     fn python(&self) -> Result<Command> {
-        let folder = paths::target().join(self.folder);
+        let folder = self.folder();
         let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
         for (number, name) in self.requirements.iter().enumerate() {
             let requirements = paths::root().join(name);

@@ -6,6 +6,7 @@ use crate::{c_host, library, linear_fmu, paths, scenes, sheet, state_space, unpa
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
+use split_rotor_tools::platform::Platform;
 use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -33,7 +34,7 @@ pub fn sanitizers() -> Result<()> {
         scenes.iter().try_for_each(|scene| {
             let (library, folder) = (library::filled(built.clone(), scene)?, folder.join("unpacked"));
             let sheet = sheet::sheet(&xml::model_description(scene))?;
-            let fmu = unpacked::write(&folder, &scene.name, &sheet, &library)?;
+            let fmu = unpacked::write(&folder, &scene.name, &sheet, (Platform::here()?, &library))?;
             run(c_host::arguments(&mut strict(&host), &fmu)?)
         })
     })

@@ -3,7 +3,9 @@
 use crate::hard_cases::{self, Extent};
 use crate::progress::Progress;
 use crate::run::{cargo, run, side_by_side};
-use crate::{accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel};
+use crate::{
+    abroad, accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel,
+};
 use anyhow::{Result, bail, ensure};
 use split_rotor_model::scene::Scene;
 use std::env;
@@ -25,7 +27,7 @@ const SHORT: [Job; 6] = [
 ];
 
 /// What takes long, or needs more than the README asks for. Several run side by side, so what takes longest comes first.
-const LONG: [Job; 13] = [
+const LONG: [Job; 14] = [
     ("third-party clients", clients),
     ("the example of an effect", copies::example_is_right),
     ("fuzz", fuzz::fuzz),
@@ -36,6 +38,7 @@ const LONG: [Job; 13] = [
     ("hard cases in full", whole_gallery),
     ("absence is free", copies::absence_is_free),
     ("bits of wide builds", wide_builds),
+    ("bits of every platform", abroad::bits_of_every_platform),
     ("Python package", || wheel::wheel().map(drop)),
     ("peers", peers),
     ("against ROSS", ross::ross),

@@ -2,7 +2,7 @@
 
 use crate::{paths, sheet};
 use anyhow::{Context, Result};
-use split_rotor_tools::archive::library_path;
+use split_rotor_tools::platform::Platform;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -32,6 +32,11 @@ impl Drop for Folder {
 
 /// Takes an FMU apart, into a folder of its own in target/unpacked: another run meanwhile keeps its library.
 pub fn unpack(fmu: &Path) -> Result<Unpacked> {
+    unpack_for(fmu, Platform::here()?)
+}
+
+/// The same with the library of this platform.
+pub fn unpack_for(fmu: &Path, platform: Platform) -> Result<Unpacked> {
     let name = fmu.file_stem().context("an FMU has a name")?.to_string_lossy().into_owned();
     let mut zip = ZipArchive::new(File::open(fmu)?)?;
     let mut read = |path: &str| -> Result<Vec<u8>> {
@@ -42,19 +47,20 @@ pub fn unpack(fmu: &Path) -> Result<Unpacked> {
     let xml = String::from_utf8(read("modelDescription.xml")?)?;
     let sheet = sheet::sheet(&xml)?;
     let identifier = sheet.lines().find_map(|line| line.strip_prefix("attribute CoSimulation.modelIdentifier "));
-    let library = read(&library_path(identifier.context("the XML has no model identifier")?)?)?;
-    let folder = paths::target().join("unpacked").join(format!("{name}-{}", std::process::id()));
-    let unpacked = write(&folder, &name, &sheet, &library);
+    let library = platform.library_path(identifier.context("the XML has no model identifier")?);
+    let library = read(&library)?;
+    let folder = paths::target().join("unpacked").join(format!("{name}-{}-{}", platform.name, std::process::id()));
+    let unpacked = write(&folder, &name, &sheet, (platform, &library));
     let unpacked = unpacked.with_context(|| format!("cannot take {} apart", fmu.display()))?;
     Ok(Unpacked { _folder: Some(Folder(folder)), ..unpacked })
 }
 
 /// Writes what a C host needs of this FMU into `folder`.
-pub fn write(folder: &Path, name: &str, sheet: &str, library: &[u8]) -> Result<Unpacked> {
+pub fn write(folder: &Path, name: &str, sheet: &str, (platform, library): (Platform, &[u8])) -> Result<Unpacked> {
     std::fs::create_dir_all(folder)?;
     let unpacked = Unpacked {
         name: name.into(),
-        library: folder.join(format!("{name}{}", std::env::consts::DLL_SUFFIX)),
+        library: folder.join(format!("{name}{}", platform.suffix)),
         sheet: folder.join(format!("{name}.txt")),
         _folder: None,
     };

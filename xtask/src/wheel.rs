@@ -1,19 +1,21 @@
 //! `wheel`: the Python package, built for every Linux of x86-64 that Python's wheels know, and tried in a new environment without Rust.
 
+use crate::platforms::Toolchain;
+use crate::progress::Progress;
 use crate::run::run;
 use crate::{library, licences, package, paths, python, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::scene::Scene;
 use split_rotor_tools::archive;
 use split_rotor_tools::general::GENERAL;
+use split_rotor_tools::platform::LINUX64;
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What the wheel runs on: glibc 2.17 and later (manylinux2014).
+/// What the wheel runs on, with glibc 2.17 and later (manylinux2014).
 const TARGET: &str = "x86_64-unknown-linux-gnu";
-const GLIBC: &str = "2.17";
 
 /// Their FMUs are compared with what the package makes of the same scenes.
 const COMPARED: [&str; 4] = ["coupled", "paper", "rubbing", "run_up"];
@@ -55,15 +57,13 @@ fn fill(data: &Path) -> Result<()> {
         let file = format!("{name}.toml");
         fs::copy(paths::scenes().join(&file), data.join("scenes").join(&file))?;
     }
-    let mut cargo = python::wheel_builder("cargo-zigbuild")?;
-    cargo.args(["rustc", "--quiet", "--target", &format!("{TARGET}.{GLIBC}")]);
-    let target = paths::target().join("package/portable");
-    library::build_with(&mut cargo, paths::root(), &scenes::find(GENERAL)?, &target)?;
-    let name = format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}");
-    fs::copy(target.join(TARGET).join("fmu").join(&name), data.join(&name))?;
-    fs::write(data.join("third-party.txt"), licences::third_party("split-rotor")?)?;
+    let library = library::of(&scenes::find(GENERAL)?, &Toolchain::named(LINUX64.name)?, 0, &Progress::of(1))?;
+    fs::write(data.join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")), library)?;
+    let origin = licences::of("split-rotor")?;
+    fs::write(data.join("third-party.txt"), origin.licences)?;
+    fs::write(data.join("bill-of-materials.cdx.json"), origin.bill)?;
     let own = archive::licence("The licences of the libraries in its binary follow.");
-    fs::write(data.join("license.txt"), own + "\n" + &licences::third_party("split-rotor-python")?)?;
+    fs::write(data.join("license.txt"), own + "\n" + &licences::of("split-rotor-python")?.licences)?;
     Ok(())
 }
 

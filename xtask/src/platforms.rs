@@ -1,0 +1,253 @@
+//! How the library of a platform is built here: by which compiler of Rust, from which standard library, with which linker.
+
+use crate::c::is_installed;
+use crate::python;
+use crate::run::{cargo, output};
+use anyhow::{Context, Result, anyhow, bail, ensure};
+use split_rotor_tools::platform::{AARCH64_LINUX, LINUX64, Platform, WIN64};
+use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What can be asked for: this machine and its like, which is the quickest, or any machine of a platform.
+pub const NAMES: [&str; 4] = [HERE, LINUX64.name, WIN64.name, AARCH64_LINUX.name];
+
+const HERE: &str = "here";
+
+/// A platform whose libraries can be built on others, and run on any machine of it.
+struct Target {
+    platform: Platform,
+    /// What Rust calls it.
+    triple: &'static str,
+    /// How the name of a library begins there.
+    prefix: &'static str,
+    linker: Linker,
+}
+
+enum Linker {
+    /// Knows the symbols of every glibc.
+    Zig,
+    /// By its name, and Debian's package of it; with these flags of Rust's compiler.
+    Installed(&'static str, &'static str, &'static [&'static str]),
+}
+
+const PORTABLE: [Target; 3] = [
+    Target { platform: LINUX64, triple: "x86_64-unknown-linux-gnu", prefix: "lib", linker: Linker::Zig },
+    Target {
+        platform: WIN64,
+        triple: "x86_64-pc-windows-gnu",
+        prefix: "",
+        // A time within would make every build another.
+        linker: Linker::Installed(
+            "x86_64-w64-mingw32-gcc",
+            "gcc-mingw-w64-x86-64",
+            &["-Clink-arg=-Wl,--no-insert-timestamp"],
+        ),
+    },
+    Target { platform: AARCH64_LINUX, triple: "aarch64-unknown-linux-gnu", prefix: "lib", linker: Linker::Zig },
+];
+
+/// The oldest glibc with which a portable library for Linux runs.
+const GLIBC: [u32; 2] = [2, 17];
+
+/// What builds the library of a platform.
+pub struct Toolchain {
+    /// For which.
+    pub platform: Platform,
+    /// None: as this machine compiles for itself.
+    portable: Option<(&'static Target, Compiler)>,
+}
+
+impl Toolchain {
+    /// That of this machine for itself.
+    pub fn own() -> Result<Self> {
+        Ok(Self { platform: Platform::here()?, portable: None })
+    }
+
+    /// That of this name; what is missing is an error that names the remedy.
+    pub fn named(name: &str) -> Result<Self> {
+        if name == HERE {
+            return Self::own();
+        }
+        let target = PORTABLE.iter().find(|target| target.platform.name == name);
+        Self::of(target.with_context(|| format!("there is no platform {name}"))?)
+    }
+
+    /// Those of all portable platforms.
+    pub fn portable() -> Result<Vec<Self>> {
+        PORTABLE.iter().map(Self::of).collect()
+    }
+
+    /// Those for which nothing need be fetched, this machine's own platform among them; says of each other what it lacks.
+    pub fn at_hand() -> Result<Vec<Self>> {
+        let (own, mut all) = (Self::own()?, Vec::new());
+        for target in &PORTABLE {
+            let name = target.platform.name;
+            let toolchain = if matches!(target.linker, Linker::Zig) && !python::has_wheel_builder() {
+                Err(anyhow!("its linker, zig, is not here: `--platforms {name}` fetches it, 98 MB"))
+            } else {
+                Self::of(target)
+            };
+            match toolchain {
+                Ok(toolchain) => all.push(toolchain),
+                Err(lack) if target.platform == own.platform => {
+                    println!("{name} is for machines like this one: {lack}")
+                }
+                Err(lack) => println!("{name} is not built: {lack}"),
+            }
+        }
+        if all.iter().all(|toolchain| toolchain.platform != own.platform) {
+            all.insert(0, own);
+        }
+        Ok(all)
+    }
+
+    fn of(target: &'static Target) -> Result<Self> {
+        if let Linker::Installed(program, package, _) = target.linker {
+            ensure!(is_installed(program), "its linker, {program}, is missing (Debian: apt-get install {package})");
+        }
+        let compiler = Compiler::of(target.triple)?;
+        Ok(Self { platform: target.platform, portable: Some((target, compiler)) })
+    }
+
+    /// Tells apart what different ones built.
+    pub fn key(&self) -> String {
+        let key = |(target, compiler): &(&Target, Compiler)| format!("{} {}", target.triple, compiler.from_source);
+        self.portable.as_ref().map(key).unwrap_or_default()
+    }
+
+    /// In which folder a builder compiles: one a platform, where the standard library may have to be compiled first.
+    pub fn folder(&self, builder: usize) -> String {
+        if self.portable.is_some() { self.platform.name.into() } else { builder.to_string() }
+    }
+
+    /// What its compiler says of itself.
+    pub fn compiler(&self) -> Result<String> {
+        let rustc = self.portable.as_ref().map_or_else(default_rustc, |(_, compiler)| compiler.rustc.clone());
+        output(Command::new(rustc).arg("-vV"))
+    }
+
+    /// Cargo's `rustc` for the platform.
+    pub fn cargo(&self) -> Result<Command> {
+        let Some((target, compiler)) = &self.portable else {
+            let mut cargo = cargo();
+            cargo.args(["rustc", "--quiet"]);
+            return Ok(cargo);
+        };
+        let (mut cargo, glibc) = match target.linker {
+            Linker::Zig => (python::wheel_builder("cargo-zigbuild")?, format!(".{}.{}", GLIBC[0], GLIBC[1])),
+            Linker::Installed(..) => (cargo(), String::new()),
+        };
+        cargo.args(["rustc", "--quiet", "--target", &format!("{}{glibc}", target.triple)]);
+        cargo.env("RUSTC", &compiler.rustc);
+        if compiler.from_source {
+            // Of what is not stable, only that the standard library is compiled here: without the names in a backtrace, which a
+            // stripped library does not have.
+            let options = ["-Zbuild-std=std,panic_unwind", "-Zbuild-std-features=panic-unwind,optimize_for_size"];
+            cargo.args(options).env("RUSTC_BOOTSTRAP", "1");
+        }
+        Ok(cargo)
+    }
+
+    /// What the compiler must be told for it.
+    pub fn flags(&self) -> &'static [&'static str] {
+        match self.portable {
+            Some((Target { linker: Linker::Installed(_, _, flags), .. }, _)) => flags,
+            _ => &[],
+        }
+    }
+
+    /// Where [`Self::cargo`] leaves the library.
+    pub fn built(&self, folder: &Path) -> PathBuf {
+        match &self.portable {
+            None => folder.join("fmu").join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")),
+            Some((target, _)) => folder
+                .join(target.triple)
+                .join("fmu")
+                .join(format!("{}split_rotor{}", target.prefix, target.platform.suffix)),
+        }
+    }
+
+    /// Refuses a portable library that needs a newer glibc.
+    pub fn check(&self, library: &[u8]) -> Result<()> {
+        if self.portable.is_some()
+            && let Some(newest) = newest_glibc(library)
+        {
+            let [is, may] = [newest, GLIBC].map(|[major, minor]| format!("{major}.{minor}"));
+            ensure!(newest <= GLIBC, "the library for {} needs glibc {is}, and may need {may}", self.platform.name);
+        }
+        Ok(())
+    }
+}
+
+/// A compiler of Rust.
+struct Compiler {
+    rustc: PathBuf,
+    /// It makes the standard library first.
+    from_source: bool,
+}
+
+impl Compiler {
+    /// One that has the standard library for this target, or else its source.
+    fn of(triple: &str) -> Result<Self> {
+        // Beside the usual one Debian's, which has a source that rustup's need not have.
+        let compilers = [default_rustc(), "/usr/bin/rustc".into()];
+        for from_source in [false, true] {
+            for rustc in &compilers {
+                if has_standard_library(rustc, triple, from_source) {
+                    return Ok(Self { rustc: rustc.clone(), from_source });
+                }
+            }
+        }
+        bail!(
+            "Rust's standard library for it is missing: `rustup target add {triple}` (Debian: apt-get install rustc-web rust-web-src)"
+        );
+    }
+}
+
+/// The compiler that cargo would take.
+fn default_rustc() -> PathBuf {
+    std::env::var_os("RUSTC").map_or_else(|| "rustc".into(), PathBuf::from)
+}
+
+/// Whether this compiler has the standard library for a target, built or as a source.
+fn has_standard_library(rustc: &Path, triple: &str, as_source: bool) -> bool {
+    let print = if as_source { "sysroot" } else { "target-libdir" };
+    let said = Command::new(rustc).args(["--print", print, "--target", triple]).output();
+    let Some(said) = said.ok().filter(|output| output.status.success()) else { return false };
+    let folder = PathBuf::from(String::from_utf8_lossy(&said.stdout).trim());
+    if as_source {
+        return folder.join("lib/rustlib/src/rust/library/std").is_dir();
+    }
+    let mut files = fs::read_dir(folder).into_iter().flatten().flatten();
+    files.any(|file| file.file_name().to_string_lossy().starts_with("libstd-"))
+}
+
+/// The newest version of glibc that a library names.
+fn newest_glibc(library: &[u8]) -> Option<[u32; 2]> {
+    let mark = b"GLIBC_";
+    let begins = library.windows(mark.len()).enumerate().filter(|(_, bytes)| bytes == mark);
+    let versions = begins.filter_map(|(begin, _)| {
+        let version: Vec<_> = library[begin + mark.len()..].iter().take_while(|byte| **byte != 0).copied().collect();
+        let mut numbers = str::from_utf8(&version).ok()?.split('.').map(|number| number.parse().ok());
+        Some([numbers.next()??, numbers.next()??])
+    });
+    versions.max()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{NAMES, PORTABLE, newest_glibc};
+
+    #[test]
+    fn every_platform_can_be_asked_for() {
+        assert!(PORTABLE.iter().map(|target| target.platform.name).eq(NAMES[1..].iter().copied()));
+    }
+
+    #[test]
+    fn the_newest_glibc_is_told_by_number_not_by_letter() {
+        assert_eq!(newest_glibc(b"\0GLIBC_2.2.5\0GLIBC_2.14\0GLIBC_2.3\0GLIBC_PRIVATE\0"), Some([2, 14]));
+        assert_eq!(newest_glibc(b"KERNEL32.dll"), None);
+    }
+}
