@@ -1,7 +1,7 @@
 """Runs of a packaged FMU under fmpy, one after another on one instance."""
 
 import math
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from itertools import pairwise
 from tempfile import TemporaryDirectory
 from time import thread_time
@@ -50,8 +50,8 @@ class OfFmu:
         self.cpu, self.log = 0.0, []
         # What follows from a value in a scene, such as the radius of an unbalance that is given by its moment, follows here too.
         variables = self.scene.with_values(values).variables
-        changed = {name: variables[name]["start"] for name in self.starts if name in variables}
-        changed = {name: value for name, value in changed.items() if value != self.starts[name]}
+        starts = {name: variables[name]["start"] for name in self.starts.keys() & variables.keys()}
+        changed = {name: start for name, start in starts.items() if start != self.starts[name]}
         began = thread_time()
         try:
             self._run(changed)
@@ -85,11 +85,12 @@ class OfFmu:
         communication point."""
         start, stop, step = (self.experiment[name] for name in ("start", "stop", "step"))
         points = [min(start + n * step, stop) for n in range(math.ceil((stop - start) / step - 1e-9) + 1)]
-        bends = sorted({time for times, _ in self.inputs.values() for time in times})
+        bending = {name: set(times) for name, (times, _) in self.inputs.items()}
+        bends = sorted(set().union(*bending.values()))
         for t, end in pairwise(points):
-            stops = [t, *(bend for bend in bends if t < bend < end), end]
+            stops = [t, *bends[bisect_right(bends, t) : bisect_left(bends, end)], end]
             for a, b in pairwise(stops):
-                yield a, b - a, self._courses(a, [name for name, (times, _) in self.inputs.items() if a in times]), b == end
+                yield a, b - a, self._courses(a, [name for name, times in bending.items() if a in times]), b == end
 
     def _courses(self, t, names):
         """Value reference, value and rate [1/s] of these inputs from time `t` [s] on."""
