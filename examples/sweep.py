@@ -220,7 +220,8 @@ def run_all(options, stamp):
     missing = [n for n in range(math.ceil(runs / size)) if not file_of(folder, n).exists()]
     there = runs - sum(min(size, runs - n * size) for n in missing)
     done, failed, cpu = 0, 0, 0.0
-    dask.config.set({"distributed.scheduler.allowed-failures": KILLS})
+    # Dask's profiler would take a fiftieth of the time, and nobody looks at it.
+    dask.config.set({"distributed.scheduler.allowed-failures": KILLS, "distributed.worker.profile.enabled": False})
     here = nullcontext(options.scheduler) if options.scheduler else LocalCluster(options.processes, threads_per_worker=1, dashboard_address=None)
     with here as cluster, Client(cluster) as client, tqdm(total=runs, initial=there, unit=" runs", disable=None) as bar:
         for module in ["fmu_runs.py", "sweep.py"] if options.fmu else ["sweep.py"]:
@@ -244,8 +245,9 @@ def run_all(options, stamp):
 
 def arguments(words=None):
     """The command line."""
+
     def a_path(word):
-        return Path(word).resolve()  # of a worker too, wherever it runs
+        return Path(word).resolve()  # a worker may run elsewhere
 
     parser = argparse.ArgumentParser(description="Many runs of one scene with parameters that vary.")
     parser.add_argument("scene", metavar="SCENE", help="a scene's file, or the name of one that comes with the package")
@@ -267,6 +269,7 @@ def arguments(words=None):
     options = parser.parse_args(words)
     if min(options.runs, options.chunk) < 1:
         parser.error("--runs and --chunk must be at least 1")
+    options.outputs = list(dict.fromkeys(options.outputs))
     try:
         options.vary = {name: (float(least), float(largest)) for name, least, largest in options.vary or ()}
     except ValueError as error:
