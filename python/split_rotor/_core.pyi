@@ -49,6 +49,14 @@ class Scene:
     def variables(self) -> dict[str, dict[str, Any]]:
         """Parameters, inputs and outputs by name: causality, unit, description, start."""
 
+    @property
+    def inputs(self) -> dict[str, tuple[list[float], list[float]]]:
+        """Its inputs over time by name: times in s and values."""
+
+    @property
+    def experiment(self) -> dict[str, float]:
+        """When and how finely it is looked at: `start`, `stop` and `step` in s, `tolerance`."""
+
 def run(scene: Scene, names: Sequence[str] | None) -> dict[str, Any]: ...
 def campbell(
     scene: Scene, speeds: Sequence[float] | None, steps: int, orders: Sequence[float]

@@ -3,8 +3,9 @@
 use crate::{SceneError, data};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt};
-use split_rotor_model::scene::{self, Problem, did_you_mean};
+use split_rotor_model::scene::{self, Experiment, Problem, did_you_mean};
 use split_rotor_model::variable::Role;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
 
@@ -125,6 +126,19 @@ impl Scene {
             all.set_item(&variable.name, one)?;
         }
         Ok(all)
+    }
+
+    /// Its inputs over time by name: times in s and values.
+    #[getter]
+    fn inputs(&self) -> BTreeMap<&str, (&[f64], &[f64])> {
+        self.scene.inputs.iter().map(|input| (&*input.name, (&*input.time, &*input.value))).collect()
+    }
+
+    /// When and how finely it is looked at: `start`, `stop` and `step` in s, `tolerance`.
+    #[getter]
+    fn experiment(&self) -> BTreeMap<&str, f64> {
+        let Experiment { start, stop, step, tolerance } = self.scene.experiment;
+        BTreeMap::from([("start", start), ("stop", stop), ("step", step), ("tolerance", tolerance)])
     }
 
     fn __repr__(&self) -> String {

@@ -49,6 +49,14 @@ def test_values_are_those_of_a_scene(turbo):
     assert turbo.variables["rotor.m"]["start"] == 12.0, "a scene does not change"
 
 
+def test_inputs_and_experiment_are_those_of_the_file(turbo, tmp_path):
+    assert turbo.inputs == {"drive.tau": ([0.0, 3.0, 3.0], [30.0, 30.0, 0.0])} and sr.Scene.named("paper").inputs == {}
+    assert turbo.experiment == {"start": 0.0, "stop": 4.0, "step": 2e-4, "tolerance": 1e-8}
+    (tmp_path / "tau.csv").write_text("time,drive.tau\n0,1\n2,3\n", encoding="utf-8")
+    text = turbo.toml.split("[[input]]")[0] + '[[input]]\nname = "drive.tau"\nfile = "tau.csv"\n'
+    assert sr.Scene.from_toml(text, tmp_path / "turbo.toml").inputs == {"drive.tau": ([0.0, 2.0], [1.0, 3.0])}
+
+
 def test_columns_of_tables_are_lists():
     scene = sr.Scene.named("film_bearings")
     speeds = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]
