@@ -29,6 +29,7 @@ const SHORT: [Job; 6] = [
 /// What takes long, or needs more than the README asks for. Several run side by side, so what takes longest comes first.
 const LONG: [Job; 14] = [
     ("third-party clients", clients),
+    ("bits of every platform", abroad::bits_of_every_platform),
     ("the example of an effect", copies::example_is_right),
     ("fuzz", fuzz::fuzz),
     ("long runs", long_runs),
@@ -38,7 +39,6 @@ const LONG: [Job; 14] = [
     ("hard cases in full", whole_gallery),
     ("absence is free", copies::absence_is_free),
     ("bits of wide builds", wide_builds),
-    ("bits of every platform", abroad::bits_of_every_platform),
     ("Python package", || wheel::wheel().map(drop)),
     ("peers", peers),
     ("against ROSS", ross::ross),
