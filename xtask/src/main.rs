@@ -254,7 +254,7 @@ enum Command {
 /// Where a reader has seen enough, as `head` has, nothing is wrong.
 fn end_quietly_without_a_reader() {
     let usual = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |panic| match panic.payload_as_str() {
+    std::panic::set_hook(Box::new(move |panic| match panic.payload().downcast_ref::<String>() {
         Some(words) if words.starts_with("failed printing to stdout") => std::process::exit(0),
         _ => usual(panic),
     }));
