@@ -15,13 +15,19 @@ from fmpy.simulation import instantiate_fmu
 
 def check(path, scene, names):
     """Refuses an FMU of another scene, and names of what cannot be set as a real number."""
-    variables = scene.variables
-    parameters = [variable for variable in read_model_description(path).modelVariables if variable.causality == "parameter"]
-    for variable in parameters:
-        if variable.type == "Real" and float(variable.start) != variables.get(variable.name, {}).get("start", float(variable.start)):
-            raise ValueError(f"{path} is of another scene: {variable.name} = {variable.start}, not {variables[variable.name]['start']}")
+    kinds, starts = {}, {}
+    for variable in read_model_description(path).modelVariables:
+        if variable.causality in ("parameter", "input"):
+            kinds[variable.name] = variable.type
+            starts[variable.name] = float({"false": 0, "true": 1}.get(variable.start, variable.start))
+    ours = {name: variable["start"] for name, variable in scene.variables.items() if variable["causality"] in ("parameter", "input")}
+    for name, start in ours.items():
+        if starts.get(name, start) != start and name not in scene.inputs:
+            raise ValueError(f"{path} is of another scene: {name} = {starts[name]}, not {start}")
+    if other := sorted(ours.keys() ^ starts.keys()):
+        raise ValueError(f"{path} is of another scene: {other[0]} is in one of them only")
     for name in names:
-        if name.startswith("experiment.") or any(variable.name == name and variable.type != "Real" for variable in parameters):
+        if name.startswith("experiment.") or kinds.get(name, "Real") != "Real":
             raise ValueError(f"{name} cannot vary under an FMU")
 
 

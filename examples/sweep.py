@@ -19,8 +19,10 @@ from functools import lru_cache
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
+from threading import Lock
 from time import perf_counter, thread_time
 from uuid import uuid4
+from zipfile import BadZipFile
 
 import numpy as np
 import pyarrow as pa
@@ -33,6 +35,8 @@ KEPT = {"last": lambda values: values[-1], "least": np.min, "largest": np.max}
 """What is kept of each output, by the end of its column's name."""
 KILLS = 10
 """A chunk whose worker died so often is taken to kill it, and ends the sweep."""
+ONE_AT_A_TIME = Lock()
+"""Of the threads of a worker: they share the instance of an FMU, and what Python does with warnings."""
 
 
 # The parameters of all runs: a table with a row a run, a column a parameter by its name in the scene.
@@ -45,6 +49,8 @@ def parameters(options, scene):
         raise ValueError("the table of parameters has a name twice, or no rows")
     causality = {name: variable["causality"] for name, variable in scene.variables.items()}
     for name in table.column_names:
+        if causality.get(name) == "input":
+            raise ValueError(f"{name} is an input, not a parameter: give it in the scene")
         if causality.get(name) != "parameter":
             # A column of a table, `unbalance[1].moment`, `solver.order`, or an error.
             scene.with_values({name: value for value in table[name].drop_null().to_pylist()[:1]})
@@ -68,13 +74,21 @@ def hypercube(bounds, runs, seed):
     from scipy.stats import qmc
 
     least, largest = np.transpose(list(bounds.values()))
-    if not (least < largest).all():
-        raise ValueError("--vary: FROM must be below TO")
+    if not (np.isfinite(largest - least) & (least < largest)).all():
+        raise ValueError("--vary: FROM must be below TO, both finite")
     points = qmc.scale(qmc.LatinHypercube(len(bounds), rng=seed).random(runs), least, largest)
     return pa.table(dict(zip(bounds, points.T, strict=True)))
 
 
 # What a worker does.
+
+
+def value_of(cell):
+    """What a cell of a table says: in a column with a text, numbers are texts, too."""
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
 
 
 class InProcess:
@@ -126,7 +140,7 @@ class Sweep:
         """What is told of a run."""
         row = {"run": number, **values, "status": "ok"}
         try:
-            outputs, row["steps"] = self.way({name: value for name, value in values.items() if value is not None})
+            outputs, row["steps"] = self.way({name: value_of(cell) for name, cell in values.items() if cell is not None})
             for name, output in zip(self.settings["outputs"], outputs, strict=True):
                 row |= {f"{name}.{end}": float(keep(output)) for end, keep in KEPT.items()}
         except (sr.SceneError, RuntimeError) as failure:
@@ -147,10 +161,11 @@ def file_of(folder, number):
 
 def run_chunk(number, folder, fmu, stamp):
     """Runs a chunk and writes its rows; how many they are, how many of them failed, and CPU time in the library [s]."""
-    sweep = load(folder, fmu, stamp)
-    size = sweep.settings["chunk"]
-    values = sweep.parameters.slice(number * size, size).to_pylist()
-    rows = [sweep.row(n, one) for n, one in enumerate(values, start=number * size)]
+    with ONE_AT_A_TIME:
+        sweep = load(folder, fmu, stamp)
+        size = sweep.settings["chunk"]
+        values = sweep.parameters.slice(number * size, size).to_pylist()
+        rows = [sweep.row(n, one) for n, one in enumerate(values, start=number * size)]
     write(file_of(folder, number), lambda path: pa.parquet.write_table(pa.Table.from_pylist(rows, sweep.schema), path))
     return len(rows), sum(row["status"] != "ok" for row in rows), sum(row["cpu_s"] for row in rows)
 
@@ -209,7 +224,7 @@ def difference(name, there, here):
 
 
 def run_all(options, stamp):
-    """Runs the chunks that are not there, and tells how it goes."""
+    """Runs the chunks that are not there, and tells how it goes; returns the exit code, 1 where every run of the sweep failed."""
     import dask
     from distributed import Client, LocalCluster, as_completed
     from tqdm import tqdm
@@ -219,17 +234,23 @@ def run_all(options, stamp):
     runs = pa.parquet.read_metadata(folder / "parameters.parquet").num_rows
     missing = [n for n in range(math.ceil(runs / size)) if not file_of(folder, n).exists()]
     there = runs - sum(min(size, runs - n * size) for n in missing)
-    done, failed, cpu = 0, 0, 0.0
+    files = [file_of(folder, n) for n in sorted(set(range(math.ceil(runs / size))) - set(missing))]
+    before = sum(status != "ok" for file in files for status in pa.parquet.read_table(file, columns=["status"])["status"].to_pylist())
+    done, failed, cpu, cores = 0, before, 0.0, 1
     # Dask's profiler would take a fiftieth of the time, and nobody looks at it.
     dask.config.set({"distributed.scheduler.allowed-failures": KILLS, "distributed.worker.profile.enabled": False})
     here = nullcontext(options.scheduler) if options.scheduler else LocalCluster(options.processes, threads_per_worker=1, dashboard_address=None)
     with here as cluster, Client(cluster) as client, tqdm(total=runs, initial=there, unit=" runs", disable=None) as bar:
         for module in ["fmu_runs.py", "sweep.py"] if options.fmu else ["sweep.py"]:
             client.upload_file(str(Path(__file__).with_name(module)))
-        cores = sum(client.nthreads().values())
+        client.wait_for_workers(1)
         tasks = client.map(run_chunk, missing, folder=folder, fmu=options.fmu, stamp=stamp, pure=False)
-        for task, (count, failures, seconds) in as_completed(tasks, with_results=True):
+        for task, result in as_completed(tasks, with_results=True):
+            if isinstance(result, BaseException):
+                raise result
             task.release()  # or dask would run it again where its worker dies
+            count, failures, seconds = result
+            cores = max(cores, len(client.nthreads()))  # a worker runs one chunk at a time
             tenths = 10 * (there + done) // runs
             done, failed, cpu = done + count, failed + failures, cpu + seconds
             bar.update(count)
@@ -238,9 +259,10 @@ def run_all(options, stamp):
     for unfinished in folder.glob("runs/.*"):  # of workers that were killed
         unfinished.unlink()
     wall = perf_counter() - began
-    before = f" ({there} were there)" if there else ""
+    earlier = f" ({there} were there)" if there else ""
     share = cpu / (wall * cores)
-    print(f"{done} runs{before}, {failed} failed, {wall:.1f} s; CPU in the library {cpu:.1f} s, {share:.0%} of {cores} cores")
+    print(f"{done} runs{earlier}, {failed} failed, {wall:.1f} s; CPU in the library {cpu:.1f} s, {share:.0%} of {cores} cores")
+    return 1 if failed == runs else 0
 
 
 def arguments(words=None):
@@ -270,6 +292,9 @@ def arguments(words=None):
     if min(options.runs, options.chunk) < 1:
         parser.error("--runs and --chunk must be at least 1")
     options.outputs = list(dict.fromkeys(options.outputs))
+    names = [name for name, *_ in options.vary or ()]
+    if len(set(names)) < len(names):
+        parser.error("--vary: a parameter is named twice")
     try:
         options.vary = {name: (float(least), float(largest)) for name, least, largest in options.vary or ()}
     except ValueError as error:
@@ -279,23 +304,20 @@ def arguments(words=None):
 
 def main(words=None):
     """The command; returns the exit code."""
-    from distributed.scheduler import KilledWorker
-
     options = arguments(words)
     try:
         stamp = prepare(options)
-    except (ValueError, OSError) as error:  # a SceneError, too
+    except (ValueError, OSError, BadZipFile) as error:  # a SceneError, too
         print(f"error: {str(error).removeprefix('error: ')}", file=sys.stderr)
         return 1
     try:
-        run_all(options, stamp)
-    except (OSError, KilledWorker) as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 1
+        return run_all(options, stamp)
     except KeyboardInterrupt:
         print("interrupted: the same command goes on with it", file=sys.stderr)
         return 130
-    return 0
+    except Exception as error:  # whatever happens to a cluster and its workers
+        print(f"error: {type(error).__name__}: {error}", file=sys.stderr)
+        return 1
 
 
 if __name__ == "__main__":

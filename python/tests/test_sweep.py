@@ -155,9 +155,10 @@ def test_other_settings_are_refused_and_told(scene, undisturbed, tmp_path, capsy
 
 def test_a_table_and_a_run_that_fails(scene, tmp_path):
     table = tmp_path / "parameters.csv"
-    table.write_text("rotor.m,bearing[1].kyy,unbalance[1].moment\n11,15 N/um,1e-5\n-1,15 N/um,1e-5\n12,,2e-5\n", encoding="utf-8")
-    good, bad, last = run_here(scene, tmp_path / "out", ["--table", str(table)])
+    table.write_text("rotor.m,bearing[1].kyy,unbalance[1].moment\n11,15 N/um,1e-5\n-1,1.5e7,1e-5\n11,1.5e7,1e-5\n12,,2e-5\n", encoding="utf-8")
+    good, bad, same, last = run_here(scene, tmp_path / "out", ["--table", str(table)])
     assert (good["status"], last["status"], last["bearing[1].kyy"]) == ("ok", "ok", None)
+    assert good["probe[1].r.y.largest"] == same["probe[1].r.y.largest"], "numbers may stand among texts"
     assert "it must be a finite number > 0" in bad["status"] and bad["probe[1].r.y.last"] is bad["steps"] is None
     changed = sr.Scene.load(scene).with_values({"unbalance[1].moment": 2e-5})
     assert last["probe[1].r.y.largest"] == sr.run(changed, outputs=OUTPUTS, stop=0.5, step=1e-3)["probe[1].r.y"].max()
@@ -206,17 +207,24 @@ def test_inputs_over_time_are_the_scenes_under_an_fmu_too(scene, tmp_path):
     [
         (["--vary", "rotor.q", "1", "2"], "unknown key `rotor.q`"),
         (["--vary", "rotor.m", "2", "1"], "FROM must be below TO"),
+        (["--vary", "rotor.m", "2", "inf"], "both finite"),
+        (["--vary", "drive.tau", "2", "3"], "drive.tau is an input, not a parameter"),
+        (["--vary", "rotor.m", "2", "3", "--fmu", "nosuch.fmu"], "nosuch.fmu"),
         (["--vary", "rotor.m", "1", "2", "--outputs", "rotor.m"], "turbo has no output `rotor.m`"),
         (["--table", "nosuch.csv"], "nosuch.csv"),
         (["--vary", "rotor.Ja", "0.04", "0.05", "--fmu", "paper.fmu"], "paper.fmu is of another scene: rotor.m = 5.0, not 12.0"),
         (["--vary", "experiment.stop", "1", "2", "--fmu", "turbo.fmu"], "experiment.stop cannot vary under an FMU"),
         (["--vary", "solver.method_number", "2", "3", "--fmu", "turbo.fmu"], "solver.method_number cannot vary under an FMU"),
+        (["--vary", "rotor.m", "2", "3", "--fmu", "other.fmu"], "other.fmu is of another scene: probe[1].x is in one of them only"),
     ],
 )
 def test_what_cannot_be_swept_is_told_at_the_start(scene, tmp_path, monkeypatch, capsys, more, told):
     monkeypatch.chdir(tmp_path)
     for name in {"paper.fmu", "turbo.fmu"}.intersection(more):
         sr.package(sr.Scene.named(name.removesuffix(".fmu")), tmp_path / name)
+    if "other.fmu" in more:
+        text = scene.read_text(encoding="utf-8")
+        sr.package(sr.Scene.from_toml(text[: text.index("[[effects.probe")] + text[text.index("[effects.drive]") :]), tmp_path / "other.fmu")
     assert sweep.main([str(scene), "--outputs", "phi", "--out", "out", *more]) == 1
     error = capsys.readouterr().err
     assert error.startswith("error: ") and told in error

@@ -131,6 +131,13 @@ struct Wish {
     fall: f64,
 }
 
+impl Wish {
+    /// Whether the coefficients were too large for numbers, or their squares, as those of a motion that is too fast.
+    fn overflows(&self) -> bool {
+        self.size.is_nan() || self.size == 0.0
+    }
+}
+
 /// The last terms may be this part s of the tolerance: long steps err in the same direction, one after the other \[1].
 const SAFETY: f64 = 0.1;
 
@@ -298,8 +305,7 @@ impl<const N: usize> Taylor<N> {
         // The terms of the last step go: it ends where it began.
         (self.start, self.y_start, self.sizes_start) = (self.t, self.y, self.sizes);
         let (wish, first) = self.expand(system, until - self.t);
-        // Coefficients of a motion that is too fast overflow.
-        if wish.size.is_nan() || self.room.horizon < HELD * first {
+        if wish.overflows() || self.room.horizon < HELD * first {
             return Ok(false);
         }
         let first = first.min(self.room.horizon);
@@ -347,7 +353,7 @@ impl<const N: usize> Taylor<N> {
             if self.room.levels > 0 {
                 self.room.levels = system.levels(&self.terms[..=order], first, UNSEEN * self.tolerance.relative);
             }
-            if self.room.levels <= had.levels || wish.size.is_nan() {
+            if self.room.levels <= had.levels || wish.overflows() {
                 return (wish, first);
             }
         }

@@ -142,6 +142,46 @@ fn regress_what_is_below_the_tolerance_has_a_series_of_its_own() {
     }
 }
 
+/// The axis 1 µs after a small tilt in two bearings of 1e10 N/m that damp by `c` \[N·s/m].
+fn damped_hard(c: f64, method: f64, tolerance: f64) -> Vector3<f64> {
+    let mut named = Named::new("rotor", Integrator::Method);
+    let mut settings = vec![
+        ("effects.support".to_owned(), 0.0),
+        ("rotor.m".to_owned(), 1.0),
+        ("rotor.Ja".to_owned(), 0.004),
+        ("rotor.Jt".to_owned(), 0.01),
+        ("rotor.l".to_owned(), 0.0),
+        ("start.omega.x".to_owned(), 0.0),
+        ("start.r_c.x".to_owned(), 0.0),
+        ("start.gamma.y".to_owned(), 1e-4),
+        ("solver.method".to_owned(), method),
+        ("solver.relative_tolerance".to_owned(), tolerance),
+    ];
+    for (number, position) in [(1, -0.1), (2, 0.1)] {
+        settings.push((format!("effects.bearing[{number}]"), 1.0));
+        let of = [("position", position), ("kyy", 1e10), ("kzz", 1e10), ("cyy", c), ("czz", c)];
+        settings.extend(of.map(|(name, value)| (format!("bearing[{number}].{name}"), value)));
+    }
+    settings.iter().for_each(|(name, value)| named.set(name, *value));
+    named.start();
+    named.simulation.advance(1e-6).unwrap_or_else(|fault| panic!("{c:e} N·s/m by {method} at {tolerance:e}: {fault}"));
+    Vector3::from(["axis.x", "axis.y", "axis.z"].map(|name| named.get(name)))
+}
+
+#[test]
+fn regress_what_dies_out_too_fast_for_a_series_is_left_to_others() {
+    for c in [1e6, 3e6, 1e7, 3e7, 1e8] {
+        let exact = damped_hard(c, 3.0, 1e-12);
+        for method in [1.0, 6.0] {
+            for tolerance in [1e-4, 1e-8, 1e-9, 1e-10] {
+                let off = (damped_hard(c, method, tolerance) - exact).norm() / 1e-4;
+                // Refused at once where squares of coefficients overflowed: 1e7 N·s/m at 1e-9.
+                assert!(off < 300.0 * tolerance, "{c:e} N·s/m by {method} at {tolerance:e}: {off:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn exact_at_the_last_digits_the_energy_stays() {
     /// Of the kinetic energy: measured 1.4e-16.
