@@ -54,7 +54,8 @@ pub fn fill(scene: &Scene, libraries: &Libraries, origin: &Origin, add: &mut Add
     for (platform, library) in libraries {
         add(&platform.library_path(&identifier), library)?;
     }
-    if let [(AARCH64_LINUX, library)] = libraries {
+    let of = |wanted| libraries.iter().find(|(platform, _)| *platform == wanted);
+    if let (Some((_, library)), None) = (of(AARCH64_LINUX), of(LINUX64)) {
         // fmpy takes any Linux for this one.
         add(&LINUX64.library_path(&identifier), library)?;
     }
@@ -81,9 +82,32 @@ pub fn licence(others: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Origin, archive, fill};
-    use crate::platform::LINUX64;
+    use crate::platform::{AARCH64_LINUX, LINUX64, Platform, WIN64};
     use crate::scenes;
     use std::{env, fs};
+
+    /// Where libraries lie in an FMU for these platforms.
+    fn libraries(platforms: &[Platform]) -> Vec<String> {
+        let origin = Origin { licences: String::new(), bill: String::new() };
+        let libraries: Vec<_> = platforms.iter().map(|platform| (*platform, platform.name.into())).collect();
+        let mut found = Vec::new();
+        let add = &mut |path: &str, bytes: &[u8]| {
+            if path.starts_with("binaries") {
+                found.push(format!("{path}: {}", String::from_utf8_lossy(bytes)));
+            }
+            Ok(())
+        };
+        fill(&scenes::find("paper"), &libraries, &origin, add).unwrap();
+        found
+    }
+
+    #[test]
+    fn the_library_for_arm_stands_where_fmpy_looks_unless_another_does() {
+        let (arm, windows) = ("binaries/aarch64-linux/paper.so: aarch64-linux", "binaries/win64/paper.dll: win64");
+        let there = "binaries/linux64/paper.so: aarch64-linux";
+        assert_eq!(libraries(&[WIN64, AARCH64_LINUX]), [windows, arm, there]);
+        assert_eq!(libraries(&[LINUX64, AARCH64_LINUX]), ["binaries/linux64/paper.so: linux64", arm]);
+    }
 
     #[test]
     fn a_package_that_fails_leaves_what_was_there() {

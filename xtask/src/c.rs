@@ -28,7 +28,9 @@ fn compiler() -> Result<Command> {
 /// Compiles a source of an FMU to a shared library of this name, both in the folder of its headers.
 pub fn library(folder: &Path, source: &str, name: &str, flags: &[&str]) -> Result<PathBuf> {
     let always = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-DFMI2_OVERRIDE_FUNCTION_PREFIX="];
-    run(compiler()?.current_dir(folder).args(always).args(flags).args([source, "-o", name]))?;
+    // What is relocated is write-protected at once.
+    let hardened: &[&str] = if cfg!(target_os = "linux") { &["-Wl,-z,relro,-z,now"] } else { &[] };
+    run(compiler()?.current_dir(folder).args(always).args(hardened).args(flags).args([source, "-o", name]))?;
     Ok(folder.join(name))
 }
 

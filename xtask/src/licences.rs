@@ -1,5 +1,6 @@
 //! What others made of a library: their licences, and a bill of materials.
 
+use crate::platforms::Toolchain;
 use crate::run::{cargo, compiler, output};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
@@ -15,10 +16,10 @@ struct Crate {
     folder: PathBuf,
 }
 
-/// What is linked into the library of this package, in the order of names.
-pub fn of(package: &str) -> Result<Origin> {
+/// What is linked into the library of this package, in the order of names, and what these toolchains add.
+pub fn of(package: &str, toolchains: &[Toolchain]) -> Result<Origin> {
     let crates = crates(package)?;
-    Ok(Origin { licences: third_party(&crates)?, bill: bill(package, &crates)? })
+    Ok(Origin { licences: third_party(&crates)?, bill: bill(package, &crates, toolchains)? })
 }
 
 fn crates(package: &str) -> Result<Vec<Crate>> {
@@ -48,7 +49,7 @@ fn crates(package: &str) -> Result<Vec<Crate>> {
 }
 
 fn third_party(crates: &[Crate]) -> Result<String> {
-    let mut text = "Rust's standard library is licensed under the MIT licence or the Apache licence 2.0.\n".to_owned();
+    let mut text = "Rust's standard library, and the crates within it, are licensed under the MIT licence or the Apache licence 2.0.\n".to_owned();
     for Crate { name, version, licence, folder } in crates {
         text += &format!("\n{0}\n{name} {version}: {licence}\n{0}\n{1}", "=".repeat(80), texts(folder)?);
     }
@@ -56,7 +57,7 @@ fn third_party(crates: &[Crate]) -> Result<String> {
 }
 
 /// The bill of materials, as CycloneDX 1.6 writes it in JSON.
-fn bill(package: &str, crates: &[Crate]) -> Result<String> {
+fn bill(package: &str, crates: &[Crate], toolchains: &[Toolchain]) -> Result<String> {
     let library = |name: &str, version: &str, licence: &str| json!({ "type": "library", "name": name, "version": version, "licenses": [{ "expression": licence }] });
     let own = "MIT OR Apache-2.0";
     let components = crates.iter().map(|Crate { name, version, licence, .. }| {
@@ -64,12 +65,20 @@ fn bill(package: &str, crates: &[Crate]) -> Result<String> {
         component["purl"] = format!("pkg:cargo/{name}@{version}").into();
         component
     });
+    let mut components: Vec<_> = components.collect();
+    for (name, version, licence) in toolchains.iter().map(Toolchain::runtime).collect::<Result<Vec<_>>>()?.concat() {
+        let component = library(name, &version, licence);
+        // Those of several platforms have mostly the same.
+        if !components.contains(&component) {
+            components.push(component);
+        }
+    }
     let bill = json!({
         "bomFormat": "CycloneDX",
         "specVersion": "1.6",
         "version": 1,
         "metadata": { "component": library(package, env!("CARGO_PKG_VERSION"), own) },
-        "components": components.collect::<Vec<_>>(),
+        "components": components,
     });
     Ok(serde_json::to_string_pretty(&bill)? + "\n")
 }

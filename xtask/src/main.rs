@@ -280,8 +280,7 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { part, long } => test::test(&part, long),
         Command::Package { scenes, out, platforms } => {
-            let named = || platforms.iter().map(|name| Toolchain::named(name)).collect();
-            let toolchains = if platforms.is_empty() { Toolchain::at_hand() } else { named() }?;
+            let toolchains = Toolchain::named(&platforms.iter().map(String::as_str).collect::<Vec<_>>())?;
             package::package_for(&scenes, &toolchains, out.as_deref()).map(drop)
         }
         Command::Run { scene, no_report } => simulate::simulate(&scene, !no_report),

@@ -24,7 +24,7 @@ pub fn package_for(names: &[String], toolchains: &[Toolchain], out: Option<&Path
     }
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
-    let origin = licences::of("split-rotor")?;
+    let origin = licences::of("split-rotor", toolchains)?;
     let lists = library::by_list(&scenes);
     let libraries = lists.iter().flat_map(|scenes| toolchains.iter().map(move |toolchain| (scenes[0], toolchain)));
     let libraries: Vec<_> = libraries.collect();

@@ -3,7 +3,7 @@
 use crate::c::is_installed;
 use crate::python;
 use crate::run::{cargo, output};
-use anyhow::{Context, Result, anyhow, bail, ensure};
+use anyhow::{Result, anyhow, bail, ensure};
 use split_rotor_tools::platform::{AARCH64_LINUX, LINUX64, Platform, WIN64};
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
@@ -23,29 +23,35 @@ struct Target {
     /// How the name of a library begins there.
     prefix: &'static str,
     linker: Linker,
+    /// What Rust's compiler must pass on to it.
+    flags: &'static [&'static str],
 }
 
 enum Linker {
     /// Knows the symbols of every glibc.
     Zig,
-    /// By its name, and Debian's package of it; with these flags of Rust's compiler.
-    Installed(&'static str, &'static str, &'static [&'static str]),
+    /// By its name, and Debian's package of it.
+    Installed(&'static str, &'static str),
 }
 
 const PORTABLE: [Target; 3] = [
-    Target { platform: LINUX64, triple: "x86_64-unknown-linux-gnu", prefix: "lib", linker: Linker::Zig },
+    Target { platform: LINUX64, triple: "x86_64-unknown-linux-gnu", prefix: "lib", linker: Linker::Zig, flags: &[] },
     Target {
         platform: WIN64,
         triple: "x86_64-pc-windows-gnu",
         prefix: "",
+        linker: Linker::Installed("x86_64-w64-mingw32-gcc", "gcc-mingw-w64-x86-64"),
         // A time within would make every build another.
-        linker: Linker::Installed(
-            "x86_64-w64-mingw32-gcc",
-            "gcc-mingw-w64-x86-64",
-            &["-Clink-arg=-Wl,--no-insert-timestamp"],
-        ),
+        flags: &["-Clink-arg=-Wl,--no-insert-timestamp"],
     },
-    Target { platform: AARCH64_LINUX, triple: "aarch64-unknown-linux-gnu", prefix: "lib", linker: Linker::Zig },
+    Target {
+        platform: AARCH64_LINUX,
+        triple: "aarch64-unknown-linux-gnu",
+        prefix: "lib",
+        linker: Linker::Zig,
+        // What is relocated ends with a page, also where pages are largest: only whole ones can be write-protected.
+        flags: &["-Clink-arg=-Wl,-z,common-page-size=65536"],
+    },
 ];
 
 /// The oldest glibc with which a portable library for Linux runs.
@@ -65,13 +71,21 @@ impl Toolchain {
         Ok(Self { platform: Platform::here()?, portable: None })
     }
 
-    /// That of this name; what is missing is an error that names the remedy.
-    pub fn named(name: &str) -> Result<Self> {
-        if name == HERE {
-            return Self::own();
+    /// Those of these names, in the order of [`NAMES`]: the same FMU comes of any order. Where none is named, those at hand. What is
+    /// missing is an error that names the remedy.
+    pub fn named(names: &[&str]) -> Result<Vec<Self>> {
+        if names.is_empty() {
+            return Self::at_hand();
         }
-        let target = PORTABLE.iter().find(|target| target.platform.name == name);
-        Self::of(target.with_context(|| format!("there is no platform {name}"))?)
+        let here = names.contains(&HERE).then(Self::own).transpose()?;
+        let targets = PORTABLE.iter().filter(|target| names.contains(&target.platform.name));
+        let all = here.map(Ok).into_iter().chain(targets.map(Self::of)).collect::<Result<Vec<_>>>()?;
+        if let [own, others @ ..] = &all[..]
+            && let Some(same) = others.iter().find(|other| other.platform == own.platform)
+        {
+            bail!("`{HERE}` is {} too: name one of them", same.platform.name);
+        }
+        Ok(all)
     }
 
     /// Those of all portable platforms.
@@ -80,7 +94,7 @@ impl Toolchain {
     }
 
     /// Those for which nothing need be fetched, this machine's own platform among them; says of each other what it lacks.
-    pub fn at_hand() -> Result<Vec<Self>> {
+    fn at_hand() -> Result<Vec<Self>> {
         let (own, mut all) = (Self::own()?, Vec::new());
         for target in &PORTABLE {
             let name = target.platform.name;
@@ -104,7 +118,7 @@ impl Toolchain {
     }
 
     fn of(target: &'static Target) -> Result<Self> {
-        if let Linker::Installed(program, package, _) = target.linker {
+        if let Linker::Installed(program, package) = target.linker {
             ensure!(is_installed(program), "its linker, {program}, is missing (Debian: apt-get install {package})");
         }
         let compiler = Compiler::of(target.triple)?;
@@ -120,6 +134,17 @@ impl Toolchain {
     /// In which folder a builder compiles: one a platform, where the standard library may have to be compiled first.
     pub fn folder(&self, builder: usize) -> String {
         if self.portable.is_some() { self.platform.name.into() } else { builder.to_string() }
+    }
+
+    /// What is in its libraries beside crates, and whose licence that has.
+    pub fn runtime(&self) -> Result<Vec<(&'static str, String, &'static str)>> {
+        let compiler = self.compiler()?;
+        let release = compiler.lines().find_map(|line| line.strip_prefix("release: ")).unwrap_or_default();
+        let mut runtime = vec![("Rust standard library", release.to_owned(), "MIT OR Apache-2.0")];
+        if self.platform == WIN64 && self.portable.is_some() {
+            runtime.push(("MinGW-w64 runtime", String::new(), "ZPL-2.1"));
+        }
+        Ok(runtime)
     }
 
     /// What its compiler says of itself.
@@ -152,10 +177,7 @@ impl Toolchain {
 
     /// What the compiler must be told for it.
     pub fn flags(&self) -> &'static [&'static str] {
-        match self.portable {
-            Some((Target { linker: Linker::Installed(_, _, flags), .. }, _)) => flags,
-            _ => &[],
-        }
+        self.portable.as_ref().map_or(&[], |(target, _)| target.flags)
     }
 
     /// Where [`Self::cargo`] leaves the library.
@@ -238,11 +260,19 @@ fn newest_glibc(library: &[u8]) -> Option<[u32; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::{NAMES, PORTABLE, newest_glibc};
+    use super::{NAMES, PORTABLE, Toolchain, newest_glibc};
 
     #[test]
     fn every_platform_can_be_asked_for() {
         assert!(PORTABLE.iter().map(|target| target.platform.name).eq(NAMES[1..].iter().copied()));
+    }
+
+    #[test]
+    #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+    fn a_platform_is_in_an_fmu_once() {
+        assert_eq!(Toolchain::named(&["linux64", "linux64"]).unwrap().len(), 1);
+        let refused = Toolchain::named(&["linux64", "here"]).err().expect("both are linux64").to_string();
+        assert_eq!(refused, "`here` is linux64 too: name one of them");
     }
 
     #[test]

@@ -57,13 +57,14 @@ fn fill(data: &Path) -> Result<()> {
         let file = format!("{name}.toml");
         fs::copy(paths::scenes().join(&file), data.join("scenes").join(&file))?;
     }
-    let library = library::of(&scenes::find(GENERAL)?, &Toolchain::named(LINUX64.name)?, 0, &Progress::of(1))?;
+    let toolchains = Toolchain::named(&[LINUX64.name])?;
+    let library = library::of(&scenes::find(GENERAL)?, &toolchains[0], 0, &Progress::of(1))?;
     fs::write(data.join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")), library)?;
-    let origin = licences::of("split-rotor")?;
+    let origin = licences::of("split-rotor", &toolchains)?;
     fs::write(data.join("third-party.txt"), origin.licences)?;
     fs::write(data.join("bill-of-materials.cdx.json"), origin.bill)?;
     let own = archive::licence("The licences of the libraries in its binary follow.");
-    fs::write(data.join("license.txt"), own + "\n" + &licences::of("split-rotor-python")?.licences)?;
+    fs::write(data.join("license.txt"), own + "\n" + &licences::of("split-rotor-python", &toolchains)?.licences)?;
     Ok(())
 }
 
