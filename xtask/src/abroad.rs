@@ -2,7 +2,6 @@
 
 use crate::c::tool;
 use crate::package::package_for;
-use crate::platforms::Toolchain;
 use crate::progress::Progress;
 use crate::run::{output, run, side_by_side};
 use crate::unpacked::{self, Unpacked, unpack_for};
@@ -12,11 +11,13 @@ use split_rotor_model::scene::Scene;
 use split_rotor_model::variables::METHODS;
 use split_rotor_model::xml;
 use split_rotor_tools::general::{self, GENERAL};
-use split_rotor_tools::platform::{AARCH64_LINUX, Platform, WIN64};
+use split_rotor_tools::platform::{AARCH64_LINUX, LINUX64, Platform, WIN64};
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+const PLATFORMS: [Platform; 3] = [LINUX64, WIN64, AARCH64_LINUX];
 
 /// Where all of it lies.
 fn folder() -> PathBuf {
@@ -26,21 +27,19 @@ fn folder() -> PathBuf {
 /// Packages scenes for every platform, each in one FMU, and runs them there. To compile each list of effects three times would take half
 /// an hour: the scenes that the general library can be run over it.
 pub fn bits_of_every_platform() -> Result<()> {
-    let toolchains = Toolchain::portable()?;
     let all = Scene::names(&paths::scenes());
     let all = all.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
     let general = scenes::find(GENERAL)?;
     let is_general = |scene: &&Scene| general::values(&general, scene).is_ok();
     let (over_general, own): (Vec<_>, Vec<_>) = all.iter().partition(is_general);
     let names = own.iter().chain([&&general]).map(|scene| scene.name.clone()).collect::<Vec<_>>();
-    let fmus = package_for(&names, &toolchains, Some(&folder()))?;
+    let fmus = package_for(&names, &PLATFORMS.map(|platform| platform.name), Some(&folder()))?;
     for fmu in &fmus {
         run(python::python()?.args(["-m", "fmpy", "validate"]).arg(fmu))?;
     }
     let (rotor, own) = fmus.split_last().context("the general scene is one of them")?;
     let mut runs = Vec::new();
-    for toolchain in &toolchains {
-        let platform = toolchain.platform;
+    for platform in PLATFORMS {
         let machine = Machine::of(platform)?;
         let library = fs::read(unpack_for(rotor, platform)?.library)?;
         for fmu in own {

@@ -45,7 +45,6 @@ mod wheel;
 use anyhow::{Result, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
-use platforms::Toolchain;
 use split_rotor_model::scene::SceneError;
 use split_rotor_tools::{fmu, numbers, peaks, speeds};
 use std::path::PathBuf;
@@ -280,8 +279,8 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Demo { scene } => demo::demo(&scene),
         Command::Test { part, long } => test::test(&part, long),
         Command::Package { scenes, out, platforms } => {
-            let toolchains = Toolchain::named(&platforms.iter().map(String::as_str).collect::<Vec<_>>())?;
-            package::package_for(&scenes, &toolchains, out.as_deref()).map(drop)
+            let platforms: Vec<_> = platforms.iter().map(String::as_str).collect();
+            package::package_for(&scenes, &platforms, out.as_deref()).map(drop)
         }
         Command::Run { scene, no_report } => simulate::simulate(&scene, !no_report),
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),

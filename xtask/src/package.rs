@@ -1,6 +1,6 @@
 //! `package`: each scene as an FMU, with the library of its effects.
 
-use crate::platforms::Toolchain;
+use crate::platforms::{HERE, Toolchain};
 use crate::progress::Progress;
 use crate::run::side_by_side;
 use crate::{library, licences, paths, scenes};
@@ -12,16 +12,17 @@ use std::path::{Path, PathBuf};
 
 /// Packages these scenes for this machine, into target/fmu where `out` is not given; the paths of the FMUs.
 pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
-    package_for(names, &[Toolchain::own()?], out)
+    package_for(names, &[HERE], out)
 }
 
-/// Packages them with a library of each of these toolchains.
-pub fn package_for(names: &[String], toolchains: &[Toolchain], out: Option<&Path>) -> Result<Vec<PathBuf>> {
+/// Packages them for these platforms, or for all at hand where none is named.
+pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     // All scenes are read first: a slip in the last should not cost the time of building the others.
     let scenes = names.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
     if let Some((first, second)) = same_name(&scenes) {
         bail!("{} and {} would both become {}.fmu", first.file.display(), second.file.display(), first.name);
     }
+    let toolchains = &Toolchain::named(platforms)?;
     let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
     let origin = licences::of("split-rotor", toolchains)?;

@@ -13,7 +13,8 @@ use std::process::Command;
 /// What can be asked for: this machine and its like, which is the quickest, or any machine of a platform.
 pub const NAMES: [&str; 4] = [HERE, LINUX64.name, WIN64.name, AARCH64_LINUX.name];
 
-const HERE: &str = "here";
+/// This machine and its like.
+pub const HERE: &str = "here";
 
 /// A platform whose libraries can be built on others, and run on any machine of it.
 struct Target {
@@ -88,11 +89,6 @@ impl Toolchain {
         Ok(all)
     }
 
-    /// Those of all portable platforms.
-    pub fn portable() -> Result<Vec<Self>> {
-        PORTABLE.iter().map(Self::of).collect()
-    }
-
     /// Those for which nothing need be fetched, this machine's own platform among them; says of each other what it lacks.
     fn at_hand() -> Result<Vec<Self>> {
         let (own, mut all) = (Self::own()?, Vec::new());
@@ -108,7 +104,7 @@ impl Toolchain {
                 Err(lack) if target.platform == own.platform => {
                     println!("{name} is for machines like this one: {lack}")
                 }
-                Err(lack) => println!("{name} is not built: {lack}"),
+                Err(lack) => eprintln!("{name} is not built: {lack}"),
             }
         }
         if all.iter().all(|toolchain| toolchain.platform != own.platform) {
