@@ -13,7 +13,7 @@ import math
 import os
 import sys
 import warnings
-from contextlib import nullcontext
+from contextlib import nullcontext, suppress
 from difflib import unified_diff
 from functools import lru_cache
 from hashlib import sha256
@@ -85,10 +85,10 @@ def hypercube(bounds, runs, seed):
 
 def value_of(cell):
     """What a cell of a table says: in a column with a text, numbers are texts, too."""
-    try:
-        return float(cell)
-    except ValueError:
-        return cell
+    for kind in (int, float) if isinstance(cell, str) else ():
+        with suppress(ValueError):
+            return kind(cell)
+    return cell
 
 
 class InProcess:

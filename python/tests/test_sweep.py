@@ -164,6 +164,12 @@ def test_a_table_and_a_run_that_fails(scene, tmp_path):
     assert last["probe[1].r.y.largest"] == sr.run(changed, outputs=OUTPUTS, stop=0.5, step=1e-3)["probe[1].r.y"].max()
 
 
+def test_truths_whole_numbers_and_names_are_cells_too(scene, tmp_path):
+    table = tmp_path / "parameters.csv"
+    table.write_text("solver.order,start.at_rest,solver.method\n4,true,dop853\n8,false,stiff\n", encoding="utf-8")
+    assert [row["status"] for row in run_here(scene, tmp_path / "out", ["--table", str(table)])] == ["ok", "ok"]
+
+
 @pytest.mark.parametrize("by_fmu", [False, True])
 def test_what_the_rotor_warns_of_and_why_a_run_ended_early_are_in_its_row(by_fmu, tmp_path):
     # It tumbles, held by next to no spring, whose law ends at 3.1 rad; at the slower speed it does not come so far.
