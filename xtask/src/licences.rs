@@ -1,7 +1,7 @@
 //! What others made of a library: their licences, and a bill of materials.
 
 use crate::platforms::Toolchain;
-use crate::run::{cargo, compiler, output};
+use crate::run::{cargo, output};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use split_rotor_tools::archive::Origin;
@@ -26,7 +26,7 @@ fn crates(package: &str) -> Result<Vec<Crate>> {
     let tree = ["tree", "--package", package, "--edges", "normal,no-proc-macro", "--prefix", "none"];
     let linked = output(cargo().args(tree).args(["--format", "{p}|{l}"]))?;
     // Of this platform only: cargo would fetch the crates of all others.
-    let compiler = compiler()?;
+    let compiler = Toolchain::own()?.compiler()?;
     let host = compiler.lines().find_map(|line| line.strip_prefix("host: ")).context("rustc tells its host")?;
     let metadata = ["metadata", "--format-version", "1", "--locked", "--filter-platform", host];
     let metadata = output(cargo().args(metadata))?;

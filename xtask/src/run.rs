@@ -33,11 +33,6 @@ pub fn output(command: &mut Command) -> Result<String> {
     Ok(String::from_utf8(output.stdout)?)
 }
 
-/// What the compiler says of itself: version, commit, host.
-pub fn compiler() -> Result<String> {
-    output(Command::new(std::env::var_os("RUSTC").unwrap_or("rustc".into())).arg("-vV"))
-}
-
 /// Does all of these, as many at a time as there are processors; each is told which of so many workers has it. After the first
 /// error no other is begun.
 pub fn side_by_side<T: Sync>(all: &[T], work: impl Fn(usize, &T) -> Result<()> + Sync) -> Result<()> {
