@@ -4,9 +4,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
-from fmpy import extract, read_model_description, simulate_fmu
+import project
+from fmpy import extract, platform, read_model_description, sharedLibraryExtension, simulate_fmu
 from fmpy.model_description import ModelDescription
 from host import Host
+
+MARK = b"\0rotor's values\0"
+"""With it the values of the scene begin in a library."""
 
 
 def _silent(*_message):
@@ -27,6 +31,18 @@ class Fmu:
     def variables(self):
         """fmpy's variables by name."""
         return {variable.name: variable for variable in self.description.modelVariables}
+
+    @property
+    def library(self):
+        """The library for this machine."""
+        return self.directory / "binaries" / platform / (self.scene + sharedLibraryExtension)
+
+    @property
+    def kept(self):
+        """The library for this machine as it was linked, without values."""
+        linked = self.library.read_bytes()
+        code = linked[: linked.index(MARK)]
+        return next(file for file in project.KEPT.glob("*" + sharedLibraryExtension) if file.read_bytes().startswith(code))
 
     def host(self, **options):
         """A new instance."""

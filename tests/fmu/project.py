@@ -16,6 +16,8 @@ GENTLE = [
 ]
 GENERAL = [scene for scene in SCENES if "\ngeneral = true" in "\n" + (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
 PACKAGES = ROOT / "target" / "fmu"
+BUILDERS = ROOT / "target" / "package"
+KEPT = BUILDERS / "lists"
 
 
 def effects(scene):
