@@ -413,9 +413,10 @@ impl<const N: usize> Stiff<N> {
             z = radau::T.map(|row| combined(&row, &w));
             let squares = change.map(|change| largest_square(system, &system.parts(&y, &change), &weights));
             let now = (squares.iter().sum::<f64>() / STAGES as f64).sqrt();
-            // What is left, by the rate at which the changes shrink.
+            // What is left, by the rate at which the changes shrink. That may be the rate of a large part which the Jacobian fits, and
+            // hide a small one which it does not: what changed last must be small itself.
             let rate = if iteration == 0 { 0.5 } else { now / before };
-            if now == 0.0 || (rate < 1.0 && rate / (1.0 - rate) * now <= 1.0) {
+            if now <= 1.0 && rate < 1.0 && rate / (1.0 - rate) * now <= 1.0 {
                 return Some(z);
             }
             // A stiff support takes two changes of one size, along its springs and back, before they shrink.
