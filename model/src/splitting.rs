@@ -118,9 +118,11 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
 
     fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
         let mut squares = self.roundings(y, h);
-        // A drift turns the rotor anew, and directions and angles are known to so many radians.
-        squares[own(N) + groups::GAMMA] = 1.0;
-        squares[own(N) + groups::PHI] += 1.0;
+        // A drift turns the rotor anew, and directions and angles are known to so many radians: an asymmetric body goes about K by an
+        // azimuth of up to half a turn, and back.
+        let angle = if self.inertia().asymmetric.is_some() { PI * PI } else { 1.0 };
+        squares[own(N) + groups::GAMMA] = angle;
+        squares[own(N) + groups::PHI] += angle;
         squares
     }
 

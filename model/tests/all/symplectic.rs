@@ -1,7 +1,7 @@
 //! The rotor as a sum of drift and kicks: free motion in closed form, very high spin, energy over very many steps.
 
 use crate::harness::named::Named;
-use crate::harness::{Method, Random, Scene, Supported, largest, tolerance, within};
+use crate::harness::{Method, Random, Scene, Supported, at, largest, tolerance, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::motion::FreeRotor;
 use oracles::rotation;
@@ -665,5 +665,27 @@ fn regress_an_energy_near_zero_is_kept() {
             let told = named.simulation.advance(0.1 * f64::from(t));
             assert!(told.is_ok(), "{changes:?}: {told:?}");
         }
+    }
+}
+
+/// A body of three moments of inertia that a force sets in motion from rest: `symplectic` found no first step.
+#[test]
+fn regress_an_asymmetric_body_is_set_in_motion_from_rest() {
+    let shown = |method: &str, tolerance: f64| {
+        let mut rotor = Named::written(&format!(
+            "rotor = {{ m = 0.09542981048763116, Ja = 6.643955363424395e-5, Jt = 3.499430732840205e-5 }}\nstart.gamma = {{ y = 0.274895678997695, z = 0.011089076359972156 }}\n\
+             solver = {{ method = \"{method}\", order = 6, relative_tolerance = {tolerance:e} }}\n[effects]\n\
+             asymmetry.Jt2 = 3.17926248216252e-5\ndrive = {{}}\nport = [{{ position = 2.5807058249448216e-3 }}]"
+        ));
+        rotor.set("port[1].f.z", 0.0003347768303591532);
+        rotor.start();
+        let motion = at(&mut rotor.simulation, 1.0).motion;
+        (motion.axis().clone_owned(), motion.at.r)
+    };
+    let exact = shown("dop853", 1e-12);
+    for tolerance in [1e-4, 1e-6, 1e-8] {
+        let found = shown("symplectic", tolerance);
+        within("axis", (found.0 - exact.0).norm(), tolerance);
+        within("place [m]", (found.1 - exact.1).norm(), tolerance * exact.1.norm());
     }
 }
