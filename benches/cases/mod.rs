@@ -10,7 +10,7 @@ use split_rotor::abi::Status;
 use split_rotor::scene::{self, Effects, Simulation};
 use split_rotor_model::integrate::explicit::Explicit;
 use split_rotor_model::integrate::tableau::Tableau;
-use split_rotor_model::integrate::taylor::Taylor;
+use split_rotor_model::integrate::taylor::{Scratch, Taylor};
 use split_rotor_model::integrate::{Refusal, System, Tolerance};
 use split_rotor_model::rotor::Rotor;
 use split_rotor_model::simulation::Integrator;
@@ -96,7 +96,7 @@ pub struct Stepping<S, const N: usize> {
 impl<S: System<N>, const N: usize> Stepping<S, N> {
     /// One step of the method's own choice.
     pub fn step(&mut self) {
-        self.method.step(&self.system, f64::INFINITY, f64::INFINITY).expect("a possible motion");
+        self.method.step(&self.system, &mut self.scratch, f64::INFINITY, f64::INFINITY).expect("a possible motion");
     }
 
     /// What the last step's dense output needs.
@@ -113,6 +113,7 @@ impl<S: System<N>, const N: usize> Stepping<S, N> {
 /// The rotor under way, by power series.
 pub struct Expanding {
     method: Taylor<12>,
+    scratch: Scratch,
     system: Rotor<'static, Effects>,
 }
 
@@ -121,14 +122,14 @@ impl Expanding {
     pub fn at(relative: f64) -> Self {
         let At { system, t, y, tolerance } = rotor::<12>();
         let method = Taylor::start(Tolerance { relative, ..tolerance }, &system, t, y);
-        let mut expanding = Self { method, system };
+        let mut expanding = Self { method, scratch: Scratch::BLANK, system };
         (0..10).for_each(|_| expanding.step());
         expanding
     }
 
     /// One step of the method's own choice.
     pub fn step(&mut self) {
-        let stepped = self.method.step(&self.system, f64::INFINITY, f64::INFINITY);
+        let stepped = self.method.step(&self.system, &mut self.scratch, f64::INFINITY, f64::INFINITY);
         assert_eq!(stepped, Ok(true), "a motion with a series");
     }
 }

@@ -26,7 +26,8 @@ pub type Powers = [f64x2; POWERS];
 /// What a series starts with that the state has in another form, and so rounded.
 pub type Seed = [f64; 7];
 
-/// What a series of an axis and of θ/sin θ is made of. It is written before it is read, and so no part of what is stored.
+/// What a series of an axis and of θ/sin θ is made of. It is written before it is read, and so no part of
+/// what is stored, nor of the method, which is copied before steps.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// See the rotor's expansion for what stands where.
@@ -112,12 +113,11 @@ pub struct Taylor<const N: usize> {
     start: f64,
     y_start: [f64; N],
     terms: Terms<N>,
-    scratch: Scratch,
     sizes_start: Sizes<N>,
 }
 
 stored!(Taylor<const N: usize> {
-    tolerance, sizes, cost, room, order, t, y, rate, seed, h, limit, start, y_start, terms, scratch, sizes_start
+    tolerance, sizes, cost, room, order, t, y, rate, seed, h, limit, start, y_start, terms, sizes_start
 });
 
 /// How long a step may be.
@@ -198,7 +198,6 @@ impl<const N: usize> Taylor<N> {
             start: 0.0,
             y_start: [0.0; N],
             terms: [[0.0; N]; POWERS],
-            scratch: Scratch::BLANK,
             sizes_start: Sizes::blank(),
         }
     }
@@ -301,10 +300,16 @@ impl<const N: usize> Taylor<N> {
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations; false where the laws have a series for too short a time. Where no step is possible, the method stands where it
     /// stood, and its last step is forgotten.
-    pub fn step(&mut self, system: &impl Analytic<N>, most: f64, until: f64) -> Result<bool, Fault> {
+    pub fn step(
+        &mut self,
+        system: &impl Analytic<N>,
+        scratch: &mut Scratch,
+        most: f64,
+        until: f64,
+    ) -> Result<bool, Fault> {
         // The terms of the last step go: it ends where it began.
         (self.start, self.y_start, self.sizes_start) = (self.t, self.y, self.sizes);
-        let (wish, first) = self.expand(system, until - self.t);
+        let (wish, first) = self.expand(system, scratch, until - self.t);
         if wish.overflows() || self.room.horizon < HELD * first {
             return Ok(false);
         }
@@ -333,13 +338,13 @@ impl<const N: usize> Taylor<N> {
     }
 
     /// The terms from here on, made again until there was room for all: so long a step may be, and so long \[s] the next is at most.
-    fn expand<A: Analytic<N>>(&mut self, system: &A, left: f64) -> (Wish, f64) {
+    fn expand<A: Analytic<N>>(&mut self, system: &A, scratch: &mut Scratch, left: f64) -> (Wish, f64) {
         let order = self.order_within(left);
         let seed = self.seed.unwrap_or_else(|| system.seed(self.t, &self.y));
         loop {
             let had = self.room;
             let start = (self.t, &self.y, &seed);
-            self.room = system.expand(start, order, had, &mut self.scratch, &mut self.terms);
+            self.room = system.expand(start, order, had, scratch, &mut self.terms);
             self.cost.evaluations += order as f64;
             // A longer series may have left more of them.
             self.terms[order + 1][A::RATED..].fill(0.0);

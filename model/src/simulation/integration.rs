@@ -10,6 +10,7 @@ use super::plan::Plan;
 use super::start::{Motion, tolerance};
 use crate::effects::{Block, Effects};
 use crate::energy::{Ledger, kinetic};
+use crate::integrate::taylor::Scratch;
 use crate::integrate::{Cost, Fault, Refusal, Tolerance};
 use crate::rotation::chart::{azimuth_change, crossed_exactly};
 use crate::rotation::{Angle, Chart};
@@ -26,6 +27,8 @@ pub(super) struct Integration<const N: usize> {
     /// The chart and the whole turns of the time that the method has reached.
     frame: Frame,
     method: Method<N>,
+    /// Of its series.
+    scratch: Scratch,
     /// Where it is that of `auto` or `taylor`.
     auto: Option<Auto>,
     /// Where it goes by series as often as the motion has one.
@@ -48,7 +51,7 @@ pub(super) struct Integration<const N: usize> {
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
+    frame, method, scratch, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -180,6 +183,7 @@ impl<const N: usize> Integration<N> {
         Self {
             frame: Frame::default(),
             method: Method::blank(),
+            scratch: Scratch::BLANK,
             auto: None,
             series: None,
             tolerance: Tolerance::default(),
@@ -517,7 +521,7 @@ impl<const N: usize> Integration<N> {
             .then(|| (self.method.clone(), self.last));
         let mut limit = f64::INFINITY;
         loop {
-            self.method.step(&rotor, most, until)?;
+            self.method.step(&rotor, &mut self.scratch, most, until)?;
             let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
             self.last = LastStep { chart: self.frame.chart, turns: self.frame.turns, gamma: from, closest: None };
             let near = before.is_some() && from.norm().min(to.norm()) < NEAR;

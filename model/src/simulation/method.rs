@@ -7,7 +7,7 @@ use crate::integrate::composition::Composed;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::stiff::{Differentiable, Stiff};
 use crate::integrate::tableau::DOP853;
-use crate::integrate::taylor::Taylor;
+use crate::integrate::taylor::{Scratch, Taylor};
 use crate::integrate::{Cost, Fault, System, Tolerance};
 use crate::rotor::Rotor;
 use crate::stored::{Damaged, Stored, Walk};
@@ -186,17 +186,23 @@ impl<const N: usize> Method<N> {
 
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
     /// evaluations. Where none is possible, the method stands as before.
-    pub fn step<E: Effects>(&mut self, rotor: &Rotor<'_, E>, most: f64, until: f64) -> Result<(), Fault> {
+    pub fn step<E: Effects>(
+        &mut self,
+        rotor: &Rotor<'_, E>,
+        scratch: &mut Scratch,
+        most: f64,
+        until: f64,
+    ) -> Result<(), Fault> {
         match self {
             OfPair(method) => method.step(rotor, most, until),
             OfComposition(method) => method.step(rotor, most, until),
             OfCollocation(method) => method.step(rotor, most, until),
             OfSeries(method) => {
-                if method.step(rotor, most, until)? {
+                if method.step(rotor, scratch, most, until)? {
                     return Ok(());
                 }
                 self.leave_series(rotor);
-                self.step(rotor, most, until)
+                self.step(rotor, scratch, most, until)
             }
         }
     }

@@ -4,7 +4,7 @@ use crate::harness::named::Named;
 use crate::harness::swinging::{dense_errors, driven, within_order};
 use crate::harness::tolerance;
 use nalgebra::Vector3;
-use split_rotor_model::integrate::taylor::Taylor;
+use split_rotor_model::integrate::taylor::{Scratch, Taylor};
 use split_rotor_model::simulation::Integrator;
 
 /// A tolerance, the power of its last term, and steps whose errors tell it \[s].
@@ -19,9 +19,9 @@ fn exact_what_is_left_out_begins_with_the_next_power() {
     let (rotor, y) = driven(20.0, 0.5);
     for (relative, order, sizes) in ORDERS {
         let errors = dense_errors(&rotor, &[(0.0, y)], &sizes, |t, y, h| {
-            let mut method = Taylor::start(tolerance(relative), &rotor, t, y);
+            let (mut method, mut scratch) = (Taylor::start(tolerance(relative), &rotor, t, y), Scratch::BLANK);
             method.limit_step(h);
-            assert_eq!(method.step(&rotor, f64::INFINITY, f64::INFINITY), Ok(true));
+            assert_eq!(method.step(&rotor, &mut scratch, f64::INFINITY, f64::INFINITY), Ok(true));
             let rotor = &rotor;
             move |t| method.dense(rotor, t)
         });
