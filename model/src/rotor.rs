@@ -364,30 +364,32 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     }
 }
 
+/// A Jacobian is taken along so many numbers of the state at a time: along all of them at once it is the longest code of an FMU.
+const AT_ONCE: usize = 4;
+
 impl<E: Effects, const N: usize> Differentiable<N> for Rotor<'_, E> {
     fn jacobian(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
+        let mut jacobian = [[0.0; N]; N];
         // Nothing depends on the quadratures.
         let size = System::<N>::depended_on(self);
-        if size <= PHI {
-            self.jacobian_along::<PHI, N>(t, y)
-        } else if size <= COORDINATES {
-            self.jacobian_along::<COORDINATES, N>(t, y)
-        } else {
-            self.jacobian_along::<N, N>(t, y)
+        for first in (0..size).step_by(AT_ONCE) {
+            let slopes = self.slopes_along(t, y, first);
+            for (row, slopes) in jacobian.iter_mut().zip(&slopes) {
+                row[first..size].iter_mut().zip(slopes).for_each(|(entry, slope)| *entry = *slope);
+            }
         }
+        jacobian
     }
 }
 
 impl<E: Effects> Rotor<'_, E> {
-    /// The derivatives along the first D numbers of the state: nothing depends on the others.
-    fn jacobian_along<const D: usize, const N: usize>(&self, t: f64, y: &[f64; N]) -> [[f64; N]; N] {
-        let moving = |n: usize| if n < D { Dual::variable(y[n], n) } else { Dual::constant(y[n]) };
-        let state: [Dual<D>; N] = std::array::from_fn(moving);
-        let rates = if System::<N>::solves_all(self) {
-            self.rates_in::<_, N, true>(self.frame.chart, t, &state)
-        } else {
-            self.rates_in::<_, N, false>(self.frame.chart, t, &state)
-        };
-        rates.map(|rate| std::array::from_fn(|n| if n < D { rate.eps[n] } else { 0.0 }))
+    /// The derivatives of the rates along the numbers of the state from this one on.
+    #[inline(never)]
+    fn slopes_along<const N: usize>(&self, t: f64, y: &[f64; N], first: usize) -> [[f64; AT_ONCE]; N] {
+        let state: [Dual<AT_ONCE>; N] = std::array::from_fn(|n| match n.checked_sub(first) {
+            Some(direction) if direction < AT_ONCE => Dual::variable(y[n], direction),
+            _ => Dual::constant(y[n]),
+        });
+        self.rates_in::<_, N, true>(self.frame.chart, t, &state).map(|rate| rate.eps)
     }
 }
