@@ -39,9 +39,9 @@ pub mod variables;
 pub mod simulation;
 
 // Floor 6: what engineers ask before a run, over the list of all effects.
-#[cfg(feature = "scenes")]
+#[cfg(feature = "general")]
 pub mod linear;
-#[cfg(feature = "scenes")]
+#[cfg(feature = "general")]
 pub mod periodic;
 
 // Floor 7: scenes and their modelDescription.xml, for build.rs and xtask.

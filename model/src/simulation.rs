@@ -6,7 +6,7 @@ mod by_series;
 mod closest;
 mod events;
 mod exchange;
-#[cfg(feature = "scenes")]
+#[cfg(feature = "general")]
 mod general;
 mod growth;
 mod integration;
@@ -19,7 +19,7 @@ mod tangents;
 
 use exchange::Exchange;
 pub use exchange::Settled;
-#[cfg(feature = "scenes")]
+#[cfg(feature = "general")]
 pub use general::General;
 pub use growth::Growth;
 pub use tangents::Tangents;
@@ -73,7 +73,7 @@ pub const ALWAYS_INDICATED: usize = 4;
 /// Until it locates an event, a host may try states beyond the chart: to nearly 2π \[rad] their rates are smooth.
 const TRIAL: f64 = 6.0;
 
-/// A rotor of any scene. [`General`] is the same for programs that only run it.
+/// A rotor of any scene. `General` is the same for programs that only run it.
 #[cfg(feature = "scenes")]
 pub type Any = Simulation<crate::effects::All, { numbers_of_state::<crate::effects::All>() }>;
 

@@ -35,7 +35,8 @@ pub fn fuzz() -> Result<()> {
     };
     let tools = paths::target().join("tools");
     run(cargo()
-        .args(["install", "--quiet", "--locked", "--version", CARGO_FUZZ, "cargo-fuzz"])
+        // It only starts cargo: nothing is gained by a release build.
+        .args(["install", "--quiet", "--debug", "--locked", "--version", CARGO_FUZZ, "cargo-fuzz"])
         .arg("--root")
         .arg(&tools))?;
     let folder = paths::target().join("fuzz");

@@ -63,7 +63,7 @@ pub(crate) struct Spinning<'r, E, const N: usize> {
 }
 
 /// Where it stands.
-#[cfg_attr(not(feature = "scenes"), allow(dead_code, reason = "what only the linear view asks for"))]
+#[cfg_attr(not(feature = "general"), allow(dead_code, reason = "what only the linear view asks for"))]
 pub(crate) struct Rest<const N: usize> {
     /// Place of the mass centre G \[m].
     pub r: Vector3<f64>,
@@ -76,7 +76,7 @@ pub(crate) struct Rest<const N: usize> {
 }
 
 /// The equations at a state of rest but for the spin.
-#[cfg_attr(not(feature = "scenes"), allow(dead_code, reason = "what only the linear view asks for"))]
+#[cfg_attr(not(feature = "general"), allow(dead_code, reason = "what only the linear view asks for"))]
 pub(crate) struct Balance<const N: usize> {
     /// Rates of v over the radius of gyration, and of K over Jt but for its part along the axis [1/s²].
     left: SVector<f64, BALANCES>,

@@ -150,7 +150,7 @@ fn runner() -> Result<PathBuf> {
     let Some((_, version)) = id.trim().rsplit_once('@') else { bail!("cargo pkgid printed `{id}`") };
     let tools = paths::target().join("tools");
     run(cargo()
-        .args(["install", "--quiet", "--locked", "--version", version, "gungraun-runner"])
+        .args(["install", "--quiet", "--debug", "--locked", "--version", version, "gungraun-runner"])
         .arg("--root")
         .arg(&tools))?;
     Ok(tools.join("bin/gungraun-runner"))
