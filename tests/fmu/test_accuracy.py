@@ -196,11 +196,16 @@ def test_exact_message_where_no_method_reaches_the_end(xtask, tmp_path):
     assert "the tilt |gamma| reaches 3.1 rad" in refused.stderr
 
 
+# With the effects of `coupled`, whose library is there: the spring and the second port do nothing.
 PUSHED = """
 [rotor]
 m = 5.0
 Ja = 0.1
 Jt = 0.1
+l = 1.0
+[effects.support]
+[[effects.port]]
+position = 0.0
 [[effects.port]]
 position = 0.0
 [[input]]
@@ -222,6 +227,7 @@ def test_exact_inputs_are_followed(xtask, tmp_path):
     assert loose and all(row["error"] < 1e-8 for row in loose), "polynomials of time"
 
 
+# With the effects of `turbo`, whose library is there: no weight, and a probe.
 ORDINARY = """
 title = "An ordinary rotor, run up"
 [rotor]
@@ -229,6 +235,10 @@ m = 12.0
 Ja = 0.04
 Jt = 0.12
 l = 0.0
+[effects.gravity]
+g = { z = 0.0 }
+[[effects.probe]]
+position = 0.0
 [effects.drive]
 tau = 24.0
 [[effects.bearing]]

@@ -13,7 +13,7 @@ use split_rotor_tools::general;
 const GENERAL: f64 = 1.3;
 
 /// So many sets are drawn.
-const SETS: usize = 5;
+const SETS: usize = 3;
 
 /// With which seed, where none is given.
 pub const SEED: u64 = 8;
