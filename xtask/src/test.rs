@@ -10,23 +10,23 @@ use anyhow::{Result, bail, ensure};
 use split_rotor_model::scene::Scene;
 use std::env;
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
 use std::thread;
 use std::time::Instant;
 
 /// What a job does, and what runs it; where it cannot, that is an error, which names what is to be installed.
 type Job = (&'static str, fn() -> Result<()>);
 
-/// What always runs, the quickest first.
-const SHORT: [Job; 6] = [
+/// What always runs. Several run side by side, here and below, so what takes longest comes first.
+const SHORT: [Job; 5] = [
     ("Rust's tests", rust_tests),
-    ("documentation of the code", documentation),
+    ("packaged FMUs and hard cases", packaged_fmus),
     ("call rules of a driven scene", driven_tests),
     ("bits of a plain build", plain_build),
-    ("packaged FMUs", packaged_fmus),
-    ("hard cases, shortened, with mutants", gallery),
+    ("documentation of the code", documentation),
 ];
 
-/// What takes long, or needs more than the README asks for. Several run side by side, so what takes longest comes first.
+/// What takes long, or needs more than the README asks for.
 const LONG: [Job; 14] = [
     ("third-party clients", clients),
     ("bits of every platform", abroad::bits_of_every_platform),
@@ -44,36 +44,44 @@ const LONG: [Job; 14] = [
     ("against ROSS", ross::ross),
 ];
 
-/// Runs the short jobs, and the long ones too where they are asked for, those whose names hold `part`; says what each took.
+/// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took.
 pub fn test(part: &str, long: bool) -> Result<()> {
     let of = |jobs: &'static [Job]| jobs.iter().filter(|(name, _)| name.contains(part)).collect::<Vec<_>>();
-    let (mut jobs, mut beside) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
-    if beside.len() == 1 {
-        jobs.append(&mut beside);
-    }
+    let (short, long) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
     let names = |jobs: &[Job]| jobs.iter().map(|(name, _)| format!("\n  {name}")).collect::<String>();
-    // Nothing run would pass for nothing wrong.
-    ensure!(
-        !jobs.is_empty() || !beside.is_empty(),
-        "no job's name holds {part:?}{}: there are{}\nand with --long also{}",
-        known::meant(part, SHORT.iter().chain(&LONG).map(|(name, _)| *name)),
-        names(&SHORT),
-        names(&LONG)
-    );
-    for (name, job) in jobs {
-        println!("\n== {name}");
-        let start = Instant::now();
-        job()?;
-        println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
+    match *[&short[..], &long].concat() {
+        // Nothing run would pass for nothing wrong.
+        [] => bail!(
+            "no job's name holds {part:?}{}: there are{}\nand with --long also{}",
+            known::meant(part, SHORT.iter().chain(&LONG).map(|(name, _)| *name)),
+            names(&SHORT),
+            names(&LONG)
+        ),
+        [(name, job)] => {
+            println!("\n== {name}");
+            let start = Instant::now();
+            job()?;
+            println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
+            Ok(())
+        }
+        _ => {
+            together(&short)?;
+            together(&long)
+        }
     }
-    together(&beside)
 }
 
-/// Runs these long jobs side by side, each by an xtask of its own, whose words are shown when it has ended.
+/// Runs these jobs side by side, each by an xtask of its own, whose words are shown when it has ended.
 fn together(jobs: &[&Job]) -> Result<()> {
-    let progress = Progress::of(jobs.len());
+    let (progress, running) = (Progress::of(jobs.len()), Mutex::new(Vec::new()));
     side_by_side(jobs, |_, (name, _)| {
         progress.tell(&format!("== {name} begins"));
+        let now = |change: &dyn Fn(&mut Vec<&str>)| {
+            let mut running = running.lock().expect("no worker panics");
+            change(&mut running);
+            progress.set_message(running.join(", "));
+        };
+        now(&|running| running.push(name));
         let mut job = Command::new(env::current_exe()?);
         let output = job.args(["test", name, "--long"]).stdin(Stdio::null()).output()?;
         progress.suspend(|| {
@@ -81,6 +89,7 @@ fn together(jobs: &[&Job]) -> Result<()> {
             eprint!("{}", String::from_utf8_lossy(&output.stderr));
         });
         progress.inc(1);
+        now(&|running| running.retain(|other| other != name));
         ensure!(output.status.success(), "the job {name:?} failed ({})", output.status);
         Ok(())
     })
@@ -117,14 +126,10 @@ fn wide_builds() -> Result<()> {
     run(cargo().args(bits).arg(paths::target().join("wide")).env("RUSTFLAGS", "-Ctarget-cpu=native"))
 }
 
-/// The packaged FMUs under a host in C and under fmpy.
+/// The packaged FMUs under a host in C and under fmpy; then the hard cases by them, the long ones shortened, and that each can fail.
 fn packaged_fmus() -> Result<()> {
     c_host::plain(&package::package(&Scene::names(&paths::scenes()), None)?)?;
-    pytest(&["tests/fmu", "tests/clients"])
-}
-
-/// The hard cases, the long ones shortened, and that each can fail; with the FMUs just packaged.
-fn gallery() -> Result<()> {
+    pytest(&["tests/fmu", "tests/clients"])?;
     hard_cases::run(&Extent { mutants: true, ..Extent::default() })
 }
 
