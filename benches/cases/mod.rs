@@ -96,7 +96,7 @@ pub struct Stepping<S, const N: usize> {
 impl<S: System<N>, const N: usize> Stepping<S, N> {
     /// One step of the method's own choice.
     pub fn step(&mut self) {
-        self.method.step(&self.system, &mut self.scratch, f64::INFINITY, f64::INFINITY).expect("a possible motion");
+        self.method.step(&self.system, f64::INFINITY, f64::INFINITY).expect("a possible motion");
     }
 
     /// What the last step's dense output needs.
