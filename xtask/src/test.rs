@@ -21,8 +21,8 @@ type Job = (&'static str, fn() -> Result<()>);
 const SHORT: [Job; 5] = [
     ("Rust's tests", rust_tests),
     ("packaged FMUs and hard cases", packaged_fmus),
-    ("call rules of a driven scene", driven_tests),
     ("bits of a plain build", plain_build),
+    ("call rules of a driven scene", driven_tests),
     ("documentation of the code", documentation),
 ];
 

@@ -143,12 +143,20 @@ const DEARER: f64 = 2.0;
 
 fn never_much_dearer(case: Case, exact: f64, methods: &[f64]) {
     let exact = run(case, exact, 1e-13).expect("a possible motion");
-    // Half decades of tolerance.
-    let tolerances = (6..=24).map(|n| libm::pow(10.0, -0.5 * f64::from(n)));
-    let settings = methods.iter().flat_map(|method| tolerances.clone().map(|tolerance| (*method, tolerance)));
-    let runs: Vec<_> = settings.filter_map(|setting| Some((setting, run(case, setting.0, setting.1)?))).collect();
-    for tolerance in TOLERANCES {
-        let auto = run(case, AUTO, tolerance).expect("a possible motion");
+    let autos = TOLERANCES.map(|tolerance| (tolerance, run(case, AUTO, tolerance).expect("a possible motion")));
+    let most = autos.iter().map(|(_, auto)| auto.work).fold(0.0, f64::max);
+    let mut runs = Vec::new();
+    for method in methods {
+        // Half decades of tolerance, until it takes twice what `auto` ever took.
+        for tolerance in (6..=24).map(|n| libm::pow(10.0, -0.5 * f64::from(n))) {
+            let Some(run) = run(case, *method, tolerance) else { continue };
+            if run.work > 2.0 * most {
+                break;
+            }
+            runs.push(((*method, tolerance), run));
+        }
+    }
+    for (tolerance, auto) in autos {
         let reached = error(&auto, &exact);
         let as_good = runs.iter().filter(|(_, run)| error(run, &exact) <= reached);
         let best = as_good.min_by(|a, b| a.1.work.total_cmp(&b.1.work));
