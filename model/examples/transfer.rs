@@ -1,5 +1,5 @@
 //! A rotor as a control engineer sees it: matrices about its steady state, and how a probe answers a force at a port:
-//! `cargo run -p split-rotor-model --features scenes --example transfer`.
+//! `cargo run -p split-rotor-model --features general --example transfer`.
 
 use nalgebra::ComplexField;
 use split_rotor_model::linear::{Machine, Obstacle, Quantity, StateSpace};

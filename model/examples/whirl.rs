@@ -1,5 +1,5 @@
 //! The linear view of a scene: its critical speeds, and how its unbalance makes it whirl:
-//! `cargo run -p split-rotor-model --features scenes --example whirl`.
+//! `cargo run -p split-rotor-model --features general --example whirl`.
 
 use split_rotor_model::linear::{Campbell, Machine, Obstacle};
 use split_rotor_model::scene::Scene;
