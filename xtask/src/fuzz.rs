@@ -1,14 +1,14 @@
 //! A million random sequences of FMI calls under AddressSanitizer and LeakSanitizer, led by libFuzzer (`fuzz/`).
 
 use crate::paths;
-use crate::run::{cargo, run};
+use crate::run::{installed, run};
 use anyhow::{Context, Result, bail};
 use std::env::consts::ARCH;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
 
-/// What builds the fuzz target; installed into target/tools.
+/// The version of what builds the fuzz target.
 const CARGO_FUZZ: &str = "0.13.2";
 
 /// Half of the sequences with each scene, at the same time: one whose solver runs ahead, and one with an input.
@@ -33,14 +33,9 @@ pub fn fuzz() -> Result<()> {
         Ok(number) => number.parse().with_context(|| format!("{FEWER} = {number} must be a whole number"))?,
         Err(_) => SEQUENCES,
     };
-    let tools = paths::target().join("tools");
-    run(cargo()
-        // It only starts cargo: nothing is gained by a release build.
-        .args(["install", "--quiet", "--debug", "--locked", "--version", CARGO_FUZZ, "cargo-fuzz"])
-        .arg("--root")
-        .arg(&tools))?;
+    let cargo_fuzz = installed("cargo-fuzz", CARGO_FUZZ)?;
     let folder = paths::target().join("fuzz");
-    let targets = SCENES.iter().map(|scene| build(scene, &tools, &folder)).collect::<Result<Vec<_>>>()?;
+    let targets = SCENES.iter().map(|scene| build(scene, &cargo_fuzz, &folder)).collect::<Result<Vec<_>>>()?;
     let started =
         SCENES.iter().zip(&targets).map(|(scene, target)| start(scene, target, sequences / SCENES.len(), &folder));
     let mut running = started.collect::<Result<Vec<_>>>()?;
@@ -54,8 +49,8 @@ pub fn fuzz() -> Result<()> {
 }
 
 /// The fuzz target with this scene compiled in.
-fn build(scene: &str, tools: &Path, folder: &Path) -> Result<PathBuf> {
-    run(Command::new(tools.join("bin/cargo-fuzz"))
+fn build(scene: &str, cargo_fuzz: &Path, folder: &Path) -> Result<PathBuf> {
+    run(Command::new(cargo_fuzz)
         // Comparisons tell nothing of a sequence of calls, and to watch them takes half of the time.
         .args(["build", "--no-trace-compares", "calls"])
         .arg("--target-dir")

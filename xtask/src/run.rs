@@ -2,6 +2,7 @@
 
 use anyhow::{Context, Result, bail};
 use std::io::{BufRead, BufReader, Lines, Write};
+use std::path::PathBuf;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread::{self, JoinHandle};
@@ -103,6 +104,17 @@ impl Conversation {
         }
         Ok(())
     }
+}
+
+/// A program of this crate and version, installed into target/tools.
+pub fn installed(name: &str, version: &str) -> Result<PathBuf> {
+    let tools = crate::paths::target().join("tools");
+    // It only starts others: nothing is gained by a release build.
+    run(cargo()
+        .args(["install", "--quiet", "--debug", "--locked", "--version", version, name])
+        .arg("--root")
+        .arg(&tools))?;
+    Ok(tools.join("bin").join(name))
 }
 
 /// The words of a command.

@@ -3,7 +3,7 @@
 
 use super::operations::{Operations, of_recurrences, own_multiply_adds};
 use super::{cargo_bench, head, scenes, target};
-use crate::run::{cargo, output, run};
+use crate::run::{cargo, installed, output};
 use crate::{c, paths};
 use anyhow::{Context, Result, bail, ensure};
 use serde_json::Value;
@@ -143,15 +143,10 @@ fn count(scene: &str, runner: &PathBuf) -> Result<Vec<Count>> {
 /// How gungraun is told where its runner is.
 const RUNNER: &str = "GUNGRAUN_RUNNER";
 
-/// gungraun's runner, of the version that Cargo.lock has of gungraun, installed into target/tools.
+/// gungraun's runner, of the version that Cargo.lock has of gungraun.
 fn runner() -> Result<PathBuf> {
     c::tool("valgrind", "valgrind")?;
     let id = output(cargo().args(["pkgid", "gungraun"]))?;
     let Some((_, version)) = id.trim().rsplit_once('@') else { bail!("cargo pkgid printed `{id}`") };
-    let tools = paths::target().join("tools");
-    run(cargo()
-        .args(["install", "--quiet", "--debug", "--locked", "--version", version, "gungraun-runner"])
-        .arg("--root")
-        .arg(&tools))?;
-    Ok(tools.join("bin/gungraun-runner"))
+    installed("gungraun-runner", version)
 }
