@@ -43,6 +43,10 @@ const USER: Environment<'static> =
 const BOOK: Environment<'static> =
     Environment { folder: "venv-book", requirements: &["xtask/python/requirements-book.txt"], minors: 11..=u32::MAX };
 
+/// How pytest runs our tests; what those that pass have written is removed, since packed FMUs would fill the disk.
+pub const PYTEST: [&str; 7] =
+    ["-m", "pytest", "-q", "-p", "no:cacheprovider", "-o", "tmp_path_retention_policy=failed"];
+
 /// A command of the Python that has fmpy; its environment is made first where it is missing or out of date.
 pub fn python() -> Result<Command> {
     MAIN.python()

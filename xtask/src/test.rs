@@ -28,18 +28,18 @@ const SHORT: [Job; 5] = [
 
 /// What takes long, or needs more than the README asks for.
 const LONG: [Job; 14] = [
-    ("third-party clients", clients),
     ("bits of every platform", abroad::bits_of_every_platform),
-    ("the example of an effect", copies::example_is_right),
-    ("fuzz", fuzz::fuzz),
-    ("long runs", long_runs),
-    ("sanitizers", sanitize::sanitizers),
-    ("memcheck", memcheck::valgrind),
     ("counts that must hold", bench::must_hold),
+    ("third-party clients", clients),
+    ("fuzz", fuzz::fuzz),
+    ("sanitizers", sanitize::sanitizers),
+    ("the example of an effect", copies::example_is_right),
+    ("Python package", || wheel::wheel().map(drop)),
+    ("long runs", long_runs),
+    ("memcheck", memcheck::valgrind),
     ("hard cases in full", whole_gallery),
     ("absence is free", copies::absence_is_free),
     ("bits of wide builds", wide_builds),
-    ("Python package", || wheel::wheel().map(drop)),
     ("peers", peers),
     ("against ROSS", ross::ross),
 ];
@@ -64,10 +64,7 @@ pub fn test(part: &str, long: bool) -> Result<()> {
             println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
             Ok(())
         }
-        _ => {
-            together(&short)?;
-            together(&long)
-        }
+        _ => [short, long].iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs)),
     }
 }
 
@@ -164,8 +161,8 @@ fn peers() -> Result<()> {
 /// Runs these tests, as many files at a time as there are processors.
 fn pytest(arguments: &[&str]) -> Result<()> {
     let workers = thread::available_parallelism()?.to_string();
-    let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--dist", "loadfile", "-n", &workers];
-    run(python::python_with_all()?.args(pytest).args(arguments))
+    let by_file = ["--dist", "loadfile", "-n", &workers];
+    run(python::python_with_all()?.args(python::PYTEST).args(by_file).args(arguments))
 }
 
 #[cfg(test)]

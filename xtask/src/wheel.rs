@@ -27,8 +27,7 @@ pub fn wheel() -> Result<PathBuf> {
     let wheel = build()?;
     let mut python = python::of_wheel(&wheel)?;
     // Pytest's folder is no part of the package's path: what is imported is what was installed.
-    let tests = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "python/tests"];
-    run(python.args(tests).env("PATH", without_rust()?))?;
+    run(python.args(python::PYTEST).arg("python/tests").env("PATH", without_rust()?))?;
     println!("{}", wheel.display());
     Ok(wheel)
 }
