@@ -56,7 +56,8 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// energy.
     const COULD_WORK: bool = true;
 
-    /// Whether it can act on the rotor at all: apply a load or impose a speed, with any parameters and inputs.
+    /// Whether it can apply a load or impose a speed, with any parameters and inputs, other than a force at the mass centre that
+    /// nothing changes.
     const PUSHES: bool = true;
 
     /// Whether it can [shape](Effect::shape) the body. A scene without such effects is compiled for a symmetric rotor.

@@ -1,6 +1,7 @@
 //! A scene: which effects, which values, which method. Read from TOML and checked, so that all that is wrong is told with
 //! file, line, key, value and what would be right.
 
+mod csv;
 mod experiment;
 mod input;
 mod moment;

@@ -26,6 +26,8 @@ impl Effect for Gravity {
 
     const COULD_WORK: bool = false;
 
+    const PUSHES: bool = false;
+
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let weight = (self.g * motion.mass()).map(S::constant);

@@ -121,7 +121,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         self.active().find_map(Block::no_limit)
     }
 
-    /// Whether any of them can act on the rotor.
+    /// Whether any of them can act on the rotor other than by its weight.
     fn push(&self) -> bool {
         self.active().any(|block| block.kind().pushes)
     }

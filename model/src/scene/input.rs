@@ -1,5 +1,6 @@
 //! `[[input]]`: an input over time, from the file of the scene or from a CSV beside it.
 
+use super::csv::points;
 use super::problem::Problem;
 use super::reader::{Reader, Value};
 use super::similar::did_you_mean;
@@ -7,7 +8,6 @@ use crate::variable::Role;
 use crate::variable::units::{SECOND, Unit};
 use crate::variables::Variable;
 use std::ops::Range;
-use std::path::Path;
 use toml::de::DeTable;
 
 /// The key of the section in the file, and its keys.
@@ -80,11 +80,11 @@ impl Reader<'_> {
         };
         let unit = variable.map(|variable| variable.meta.unit);
         let points = match [table.get("file"), table.get("time"), table.get("value")] {
-            [Some(file), None, None] => self.of_file(file, section),
+            [Some(file), None, None] => variable.and_then(|variable| self.of_file(file, section, variable, variables)),
             [None, Some(time), Some(value)] => {
                 let times = self.numbers(time, &SECOND, &format!("{section}.time"));
                 let values = unit.and_then(|unit| self.numbers(value, unit, &format!("{section}.value")));
-                times.zip(values).map(|(times, values)| (times, values, self.place(value)))
+                times.zip(values).map(|(times, values)| (times, values, self.place(time)))
             }
             _ => self.missing(
                 whole,
@@ -146,13 +146,19 @@ impl Reader<'_> {
         }
     }
 
-    /// The points of a CSV: a time \[s] and a value in a line, below a line of names where there is one.
-    fn of_file(&mut self, value: &Value, section: &str) -> Option<(Vec<f64>, Vec<f64>, Range<usize>)> {
+    /// The points of this variable from a CSV.
+    fn of_file(
+        &mut self,
+        value: &Value,
+        section: &str,
+        variable: &Variable,
+        variables: &[Variable],
+    ) -> Option<(Vec<f64>, Vec<f64>, Range<usize>)> {
         let Some(name) = value.get_ref().as_str() else {
             return self.wrong_type(value, &format!("{section}.file"), "the path of a CSV in quotes");
         };
         let place = self.place(value);
-        match points(&self.folder.join(name)) {
+        match points(&self.folder.join(name), variable, variables) {
             Ok((times, values)) => Some((times, values, place)),
             Err((wrong, right)) => {
                 self.problems.push(Problem::at(place, format!("{name}{wrong}"), right));
@@ -160,24 +166,6 @@ impl Reader<'_> {
             }
         }
     }
-}
-
-/// The points in a CSV, or what is wrong with it and what would be right.
-fn points(file: &Path) -> Result<(Vec<f64>, Vec<f64>), (String, String)> {
-    if !file.is_file() {
-        return Err((" is not there".into(), "the path counts from the folder of the scene".into()));
-    }
-    let text = std::fs::read_to_string(file).map_err(|error| (format!(" cannot be read: {error}"), String::new()))?;
-    let number = |cell: &str| cell.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-    let point = |line: &str| line.split_once(',').and_then(|(time, value)| Some((number(time)?, number(value)?)));
-    let lines = text.lines().zip(1..).filter(|(line, _)| !line.trim().is_empty());
-    let has_names = |line: &str| line.split(',').all(|cell| cell.trim().parse::<f64>().is_err());
-    let lines = lines.filter(|(line, number)| *number != 1 || !has_names(line));
-    let points = lines.map(|(line, number)| {
-        let right = "a line has a time in s and a value, two finite numbers with a comma between them";
-        point(line).ok_or_else(|| (format!(", line {number}: {line}"), right.to_owned()))
-    });
-    Ok(points.collect::<Result<Vec<_>, _>>()?.into_iter().unzip())
 }
 
 #[cfg(test)]

@@ -309,7 +309,8 @@ impl<const N: usize> Integration<N> {
             ));
         }
         let Some(series) = self.series else {
-            const FREE: &str = "auto takes symplectic: nothing acts on the rotor, so a step of any length is exact";
+            const FREE: &str =
+                "auto takes symplectic: nothing acts on the rotor but its weight, so a step of any length is exact";
             return (is_auto && self.method.is_free()).then(|| FREE.into());
         };
         let (who, also) = if is_auto { ("auto", AND_STIFF) } else { ("taylor", "") };

@@ -12,7 +12,7 @@ pub(super) enum Plan {
     Explicit(&'static Tableau),
     /// A composition, with steps no longer than this \[s] where it is given.
     Composed(&'static Composition, Option<f64>),
-    /// The same where nothing acts, so that every step is exact.
+    /// The same where nothing acts but the weight, so that every step is exact.
     Free(&'static Composition, Option<f64>),
     /// Radau IIA with adaptive steps.
     Stiff,

@@ -170,15 +170,38 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         (&*told[0].name, &*told[0].time, &*told[0].value),
         ("drive.tau", &[0.0, 0.1, 0.1][..], &[0.0, 1.0, 2.5][..])
     );
-    for csv in ["time,tau\n0,0\n0.1,1.0\n0.1,2.5\n", "0, 0\r\n0.1, 1\r\n\r\n0.1, 2.5\r\n"] {
+    for csv in [
+        "time,tau\n0,0\n0.1,1.0\n0.1,2.5\n",
+        "0, 0\r\n0.1, 1\r\n\r\n0.1, 2.5\r\n",
+        "\u{feff}\"Time (s)\",\"torque [N.m]\"\n0,0\n0.1,1\n0.1,2.5\n",
+        // Bits of the shifted point, as in a scene.
+        "t [ms],drive.tau [kN.mm]\n0,0\n100,1\n100,2.5\n",
+    ] {
         std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
         assert_eq!(parse("file = \"x.csv\"").expect("a scene"), told);
     }
-    for (csv, wrong) in
-        [("t,x\n0,1\n1\n", "x.csv, line 3: 1"), ("0,1\n1,nan\n", "x.csv, line 2: 1,nan"), ("", "input[1] has 0 times")]
-    {
+    for (csv, wrong) in [
+        ("t,x\n0,1\n1\n", "x.csv, line 3: 1"),
+        ("0,1\n1,nan\n", "x.csv, line 2: 1,nan"),
+        ("", "x.csv has no points"),
+        ("time,tau\n", "x.csv has no points"),
+        // What is no point is not taken for the names of columns, and names must be those that are meant.
+        ("0;30\n1,2\n", "x.csv, line 1: 0;30"),
+        ("0 30\n1,2\n", "x.csv, line 1: 0 30"),
+        ("0.0 s,30 N\n1,2\n", "x.csv, line 1: 0.0 s,30 N"),
+        ("O.0,3O.0\n1,2\n", "x.csv, line 1: O.0,3O.0"),
+        ("-,-\n1,2\n", "x.csv, line 1: -,-"),
+        ("zero,thirty\n1,2\n", "x.csv, line 1: zero,thirty"),
+        ("tau,time\n1,2\n", "x.csv, line 1: tau,time"),
+        ("time,time\n1,2\n", "x.csv, line 1: time,time"),
+        ("time,turns\n1,2\n", "x.csv, line 1: time,turns"),
+        ("time,tau,speed\n1,2\n", "x.csv, line 1: time,tau,speed"),
+        ("time [m],tau\n1,2\n", "x.csv, line 1: time [m],tau"),
+        ("time,tau [N]\n1,2\n", "x.csv, line 1: time,tau [N]"),
+        ("time,tau [ ]\n1,2\n", "x.csv, line 1: time,tau [ ]"),
+    ] {
         std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
-        let problems = parse("file = \"x.csv\"").expect_err("no points").problems;
+        let problems = parse("file = \"x.csv\"").expect_err(csv).problems;
         assert!(problems[0].wrong.starts_with(wrong), "{problems:?}");
     }
     std::fs::remove_dir_all(&folder).expect("it is there");

@@ -27,7 +27,7 @@ pub struct Kind {
     pub own: usize,
     /// How many indicators of events it has.
     pub indicators: usize,
-    /// Whether it can act on the rotor.
+    /// Whether it can act on the rotor other than by its weight.
     pub pushes: bool,
     /// Whether what it does follows φ.
     pub follows_phi: bool,
