@@ -48,6 +48,18 @@ def test_exact_a_critical_speed_among_those_of_the_run_is_told_with_its_amplific
     assert what.endswith("; its mode grows by itself")
 
 
+def test_exact_those_that_are_alike_are_told_as_one(findings):
+    lines = [(200.0, 0.05), (210.0, 0.1), (300.0, 0.0), (630.0, 0.1)]
+    crossings = [{"speed_rad_s": speed, "damping_ratio": ratio, "direction": "forward", "sense": 1.0} for speed, ratio in lines]
+    linear = findings.linear.Linear(modes=[], critical=crossings, thresholds=[], floquet=False)
+    found = [(found.value, found.what.split("; ")[1]) for found in findings._passed(run([0.0, 600.0]), linear)]
+    assert found == [
+        ("1\u202f910 · 2\u202f005\u00a0rpm", "amplification factors 10, 5 (from 2.5 on it counts as critical, API 617)"),
+        ("2\u202f865\u00a0rpm", "without damping"),
+        ("6\u202f016\u00a0rpm", "amplification factor 5 (from 2.5 on it counts as critical, API 617)"),
+    ]
+
+
 def test_exact_it_is_next_to_the_run_as_far_as_its_peak_is_wide(findings):
     (what,) = passed(findings, [0.0, 191.0])  # 200 rad/s less 5 %: 190 rad/s
     assert what.startswith("critical speed next to the speeds of this run")

@@ -51,20 +51,29 @@ def _passed(result, view):
     if view is None or view.floquet:
         return
     spin = np.abs(result.columns["omega_phi"])
+    alike = {}
     for crossing in view.critical:
         speed, ratio = crossing["speed_rad_s"], crossing["damping_ratio"]
         away = max(spin.min() - speed, speed - spin.max())
         # An unbalance goes round forward: it does not drive a mode whose orbits are circles backward, as those of a round machine are.
         is_driven = crossing["sense"] > CIRCLE_BACKWARD
         if away <= max(ratio, linear.NEITHER) * speed and is_driven and 2.0 * ratio * SHARP <= 1.0:
-            where = f"critical speed {'within' if away <= 0.0 else 'next to'} the speeds of this run, {_range(spin)}"
-            if ratio < -linear.NEITHER:
-                how = "its mode grows by itself"
-            elif ratio <= linear.NEITHER:
-                how = "without damping"
-            else:
-                how = f"amplification factor {number(0.5 / ratio, 2)} (from {SHARP} on it counts as critical, API 617)"
-            yield Finding(rpm(speed), f"{where}; {how}", "bad")
+            where, how = "within" if away <= 0.0 else "next to", "damped"
+            if ratio <= linear.NEITHER:
+                how = "its mode grows by itself" if ratio < -linear.NEITHER else "without damping"
+            alike.setdefault((where, how), []).append(crossing)
+    for (where, how), crossings in alike.items():
+        several = "s" if len(crossings) > 1 else ""
+        if how == "damped":
+            factors = ", ".join(number(0.5 / crossing["damping_ratio"], 2) for crossing in crossings)
+            how = f"amplification factor{several} {factors} (from {SHARP} on it counts as critical, API 617)"
+        what = f"critical speed{several} {where} the speeds of this run, {_range(spin)}; {how}"
+        yield Finding(_speeds(crossings), what, "bad")
+
+
+def _speeds(crossings):
+    """Speeds of crossings in rpm, one after another."""
+    return " · ".join(rpm(crossing["speed_rad_s"]).removesuffix("\u00a0rpm") for crossing in crossings) + "\u00a0rpm"
 
 
 def _range(spin):
