@@ -32,8 +32,7 @@ pub(super) fn points(file: &Path, variable: &Variable, variables: &[Variable]) -
     let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).peekable();
     let mut columns = [&SECOND, variable.meta.unit].map(|unit| Column { unit, written: None });
     if let Some((number, line)) = lines.next_if(|(_, line)| names(line)) {
-        let named = columns_of(line, variable, variables).map_err(|right| (at(number, line), right))?;
-        columns = named;
+        columns = columns_of(line, variable, variables).map_err(|right| (at(number, line), right))?;
     }
     let point = |line: &str| {
         let (time, value) = line.split_once(',')?;
@@ -52,17 +51,17 @@ pub(super) fn points(file: &Path, variable: &Variable, variables: &[Variable]) -
 
 /// Whether a line names columns: what begins as a number is meant to be one.
 fn names(line: &str) -> bool {
-    line.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '"')
+    line.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '"' || c == '#')
 }
 
 /// The columns that this line names, or what would be right.
 fn columns_of<'l>(line: &'l str, variable: &Variable, variables: &[Variable]) -> Result<[Column<'l>; 2], String> {
-    let own = &*variable.name;
     let right = || {
-        let unit = brackets(variable.meta.unit);
+        let (own, unit) = (&variable.name, brackets(variable.meta.unit));
         format!("the first line has a time in s and a value, or names both columns: time [s],{own}{unit}")
     };
-    let (time, value) = line.split_once(',').ok_or_else(right)?;
+    // As numpy writes it, behind a #.
+    let (time, value) = line.trim_start().trim_start_matches('#').split_once(',').ok_or_else(right)?;
     let ((time, time_unit), (value, value_unit)) = (cell(time), cell(value));
     let ends = |variable: &Variable| variable.name == value || variable.name.ends_with(&format!(".{value}"));
     let other = |other: &Variable| other.name == value || matches!(other.meta.role, Role::Input { .. }) && ends(other);

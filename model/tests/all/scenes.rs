@@ -174,6 +174,7 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         "time,tau\n0,0\n0.1,1.0\n0.1,2.5\n",
         "0, 0\r\n0.1, 1\r\n\r\n0.1, 2.5\r\n",
         "\u{feff}\"Time (s)\",\"torque [N.m]\"\n0,0\n0.1,1\n0.1,2.5\n",
+        "# time,tau\n0,0\n0.1,1\n0.1,2.5\n",
         // Bits of the shifted point, as in a scene.
         "t [ms],drive.tau [kN.mm]\n0,0\n100,1\n100,2.5\n",
     ] {
@@ -191,6 +192,7 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         ("0.0 s,30 N\n1,2\n", "x.csv, line 1: 0.0 s,30 N"),
         ("O.0,3O.0\n1,2\n", "x.csv, line 1: O.0,3O.0"),
         ("-,-\n1,2\n", "x.csv, line 1: -,-"),
+        ("# zero,thirty\n1,2\n", "x.csv, line 1: # zero,thirty"),
         ("zero,thirty\n1,2\n", "x.csv, line 1: zero,thirty"),
         ("tau,time\n1,2\n", "x.csv, line 1: tau,time"),
         ("time,time\n1,2\n", "x.csv, line 1: time,time"),

@@ -41,9 +41,9 @@ def _critical(view):
     if not view.critical:
         return Finding("none", f"critical speeds (1×), looked for up to {rpm(highest)}")
     # Modes in two planes of a round machine cross at one speed.
-    speeds = list(dict.fromkeys(rpm(crossing["speed_rad_s"]).removesuffix("\u00a0rpm") for crossing in view.critical))
+    speeds = list(dict.fromkeys(_numbers(view.critical)))
     more = f", the first {MOST} of {len(speeds)}" if len(speeds) > MOST else f", up to {rpm(highest)}"
-    return Finding(" · ".join(speeds[:MOST]) + "\u00a0rpm", f"critical speeds (1×){more}")
+    return Finding(_in_rpm(speeds[:MOST]), f"critical speeds (1×){more}")
 
 
 def _passed(result, view):
@@ -58,22 +58,27 @@ def _passed(result, view):
         # An unbalance goes round forward: it does not drive a mode whose orbits are circles backward, as those of a round machine are.
         is_driven = crossing["sense"] > CIRCLE_BACKWARD
         if away <= max(ratio, linear.NEITHER) * speed and is_driven and 2.0 * ratio * SHARP <= 1.0:
-            where, how = "within" if away <= 0.0 else "next to", "damped"
+            where, how = "within" if away <= 0.0 else "next to", None
             if ratio <= linear.NEITHER:
                 how = "its mode grows by itself" if ratio < -linear.NEITHER else "without damping"
             alike.setdefault((where, how), []).append(crossing)
     for (where, how), crossings in alike.items():
         several = "s" if len(crossings) > 1 else ""
-        if how == "damped":
+        if not how:
             factors = ", ".join(number(0.5 / crossing["damping_ratio"], 2) for crossing in crossings)
             how = f"amplification factor{several} {factors} (from {SHARP} on it counts as critical, API 617)"
         what = f"critical speed{several} {where} the speeds of this run, {_range(spin)}; {how}"
-        yield Finding(_speeds(crossings), what, "bad")
+        yield Finding(_in_rpm(_numbers(crossings)), what, "bad")
 
 
-def _speeds(crossings):
-    """Speeds of crossings in rpm, one after another."""
-    return " · ".join(rpm(crossing["speed_rad_s"]).removesuffix("\u00a0rpm") for crossing in crossings) + "\u00a0rpm"
+def _numbers(crossings):
+    """The speeds of crossings in rpm, without the unit."""
+    return [rpm(crossing["speed_rad_s"]).removesuffix("\u00a0rpm") for crossing in crossings]
+
+
+def _in_rpm(numbers):
+    """One after another, with the unit."""
+    return " · ".join(numbers) + "\u00a0rpm"
 
 
 def _range(spin):
