@@ -14,6 +14,7 @@ mod syntax;
 mod tables;
 mod units;
 mod values;
+mod warnings;
 
 pub use experiment::Experiment;
 pub use input::Input;
@@ -26,6 +27,7 @@ use crate::simulation::ALWAYS_INDICATED;
 use crate::variable::Place;
 use crate::variables::{Parameters, Variable};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// A scene that can be simulated.
@@ -33,6 +35,9 @@ use std::path::{Path, PathBuf};
 pub struct Scene {
     /// Its file.
     pub file: PathBuf,
+    /// What stands in it, and where there each parameter that it names.
+    text: String,
+    places: Vec<(String, Range<usize>)>,
     /// Its name: that of its file.
     pub name: String,
     /// One line on what it shows.
@@ -87,9 +92,17 @@ impl Scene {
 
     /// The scene in this file.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(file);
-        let text = text.map_err(|error| SceneError::of_file(file, format!("it cannot be read: {error}"), ""))?;
-        Self::parse(file, &text)
+        let bytes = std::fs::read(file);
+        let bytes = bytes.map_err(|error| SceneError::of_file(file, format!("it cannot be read: {error}"), ""))?;
+        let text = String::from_utf8_lossy(&bytes);
+        match text.find(char::REPLACEMENT_CHARACTER).filter(|_| std::str::from_utf8(&bytes).is_err()) {
+            None => Self::parse(file, &text),
+            Some(at) => {
+                let place = at..at + char::REPLACEMENT_CHARACTER.len_utf8();
+                let problem = Problem::at(place, "this letter is not written in UTF-8", "save the file as UTF-8");
+                Err(SceneError::of_text(file, &text, vec![problem]))
+            }
+        }
     }
 
     /// The scene in this text; `file` names it.
@@ -99,10 +112,14 @@ impl Scene {
             let right = "the file of a scene has no control characters in its name";
             return Err(SceneError::of_file(file, "this cannot be the name of a model", right));
         }
-        let error = |problems| SceneError { file: file.into(), text: text.to_owned(), problems };
-        let found = reader::read(text, file.parent().unwrap_or(Path::new(""))).map_err(error)?;
+        let (found, mut problems) = reader::read(text, file.parent().unwrap_or(Path::new("")));
+        let Some(found) = found else {
+            return Err(SceneError::of_text(file, text, problems));
+        };
         let mut scene = Self {
             file: file.into(),
+            text: text.to_owned(),
+            places: found.places,
             title: found.title.unwrap_or_else(|| name.clone()),
             name,
             general: found.general,
@@ -118,33 +135,48 @@ impl Scene {
             if has_table { info.indicators_with_table } else { info.indicators }
         });
         scene.indicators = ALWAYS_INDICATED + indicated.sum::<usize>();
-        let place = |invalid: &Invalid| {
-            // A bound on several components, such as |start.gamma|, or on a table is shown at the first that the file names.
-            let name = invalid.variable.trim_matches('|').split(' ').next().unwrap_or_default();
-            found.places.iter().find(|(key, _)| key.starts_with(name)).map(|(_, place)| place.clone())
-        };
-        let mut problems: Vec<_> = scene.invalid().iter().map(|one| Problem::invalid(place(one), one)).collect();
-        problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
-        if problems.is_empty() { Ok(scene) } else { Err(error(problems)) }
+        problems.extend(scene.broken_rules(&found.unsure).iter().map(|one| scene.problem(one)));
+        if problems.is_empty() { Ok(scene) } else { Err(SceneError::of_text(file, text, problems)) }
     }
 
-    /// What does not go together: the first of all, and what is wrong in each effect.
-    fn invalid(&self) -> Vec<Invalid> {
-        let parameters = self.parameters();
-        let mut invalid: Vec<_> = parameters.check().err().into_iter().collect();
-        if !invalid.is_empty() {
-            for block in self.effects.iter().map(|(info, index)| Place::effect_block(info.number, *index)) {
-                let mut alone = Parameters::<All>::default();
-                let is_on = !self.general || self.starts[&Place::switch(block).value_reference()] != 0.0;
-                if is_on {
-                    alone.effects.switch_on(block);
-                }
-                let own = self.starts.iter().filter(|(reference, _)| Place::of(**reference).row != Place::SWITCH);
-                own.for_each(|(reference, value)| _ = alone.begin_with(Place::of(*reference), *value));
-                invalid.extend(alone.effects.check().err().filter(|one| !invalid.contains(one)));
+    /// What is wrong with this scene, shown in its file.
+    pub fn refused(&self, invalid: &Invalid) -> SceneError {
+        SceneError::of_text(&self.file, &self.text, vec![self.problem(invalid)])
+    }
+
+    fn problem(&self, invalid: &Invalid) -> Problem {
+        // A bound on several components, such as |start.gamma|, or on a table is shown at the first that the file names.
+        let name = invalid.variable.trim_matches('|').split(' ').next().unwrap_or_default();
+        let place = self.places.iter().find(|(key, _)| key.starts_with(name)).map(|(_, place)| place.clone());
+        Problem::invalid(place, invalid)
+    }
+
+    /// What does not go together, but for rules that join one of these values.
+    fn broken_rules(&self, unsure: &[String]) -> Vec<Invalid> {
+        let is_on = |(info, index): &&(&Info, u32)| {
+            let switch = Place::switch(Place::effect_block(info.number, *index)).value_reference();
+            !self.general || self.starts[&switch] != 0.0
+        };
+        let on: Vec<_> = self.effects.iter().filter(is_on).collect();
+        // A rule's words name what it joins.
+        let is_sure = |broken: &Invalid| !unsure.iter().any(|name| broken.to_string().contains(name));
+        let mut broken: Vec<_> = self.parameters().broken_rules().filter(is_sure).collect();
+        for (info, index) in on.iter().copied() {
+            if let Some((other, _)) = on.iter().find(|(other, _)| info.excludes.contains(&other.name)) {
+                broken.push(Invalid::excluded(info.switch_name(*index), &other.switch_name(1)));
             }
+            let name = info.block_name(*index);
+            if unsure.iter().any(|unsure| unsure.split_once('.').is_some_and(|(section, _)| section == name)) {
+                continue;
+            }
+            let (mut alone, block) = (Parameters::<All>::default(), Place::effect_block(info.number, *index));
+            alone.effects.switch_on(block);
+            let starts = self.starts.iter().map(|(reference, value)| (Place::of(*reference), *value));
+            let own = starts.filter(|(place, _)| place.block == block && place.row != Place::SWITCH);
+            own.for_each(|(place, value)| _ = alone.begin_with(place, value));
+            broken.extend(alone.effects.check().err());
         }
-        invalid
+        broken
     }
 
     /// The scene's parameters, over the list of all effects.

@@ -393,21 +393,32 @@ impl Setup {
                 row.meta.check(|| row.meta.name.into(), get(self))?;
             }
         }
-        let theta = self.start.gamma.norm();
-        if theta > PI {
-            return Err(Invalid::new("|start.gamma|", theta, format!("at most pi = {PI:?}")));
-        }
-        let Start { phi, v_c, omega, at_rest, .. } = &self.start;
-        if *at_rest && (*v_c != Vector3::zeros() || omega.yz() != Vector2::zeros()) {
-            let reason = "= true and a motion exclude each other: start.v_c, start.omega.y and start.omega.z must be 0";
-            return Err(Invalid { variable: "start.at_rest".into(), reason: reason.into() });
-        }
-        if phi.abs() > LARGEST_PHI {
-            let bound = format!("from -{LARGEST_PHI:?} to {LARGEST_PHI:?}, or its whole turns could not be counted");
-            return Err(Invalid::new("start.phi", *phi, bound));
-        }
-        Ok(())
+        first(self.broken_rules())
     }
+
+    /// What no single bound says.
+    fn broken_rules(&self) -> [Option<Invalid>; 3] {
+        let Start { phi, gamma, v_c, omega, at_rest, .. } = &self.start;
+        let (theta, moves) = (gamma.norm(), *v_c != Vector3::zeros() || omega.yz() != Vector2::zeros());
+        let at_rest_and_moves = || {
+            let reason = "= true and a motion exclude each other: start.v_c, start.omega.y and start.omega.z must be 0";
+            Invalid { variable: "start.at_rest".into(), reason: reason.into() }
+        };
+        let beyond_counting = || {
+            let bound = format!("from -{LARGEST_PHI:?} to {LARGEST_PHI:?}, or its whole turns could not be counted");
+            Invalid::new("start.phi", *phi, bound)
+        };
+        [
+            (theta > PI).then(|| Invalid::new("|start.gamma|", theta, format!("at most pi = {PI:?}"))),
+            (*at_rest && moves).then(at_rest_and_moves),
+            (phi.abs() > LARGEST_PHI).then(beyond_counting),
+        ]
+    }
+}
+
+/// The first that is broken.
+fn first<const RULES: usize>(broken: [Option<Invalid>; RULES]) -> Result<(), Invalid> {
+    broken.into_iter().flatten().next().map_or(Ok(()), Err)
 }
 
 /// The parameters of a scene: those that are always there and those of its effects.
@@ -551,13 +562,26 @@ impl<E: Effects> Parameters<E> {
     pub fn check(&self) -> Result<(), Invalid> {
         self.setup.check()?;
         self.effects.check()?;
+        first(self.broken_rules_of_all())
+    }
+
+    /// What does not go together, whatever else may be wrong with a single value or within an effect.
+    #[cfg(feature = "scenes")]
+    pub(crate) fn broken_rules(&self) -> impl Iterator<Item = Invalid> {
+        let of_start = self.setup.broken_rules().into_iter();
+        of_start.chain(self.broken_rules_of_all()).flatten()
+    }
+
+    /// Of the rules that join effects, those that are broken.
+    fn broken_rules_of_all(&self) -> [Option<Invalid>; 2] {
         let solver = &self.setup.solver;
         let is_symplectic = solver.method_in_force() == numbers::SYMPLECTIC;
-        if is_symplectic && E::FACTS.imposes && self.effects.imposed::<f64>(0.0).is_some() {
+        let imposes = E::FACTS.imposes && self.effects.imposed::<f64>(0.0).is_some();
+        let method = (is_symplectic && imposes).then(|| {
             let bound = "another method: drifts and kicks do not keep an imposed speed";
-            return Err(Invalid::out_of_bound(solver.method_variable(), "symplectic", bound));
-        }
-        self.shape().check()
+            Invalid::out_of_bound(solver.method_variable(), "symplectic", bound)
+        });
+        [method, self.shape().check().err()]
     }
 
     /// The parameters and inputs to blame for an energy at the start that overflows: with moderate values in their place it is

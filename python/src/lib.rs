@@ -40,6 +40,7 @@ fn data(py: Python) -> PyResult<PathBuf> {
 fn failed(error: anyhow::Error) -> PyErr {
     match error.downcast::<PyErr>() {
         Ok(interrupted) => interrupted,
+        Err(error) if error.is::<split_rotor_model::scene::SceneError>() => SceneError::new_err(error.to_string()),
         Err(error) => PyRuntimeError::new_err(format!("{error:#}")),
     }
 }

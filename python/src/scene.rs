@@ -3,7 +3,7 @@
 use crate::{SceneError, data};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt};
-use split_rotor_model::scene::{self, Experiment, Problem, did_you_mean};
+use split_rotor_model::scene::{self, Experiment, did_you_mean};
 use split_rotor_model::variable::Role;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -64,13 +64,7 @@ impl Scene {
         let mut document = self.document()?;
         let all = document.entry("input").or_insert(Item::ArrayOfTables(ArrayOfTables::new()));
         let Some(all) = all.as_array_of_tables_mut() else {
-            let problem = Problem {
-                place: None,
-                wrong: "input is written within a line".into(),
-                right: "write [[input]]".into(),
-                known: String::new(),
-            };
-            return Err(told(self.error(problem)));
+            return Err(told(self.error("input is written within a line", "write [[input]]")));
         };
         for (name, time, value) in inputs {
             all.retain(|input| input.get("name").and_then(Item::as_str) != Some(&name));
@@ -189,16 +183,11 @@ impl Scene {
     fn unknown(&self, name: &str) -> scene::SceneError {
         let names: Vec<_> = self.scene.variables.iter().filter(|it| it.meta.has_start()).map(|it| &*it.name).collect();
         let right = did_you_mean(name, names).unwrap_or_else(|| "`scene.variables` has those that there are".into());
-        self.error(Problem {
-            place: None,
-            wrong: format!("the scene has no parameter `{name}`"),
-            right,
-            known: String::new(),
-        })
+        self.error(&format!("the scene has no parameter `{name}`"), &right)
     }
 
-    fn error(&self, problem: Problem) -> scene::SceneError {
-        scene::SceneError { file: self.scene.file.clone(), text: String::new(), problems: vec![problem] }
+    fn error(&self, wrong: &str, right: &str) -> scene::SceneError {
+        scene::SceneError::of_file(&self.scene.file, wrong, right)
     }
 }
 

@@ -56,7 +56,7 @@ def test_exact_report_holds_its_pictures(report):
 def test_literature_report_finds_the_maximum_of_the_paper(demo, report):
     assert "off its start value by at most 0.0702 %" in demo[1]
     assert "0.0702 % at 2.704 s" in report
-    assert "it holds" in report and "does not hold" not in report
+    assert "at most: less than the" in report and "not less than the" not in report
 
 
 def test_exact_trajectory_stands_at_the_steps_of_the_experiment(demo):

@@ -44,6 +44,7 @@ pub struct Run<'s> {
     references: Vec<u32>,
     values: Vec<f64>,
     course: Course<'s>,
+    scene: &'s Scene,
     grown: Vec<Growth>,
 }
 
@@ -52,7 +53,7 @@ impl<'s> Run<'s> {
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, course: Course::of(scene), grown: Vec::new() }
+        Self { simulation, outputs, references, values, course: Course::of(scene), scene, grown: Vec::new() }
     }
 
     /// What began to grow on the way.
@@ -73,7 +74,8 @@ impl<'s> Run<'s> {
     ) -> Result<()> {
         let Experiment { start, stop, step, tolerance } = *experiment;
         self.course.begin(&mut self.simulation, start).map_err(stuck)?;
-        self.simulation.start_until(start, Some(tolerance), Some(stop))?;
+        let started = self.simulation.start_until(start, Some(tolerance), Some(stop));
+        started.map_err(|invalid| self.scene.refused(&invalid))?;
         self.grown.extend(self.simulation.growth());
         seen(self, start)?;
         let mut from = start;

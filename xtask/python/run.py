@@ -1,6 +1,6 @@
 """Report on a run that is there already.
 
-    python run.py FOLDER [--table NAME] [--linear FILE | --no-linear WHY]
+    python run.py FOLDER [--table NAME] [--solver SECONDS] [--linear FILE | --no-linear WHY]
 
 reads FOLDER/modelDescription.xml and a table there, result.csv by default, with columns `time` and every output by its name, and writes
 FOLDER/report.html. Exit code 1 where they are not such files or the energy does not add up, with the reason on stderr.
@@ -20,10 +20,11 @@ def main():
     parser = argparse.ArgumentParser(description="Report on a run of a scene.")
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="with modelDescription.xml and the table")
     parser.add_argument("--table", default="result.csv", metavar="NAME", help="the table of the run in FOLDER")
+    parser.add_argument("--solver", type=float, metavar="SECONDS", help="CPU time that the run took")
     add_options(parser)
     arguments = parser.parse_args()
     try:
-        result = read(arguments.folder, arguments.table)
+        result = read(arguments.folder, arguments.table, arguments.solver)
     except NotAResult as failure:
         print(f"error: {failure}", file=sys.stderr)
         return 1

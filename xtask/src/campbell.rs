@@ -3,6 +3,7 @@
 mod picture;
 mod turning;
 
+use crate::progress::stage;
 use crate::{scenes, sheets};
 use anyhow::Result;
 use split_rotor_model::linear::{Machine, Obstacle};
@@ -13,10 +14,11 @@ pub use split_rotor_tools::campbell::{ORDERS, STEPS};
 pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64]) -> Result<sheets::Left> {
     let scene = scenes::find(scene)?;
     let machine = Machine::of(&scene.parameters());
-    if let Err(Obstacle::Asymmetric) = machine {
-        eprintln!("The body is not symmetric: its revolutions are followed, which may take a minute ...");
-    }
-    let view = View::of(&scene, &machine, speeds, steps, orders)?;
+    let what = match machine {
+        Err(Obstacle::Asymmetric) => "the body is not symmetric: following its revolutions, which may take a minute",
+        _ => "following the modes",
+    };
+    let view = stage(what, || View::of(&scene, &machine, speeds, steps, orders))?;
     let svg = match &view {
         View::Diagram(diagram) => picture::svg(diagram)?,
         View::Turning(turning) => turning::svg(turning)?,

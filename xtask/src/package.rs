@@ -18,7 +18,7 @@ pub fn package(names: &[String], out: Option<&Path>) -> Result<Vec<PathBuf>> {
 /// Packages them for these platforms, or for all at hand where none is named.
 pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> Result<Vec<PathBuf>> {
     // All scenes are read first: a slip in the last should not cost the time of building the others.
-    let scenes = names.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
+    let scenes = names.iter().map(|name| scenes::find_warned(name)).collect::<Result<Vec<_>>>()?;
     if let Some((first, second)) = same_name(&scenes) {
         bail!("{} and {} would both become {}.fmu", first.file.display(), second.file.display(), first.name);
     }

@@ -11,6 +11,13 @@ pub fn find(name_or_path: &str) -> Result<Scene> {
     Ok(Scene::find(name_or_path, &paths::scenes())?)
 }
 
+/// The scene that the user means, to be run or packaged; what may not be meant is told.
+pub fn find_warned(name_or_path: &str) -> Result<Scene> {
+    let scene = find(name_or_path)?;
+    scene.warnings().iter().for_each(|warning| eprintln!("warning: {}: {warning}", scene.file.display()));
+    Ok(scene)
+}
+
 /// Whether a scene names an adaptive method. The others are too stiff, too fast or too long for the loops of a host in model exchange,
 /// and for differences.
 pub fn is_gentle(scene: &Scene) -> bool {

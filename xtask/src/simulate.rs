@@ -3,8 +3,9 @@
 use crate::numbers::rounded;
 use crate::progress::{Progress, program};
 use crate::{paths, python, report, scenes};
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use cpu_time::ThreadTime;
+use split_rotor_model::error::Invalid;
 use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::simulation::Growth;
 use split_rotor_model::variables::Variable;
@@ -23,30 +24,52 @@ const SEEN: f64 = 1e4;
 /// modelDescription.xml that says what these are. Where a step cannot be done, what was reached is left all the same.
 pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
     let name = scene;
-    let scene = scenes::find(name)?;
+    let scene = scenes::find_warned(name)?;
     let folder = paths::target().join("run").join(&scene.name);
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
-    let table = folder.join("result.csv");
+    let table = folder.join(RESULT);
+    check_size(&scene)?;
     let mut recorded = Recorded::of(&scene);
     let outcome = recorded.record(&scene.experiment, &table);
-    recorded.print(&scene.title)?;
-    println!("  table      {}", table.display());
+    if recorded.print(&scene.title)? {
+        println!("  table      {}", table.display());
+    }
     outcome.with_context(|| scene.file.display().to_string())?;
     if with_report {
         let Experiment { start, stop, step, .. } = scene.experiment;
         let parts = (SEEN * step / (stop - start) * (1.0 - 1e-9)).ceil().max(1.0);
         let often = Experiment { step: step / parts, ..scene.experiment };
-        Recorded::of(&scene).record(&often, &folder.join(SAMPLES))?;
+        let table = if parts > 1.0 { SAMPLES } else { RESULT };
+        if parts > 1.0 {
+            Recorded::of(&scene).record(&often, &folder.join(SAMPLES))?;
+        }
         let view = report::linear_view(name);
         let mut report = python::python()?;
-        report.arg("xtask/python/run.py").arg(&folder).args(["--table", SAMPLES]).args(view);
+        let solver = recorded.solving.as_secs_f64().to_string();
+        report.arg("xtask/python/run.py").arg(&folder).args(["--table", table, "--solver", &solver]).args(view);
         program("making the report", &mut report)?;
     }
     Ok(())
 }
 
-/// What the report is made from.
+/// Nobody means a table of more points than this: some gigabytes.
+const MOST_POINTS: usize = 10_000_000;
+
+fn check_size(scene: &Scene) -> Result<()> {
+    let (Experiment { start, stop, step, .. }, points) = (scene.experiment, run::points(&scene.experiment));
+    let bound = || {
+        format!(
+            "at least {:.1e} s, for a table of {points:.1e} lines is too long to write",
+            (stop - start) / MOST_POINTS as f64
+        )
+    };
+    ensure!(points <= MOST_POINTS, scene.refused(&Invalid::new("experiment.step", step, bound())));
+    Ok(())
+}
+
+/// The run as its experiment has it, and seen more often, which the report is made from where that is too seldom.
+const RESULT: &str = "result.csv";
 const SAMPLES: &str = "samples.csv";
 
 /// A run and what was seen of it.
@@ -92,10 +115,10 @@ impl<'s> Recorded<'s> {
         Self { watched: watched(&outputs), run: Run::of(scene, outputs), solving: Duration::ZERO }
     }
 
-    /// Prints what came of it.
-    fn print(&mut self, title: &str) -> Result<()> {
+    /// Prints what came of it, if it began.
+    fn print(&mut self, title: &str) -> Result<bool> {
+        let Some(t) = self.run.simulation.time() else { return Ok(false) };
         println!("{title}");
-        let Some(t) = self.run.simulation.time() else { return Ok(()) };
         println!("  time       up to {t} s, {:.3} s of CPU time for it", self.solving.as_secs_f64());
         let method = self.run.method();
         let cost = self.run.simulation.read()?.cost;
@@ -119,7 +142,7 @@ impl<'s> Recorded<'s> {
                 rounded(*t)
             );
         }
-        Ok(())
+        Ok(true)
     }
 }
 

@@ -1,10 +1,13 @@
 //! The points of an input from a CSV: a time and a value in each line, below a line that may name the columns and their units.
 
+use super::input::DESCENDS;
 use super::number::brackets;
+use super::problem::{Line, Problem};
 use super::units;
 use crate::variable::Role;
 use crate::variable::units::{SECOND, Unit};
 use crate::variables::Variable;
+use std::ops::Range;
 use std::path::Path;
 
 /// What the column of times is called.
@@ -16,37 +19,80 @@ struct Column<'l> {
     written: Option<&'l str>,
 }
 
-/// What is wrong, and what would be right.
-type Wrong = (String, String);
+/// So many lines of a file are told; of a file of another kind every line is wrong.
+const MOST_TOLD: usize = 3;
 
-/// The times \[s] and values of this variable, one of `variables`.
-pub(super) fn points(file: &Path, variable: &Variable, variables: &[Variable]) -> Result<(Vec<f64>, Vec<f64>), Wrong> {
-    if !file.is_file() {
-        let wrong = if file.is_dir() { " is a folder" } else { " is not there" };
-        return Err((wrong.into(), "the path counts from the folder of the scene".into()));
+/// What a line must be.
+const POINT: &str = "a line has a time in s and a value, two finite numbers with a comma between them";
+
+/// The times \[s] and values of a variable.
+type Points = (Vec<f64>, Vec<f64>);
+
+/// A file that a scene names.
+pub(super) struct Csv<'f> {
+    /// Where it is, and how and where the scene names it.
+    pub path: &'f Path,
+    pub name: &'f str,
+    pub place: Range<usize>,
+}
+
+impl Csv<'_> {
+    /// The points of this variable, one of `variables`; else what is wrong with the file.
+    pub fn points(&self, variable: &Variable, variables: &[Variable]) -> Result<Points, Vec<Problem>> {
+        let whole =
+            |wrong: &str, right: &str| vec![Problem::at(self.place.clone(), format!("{} {wrong}", self.name), right)];
+        if !self.path.is_file() {
+            let wrong = if self.path.is_dir() { "is a folder" } else { "is not there" };
+            return Err(whole(wrong, "the path counts from the folder of the scene"));
+        }
+        let bytes = std::fs::read(self.path).map_err(|error| whole(&format!("cannot be read: {error}"), ""))?;
+        let text = String::from_utf8_lossy(&bytes);
+        // Spreadsheets begin with a mark of the order of bytes.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).peekable();
+        let mut columns = [&SECOND, variable.meta.unit].map(|unit| Column { unit, written: None });
+        if let Some((number, line)) = lines.next_if(|(_, line)| names(line)) {
+            let named = columns_of(line, variable, variables);
+            columns = named.map_err(|right| vec![self.at((number, line), "does not name the columns", &right)])?;
+        }
+        let (mut points, mut wrong, mut latest) = (Vec::new(), Vec::new(), f64::NEG_INFINITY);
+        for line in lines {
+            match point(line.1, &columns) {
+                Some((time, _)) if time < latest => wrong.push((line, format!("comes after {latest:?} s"), DESCENDS)),
+                Some((time, value)) => {
+                    latest = time;
+                    points.push((time, value));
+                }
+                None => wrong.push((line, "is no point".into(), POINT)),
+            }
+        }
+        if points.is_empty() && wrong.is_empty() {
+            return Err(whole("has no points", "give a time in s and a value in each line"));
+        }
+        if wrong.is_empty() {
+            return Ok(points.into_iter().unzip());
+        }
+        let mut told: Vec<_> =
+            wrong.iter().take(MOST_TOLD).map(|(line, is, right)| self.at(*line, is, right)).collect();
+        let rest = wrong.len() - told.len();
+        if let Some(last) = told.last_mut().filter(|_| rest > 0) {
+            last.known = format!("{rest} more lines of {} are wrong", self.name);
+        }
+        Err(told)
     }
-    let text = std::fs::read_to_string(file).map_err(|error| (format!(" cannot be read: {error}"), String::new()))?;
-    // Spreadsheets begin with a mark of the order of bytes.
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let at = |number: usize, line: &str| format!(", line {number}: {line}");
-    let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).peekable();
-    let mut columns = [&SECOND, variable.meta.unit].map(|unit| Column { unit, written: None });
-    if let Some((number, line)) = lines.next_if(|(_, line)| names(line)) {
-        columns = columns_of(line, variable, variables).map_err(|right| (at(number, line), right))?;
+
+    /// What a line is, and what would be right.
+    fn at(&self, (number, text): (usize, &str), is: &str, right: &str) -> Problem {
+        let line = Line { file: self.name.to_owned(), number, text: text.to_owned() };
+        let problem = Problem::at(self.place.clone(), format!("line {number} of {} {is}", self.name), right);
+        Problem { line: Some(line), ..problem }
     }
-    let point = |line: &str| {
-        let (time, value) = line.split_once(',')?;
-        Some((columns[0].number(time)?, columns[1].number(value)?))
-    };
-    let points = lines.map(|(number, line)| {
-        let right = "a line has a time in s and a value, two finite numbers with a comma between them";
-        point(line).ok_or_else(|| (at(number, line), right.to_owned()))
-    });
-    let points = points.collect::<Result<Vec<_>, _>>()?;
-    if points.is_empty() {
-        return Err((" has no points".into(), "give a time in s and a value in each line".into()));
-    }
-    Ok(points.into_iter().unzip())
+}
+
+/// The time and value in a line.
+fn point(line: &str, columns: &[Column; 2]) -> Option<(f64, f64)> {
+    let (time, value) = line.split_once(',')?;
+    Some((columns[0].number(time)?, columns[1].number(value)?))
 }
 
 /// Whether a line names columns: what begins as a number is meant to be one.

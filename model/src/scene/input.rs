@@ -1,9 +1,11 @@
 //! `[[input]]`: an input over time, from the file of the scene or from a CSV beside it.
 
-use super::csv::points;
+use super::csv::Csv;
 use super::problem::Problem;
 use super::reader::{Reader, Value};
-use super::similar::did_you_mean;
+use super::similar::{did_you_mean, similar};
+use super::values::heading;
+use crate::effects;
 use crate::variable::Role;
 use crate::variable::units::{SECOND, Unit};
 use crate::variables::Variable;
@@ -12,6 +14,7 @@ use toml::de::DeTable;
 
 /// The key of the section in the file, and its keys.
 pub(super) const SECTION: &str = "input";
+pub(super) const DESCENDS: &str = "times must not descend";
 const KEYS: [&str; 4] = ["name", "time", "value", "file"];
 
 /// An input over time: linear between its points, held before and after them.
@@ -74,7 +77,12 @@ impl Reader<'_> {
             let name = format!("{section}.{}", key.get_ref());
             self.problems.push(Problem::unknown(key.span(), "key", &name, &KEYS, known));
         }
+        let is_misspelt = |key: &str| {
+            let mut unknown = table.keys().filter(|one| !KEYS.contains(&one.get_ref().as_ref()));
+            unknown.any(|one| similar(one.get_ref(), KEYS) == [key])
+        };
         let variable = match table.get("name") {
+            None if is_misspelt("name") => None,
             None => self.missing(whole, "an input without a name", "give `name = ...`, such as \"drive.tau\""),
             Some(name) => self.variable(name, section, variables),
         };
@@ -86,6 +94,7 @@ impl Reader<'_> {
                 let values = unit.and_then(|unit| self.numbers(value, unit, &format!("{section}.value")));
                 times.zip(values).map(|(times, values)| (times, values, self.place(time)))
             }
+            _ if ["time", "value", "file"].into_iter().any(is_misspelt) => None,
             _ => self.missing(
                 whole,
                 "an input has either times and values or a file",
@@ -98,7 +107,7 @@ impl Reader<'_> {
             self.problems.push(Problem::at(place.clone(), wrong, "there must be as many of both, at least one"));
         } else if let Some(n) = (1..time.len()).find(|n| time[*n] < time[n - 1]) {
             let wrong = format!("{section}: the time {:?} s comes after {:?} s", time[n], time[n - 1]);
-            self.problems.push(Problem::at(place, wrong, "times must not descend"));
+            self.problems.push(Problem::at(place, wrong, DESCENDS));
         }
         let name = variable?.name.clone();
         (self.problems.len() == before).then_some(Input { name, time, value })
@@ -119,10 +128,14 @@ impl Reader<'_> {
         if found.is_none() {
             let names: Vec<_> = inputs().map(|variable| &*variable.name).collect();
             let known = match &names[..] {
-                [] => "the effects of this scene have no inputs".into(),
+                [] => "the effects of this scene have no inputs".to_owned(),
                 names => format!("the inputs are {}", names.join(", ")),
             };
-            let right = did_you_mean(name, names.iter().copied()).unwrap_or_default();
+            let block = name.split(['.', '[']).next().unwrap_or(name);
+            let missing = || Some(format!("call for {}", heading(&effects::named(block)?.switch_name(1))));
+            let is_there = variables.iter().any(|variable| variable.name.split(['.', '[']).next() == Some(block));
+            let missing = if is_there { None } else { missing() };
+            let right = missing.or_else(|| did_you_mean(name, names.iter().copied())).unwrap_or_default();
             let problem = Problem::at(self.place(value), format!("unknown input `{name}`"), right);
             self.problems.push(Problem { known, ..problem });
         }
@@ -158,13 +171,9 @@ impl Reader<'_> {
             return self.wrong_type(value, &format!("{section}.file"), "the path of a CSV in quotes");
         };
         let place = self.place(value);
-        match points(&self.folder.join(name), variable, variables) {
-            Ok((times, values)) => Some((times, values, place)),
-            Err((wrong, right)) => {
-                self.problems.push(Problem::at(place, format!("{name}{wrong}"), right));
-                None
-            }
-        }
+        let csv = Csv { path: &self.folder.join(name), name, place: place.clone() };
+        let points = csv.points(variable, variables).map_err(|wrong| self.problems.extend(wrong)).ok()?;
+        Some((points.0, points.1, place))
     }
 }
 

@@ -29,6 +29,19 @@ pub struct Problem {
     pub right: String,
     /// What there is to choose from; empty where nothing is to be chosen.
     pub known: String,
+    /// The line of a file beside the scene's that is to blame; `place` is where the scene names that file.
+    pub line: Option<Line>,
+}
+
+/// A line of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// The file, as the scene names it.
+    pub file: String,
+    /// Counted from 1.
+    pub number: usize,
+    /// What stands there.
+    pub text: String,
 }
 
 impl Problem {
@@ -38,8 +51,8 @@ impl Problem {
     }
 
     /// With the file as a whole.
-    pub(super) fn of_file(wrong: impl Into<String>, right: impl Into<String>) -> Self {
-        Self { place: None, wrong: wrong.into(), right: right.into(), known: String::new() }
+    pub fn of_file(wrong: impl Into<String>, right: impl Into<String>) -> Self {
+        Self { place: None, wrong: wrong.into(), right: right.into(), known: String::new(), line: None }
     }
 
     /// The last part of a dotted name is none of these; `known` says which there are.
@@ -65,20 +78,28 @@ impl Problem {
     fn group<'p>(&'p self, path: &'p str, text: &'p str) -> Group<'p> {
         let title = Level::ERROR.primary_title(&self.wrong);
         let help = |words: &'p str| (!words.is_empty()).then(|| Level::HELP.message(words));
-        let group = match &self.place {
-            None => title.element(Origin::path(path)).elements(help(&self.right)),
-            Some(place) => {
-                let mark = AnnotationKind::Primary.span(place.clone()).label(&self.right);
-                title.element(Snippet::source(text).path(path).annotation(mark))
+        let mark = |place: Range<usize>| AnnotationKind::Primary.span(place).label(&self.right);
+        let group = match (&self.line, &self.place) {
+            (Some(Line { file, number, text }), _) => {
+                let excerpt = Snippet::source(text.as_str()).line_start(*number).path(file.as_str());
+                title.element(excerpt.annotation(mark(0..text.len())))
             }
+            (None, None) => title.element(Origin::path(path)).elements(help(&self.right)),
+            (None, Some(place)) => title.element(Snippet::source(text).path(path).annotation(mark(place.clone()))),
         };
         group.elements(help(&self.known))
     }
 }
 
 impl SceneError {
+    /// With this text of a file, told in its order.
+    pub(super) fn of_text(file: &Path, text: &str, mut problems: Vec<Problem>) -> Self {
+        problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
+        Self { file: file.into(), text: text.to_owned(), problems }
+    }
+
     /// With a file as a whole.
-    pub(super) fn of_file(file: &Path, wrong: impl Into<String>, right: impl Into<String>) -> Self {
+    pub fn of_file(file: &Path, wrong: impl Into<String>, right: impl Into<String>) -> Self {
         Self { file: file.into(), text: String::new(), problems: vec![Problem::of_file(wrong, right)] }
     }
 }

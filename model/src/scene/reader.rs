@@ -31,6 +31,8 @@ pub(super) struct Found {
     pub inputs: Vec<Input>,
     /// Where the file gives each parameter that it names.
     pub places: Vec<(String, Range<usize>)>,
+    /// The names of parameters whose values are not as the file means them: refused, misspelt or missing.
+    pub unsure: Vec<String>,
 }
 
 /// How many of a kind a general scene has at least.
@@ -47,8 +49,8 @@ fn every_effect(called: &[(&Info, u32)]) -> Vec<(&'static Info, u32)> {
 pub(super) const SECTIONS: [&str; 8] =
     ["title", "general", "rotor", "start", "effects", "solver", "experiment", input::SECTION];
 
-/// Reads a scene whose file is in this folder; else what is wrong with it, in the order of the file.
-pub(super) fn read(text: &str, folder: &Path) -> Result<Found, Vec<Problem>> {
+/// Reads a scene whose file is in this folder, as far as it can be read, and what is wrong with it.
+pub(super) fn read(text: &str, folder: &Path) -> (Option<Found>, Vec<Problem>) {
     let (root, errors) = DeTable::parse_recoverable(text);
     let (mut problems, rest_is_sound) = syntax::problems(text, &errors);
     let mut reader = Reader { text, folder, problems: Vec::new() };
@@ -60,8 +62,7 @@ pub(super) fn read(text: &str, folder: &Path) -> Result<Found, Vec<Problem>> {
         !line.is_some_and(|line| problems.iter().any(|problem| syntax::within(problem, &line)))
     });
     problems.append(&mut others);
-    problems.sort_by_key(|problem| problem.place.as_ref().map_or(usize::MAX, |place| place.start));
-    found.filter(|_| problems.is_empty()).ok_or(problems)
+    (found, problems)
 }
 
 /// Reads on where something is wrong, and remembers what.
@@ -116,7 +117,8 @@ impl Reader<'_> {
         values.take_moments();
         self.nothing_missing(&values, &headings);
         self.problems.extend(values.columns.problems());
-        let Values { mut starts, places, columns, .. } = values;
+        let unsure = values.unsure();
+        let Values { mut starts, mut places, columns, .. } = values;
         let is_there = |variable: &Variable| columns.hold(variable);
         variables.iter().filter(|variable| !is_there(variable)).for_each(|variable| {
             starts.remove(&variable.place.value_reference());
@@ -124,9 +126,9 @@ impl Reader<'_> {
         variables.retain(is_there);
         let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
         let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
-        let experiment = self.experiment(root.get("experiment"), tolerance);
+        let experiment = self.experiment(root.get("experiment"), tolerance, &mut places);
         let inputs = self.inputs(root, &variables);
-        Found { title, general, effects, variables, starts, experiment, inputs, places }
+        Found { title, general, effects, variables, starts, experiment, inputs, places, unsure }
     }
 
     fn title(&mut self, value: &Value) -> Option<String> {
@@ -259,13 +261,19 @@ impl Reader<'_> {
         values.moments.push(Moment { block: block.to_owned(), value: number, place });
     }
 
-    fn experiment(&mut self, value: Option<&Value>, tolerance: f64) -> Experiment {
+    fn experiment(
+        &mut self,
+        value: Option<&Value>,
+        tolerance: f64,
+        places: &mut Vec<(String, Range<usize>)>,
+    ) -> Experiment {
         let mut given = [const { None }; experiment::KEYS.len()];
         for (key, value) in value.and_then(|value| self.table(value, "experiment")).into_iter().flatten() {
             let name = key.get_ref().as_ref();
             if let Some(n) = experiment::KEYS.iter().position(|known| known.name == name) {
-                let number = self.real(value, experiment::KEYS[n].unit, &format!("experiment.{name}"));
-                given[n] = number.map(|number| (number, value));
+                let name = format!("experiment.{name}");
+                given[n] = self.real(value, experiment::KEYS[n].unit, &name).map(|number| (number, value));
+                places.push((name, self.place(value)));
             } else {
                 let known = experiment::KEYS.map(|known| known.name);
                 let list = format!("[experiment] knows {}", known.join(", "));

@@ -48,6 +48,16 @@ impl<'v> Values<'v> {
         self.starts.get(&reference).copied().filter(|_| !self.refused.contains(&reference))
     }
 
+    /// The names of those whose values are not as the file means them: refused, misspelt or missing.
+    pub(super) fn unsure(&self) -> Vec<String> {
+        let is_unsure = |variable: &&Variable| {
+            let reference = variable.place.value_reference();
+            let is_meant = self.meant.iter().any(|meant| variable.name.starts_with(&**meant));
+            self.refused.contains(&reference) || !self.starts.contains_key(&reference) || is_meant
+        };
+        self.settable().filter(is_unsure).map(|variable| variable.name.clone()).collect()
+    }
+
     /// Gives the variable of this name its value, None where that is not possible; `place` is that in the file.
     pub(super) fn give(&mut self, name: &str, value: Option<f64>, place: Range<usize>) {
         let Some(variable) = self.find(name) else { return };

@@ -127,7 +127,35 @@ const CASES: &[Case] = &[
         )],
     ),
     ("what_excludes_each_other", &[(MORE, "[effects.drive]\n[effects.imposed_speed]\n[solver]")]),
+    // What joins several keys is told beside what is wrong with one, unless that is one of them.
+    (
+        "rules_beside_slips",
+        &[
+            ("m = 5.0", "m = -5.0"),
+            ("Jt = 0.078125", "Jt = 0.05"),
+            ("[start]", "[start]\nat_rest = true\nv_c = { y = 1.0 }\ngamma = { y = 3.0, z = 4.0 }"),
+            ("c1 = 2000.0", "c1 = \"2 kg\""),
+            ("step =", "stpe ="),
+            (
+                MORE,
+                "[effects.drive]\n[effects.imposed_speed]\n[[effects.unbalance]]\nmoment = \"40 g mm\"\nmass = 1.0\nposition = 0.0\n[solver]",
+            ),
+        ],
+    ),
+    ("no_rule_on_a_slip", &[("Ja = 0.15625", "Ja = \"1 kg\""), ("Jt = 0.078125", "Jt = -1.0")]),
+    (
+        "slips_in_one_table",
+        &[(
+            MORE,
+            "[[effects.bearing]]\nposition = 0.0\nspeed = [0, 2, 2]\nkyy = [1, 2]\nkzz = [1, 2, 3]\nkxx = [1, nan, 2]\n\
+             [[effects.bearing]]\nposition = 0.0\nspeed = [0, 2, 2]\nkyy = [1, 2]\n[solver]",
+        )],
+    ),
     // Inputs.
+    (
+        "misspelt_name_of_an_input",
+        &[(MORE, "[effects.drive]\n[[input]]\nnam = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[solver]")],
+    ),
     ("inputs_of_nobody", &[("[experiment]", "[[input]]\nname = \"drive.tau\"\ntime = [0]\nvalue = [1]\n[experiment]")]),
     (
         "inputs",

@@ -181,31 +181,47 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
         assert_eq!(parse("file = \"x.csv\"").expect("a scene"), told);
     }
+    let columns = "line 1 of x.csv does not name the columns";
     for (csv, wrong) in [
-        ("t,x\n0,1\n1\n", "x.csv, line 3: 1"),
-        ("0,1\n1,nan\n", "x.csv, line 2: 1,nan"),
+        ("t,x\n0,1\n1\n", "line 3 of x.csv is no point"),
+        ("0,1\n1,nan\n", "line 2 of x.csv is no point"),
+        ("0,1\n2,1\n1,1\n", "line 3 of x.csv comes after 2.0 s"),
         ("", "x.csv has no points"),
         ("time,tau\n", "x.csv has no points"),
         // What is no point is not taken for the names of columns, and names must be those that are meant.
-        ("0;30\n1,2\n", "x.csv, line 1: 0;30"),
-        ("0 30\n1,2\n", "x.csv, line 1: 0 30"),
-        ("0.0 s,30 N\n1,2\n", "x.csv, line 1: 0.0 s,30 N"),
-        ("O.0,3O.0\n1,2\n", "x.csv, line 1: O.0,3O.0"),
-        ("-,-\n1,2\n", "x.csv, line 1: -,-"),
-        ("# zero,thirty\n1,2\n", "x.csv, line 1: # zero,thirty"),
-        ("zero,thirty\n1,2\n", "x.csv, line 1: zero,thirty"),
-        ("tau,time\n1,2\n", "x.csv, line 1: tau,time"),
-        ("time,time\n1,2\n", "x.csv, line 1: time,time"),
-        ("time,turns\n1,2\n", "x.csv, line 1: time,turns"),
-        ("time,tau,speed\n1,2\n", "x.csv, line 1: time,tau,speed"),
-        ("time [m],tau\n1,2\n", "x.csv, line 1: time [m],tau"),
-        ("time,tau [N]\n1,2\n", "x.csv, line 1: time,tau [N]"),
-        ("time,tau [ ]\n1,2\n", "x.csv, line 1: time,tau [ ]"),
+        ("0;30\n1,2\n", "line 1 of x.csv is no point"),
+        ("0 30\n1,2\n", "line 1 of x.csv is no point"),
+        ("0.0 s,30 N\n1,2\n", "line 1 of x.csv is no point"),
+        ("-,-\n1,2\n", "line 1 of x.csv is no point"),
+        ("O.0,3O.0\n1,2\n", columns),
+        ("# zero,thirty\n1,2\n", columns),
+        ("zero,thirty\n1,2\n", columns),
+        ("tau,time\n1,2\n", columns),
+        ("time,time\n1,2\n", columns),
+        ("time,turns\n1,2\n", columns),
+        ("time,tau,speed\n1,2\n", columns),
+        ("time [m],tau\n1,2\n", columns),
+        ("time,tau [N]\n1,2\n", columns),
+        ("time,tau [ ]\n1,2\n", columns),
     ] {
         std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
-        let problems = parse("file = \"x.csv\"").expect_err(csv).problems;
-        assert!(problems[0].wrong.starts_with(wrong), "{problems:?}");
+        let error = parse("file = \"x.csv\"").expect_err(csv);
+        assert_eq!(error.problems[0].wrong, wrong, "{csv}");
+        // Its excerpt is that of the CSV.
+        let line = error.problems[0].line.as_ref().map(|line| csv.lines().nth(line.number - 1));
+        assert!(line.flatten().is_none_or(|line| error.to_string().contains(&format!("| {line}\n"))), "{error}");
     }
+    // All lines at once, unless they are many.
+    std::fs::write(folder.join("x.csv"), "0;1\n1,1\n2;1\n3;1\n4;1\n5,a\n").expect("the folder can be written");
+    let error = parse("file = \"x.csv\"").expect_err("no points").to_string();
+    for told in ["x.csv:1:1", "x.csv:3:1", "x.csv:4:1", "2 more lines of x.csv are wrong"] {
+        assert!(error.contains(told), "{told}: {error}");
+    }
+    // Another encoding than UTF-8.
+    let file = folder.join("latin.toml");
+    std::fs::write(&file, [b"title = \"".as_slice(), b"Kr\xfcmmung\"\n"].concat()).expect("the folder can be written");
+    let error = Scene::read(&file).expect_err("no UTF-8").to_string();
+    assert!(error.contains("latin.toml:1:12") && error.contains("save the file as UTF-8"), "{error}");
     std::fs::remove_dir_all(&folder).expect("it is there");
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Diagram, number};
 use crate::numbers::{SHOWN, rounded, rpm, spread};
-use split_rotor_model::linear::{Branch, Crossing, Mode};
+use split_rotor_model::linear::{Branch, Crossing, Direction, Mode};
 use std::fmt::Write;
 
 /// All of it, in Markdown.
@@ -28,6 +28,13 @@ fn critical_speeds(diagram: &Diagram, text: &mut String) {
         let (number, direction, ratio) = (number(*branch), mode.direction.name(), ratio(mode, 4));
         let (speed, rpm) = (rounded(*speed), rounded(rpm(*speed)));
         let _ = writeln!(text, "| {speed} | {rpm} | {order}X | {number} | {direction} | {ratio:.4} |");
+    }
+    if diagram
+        .critical
+        .iter()
+        .any(|(_, speeds)| speeds.iter().any(|crossing| crossing.mode.direction == Direction::Axial))
+    {
+        *text += "\nAn unbalance does not drive a mode along the axis.\n";
     }
     *text += "\n";
 }

@@ -28,7 +28,7 @@ def spin(result, view):
     if scene.identifier == paper.IDENTIFIER:
         bound = np.full(len(spin), paper.SPIN_BOUND)
         sides = (("+", bound), ("−", -bound))
-        curves += [curve(f"the paper: {sign}{paper.SPIN_BOUND:g} %", side, "orange", dash=True) for sign, side in sides]
+        curves += [curve(f"the paper: {sign}{paper.SPIN_BOUND:g} %", side, "orange", dash=1) for sign, side in sides]
     quantity_ = "ω<sub>φ</sub>/ω<sub>φ</sub>(0) − 1" if deviation.unit == "%" else "ω<sub>φ</sub> − ω<sub>φ</sub>(0)"
     caption = Markup(
         f"The axial rate ω<sub>φ</sub> = dφ/dt beside its start value, {quantity_}; at its largest "

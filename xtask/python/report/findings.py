@@ -168,12 +168,13 @@ def _time(result):
     if result.timings is None:
         return None
     spent = result.timings
-    return Finding(quantity(spent.solver, "s"), f"CPU time of the solver, of {quantity(spent.total, 's')} with fmpy’s own work")
+    more = f", of {quantity(spent.total, 's')} with fmpy’s own work" if spent.total else f" for {number(result.scene.stop - result.scene.start)}\u00a0s"
+    return Finding(quantity(spent.solver, "s"), f"CPU time of the solver{more}")
 
 
 def _energy(result):
     balance = measure.energy_balance(result.columns, result.scene.relative_tolerance)
-    bound = f"energy residual, of {quantity(balance.turnover, 'J')} in play; bound {quantity(balance.bound, 'J')}: "
-    if balance.holds:
-        return Finding(quantity(balance.residual, "J"), bound + "it holds", "good")
-    return Finding(quantity(balance.residual, "J"), bound + "it does not hold", "bad")
+    bound, moved = quantity(balance.bound, "J"), quantity(balance.turnover, "J")
+    kept, judged = ("less", "good") if balance.holds else ("not less", "bad")
+    what = f"energy that does not add up, at most: {kept} than the {bound} that the tolerance allows where {moved} moves"
+    return Finding(quantity(balance.residual, "J"), what, judged)

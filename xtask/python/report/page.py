@@ -74,8 +74,9 @@ def _costs(result):
         ("sum of the local error estimates", number(last["solver.error_estimate"], 2), ""),
     ]
     if spent:
+        rows.append(("CPU time of the solver", number(spent.solver, 2), "s"))
+    if spent and spent.total:
         rows += [
-            ("CPU time within fmi2DoStep", number(spent.solver, 2), "s"),
             ("CPU time of the whole run, fmpy’s own work included", number(spent.total, 2), "s"),
             ("wall time of the whole run", number(spent.wall, 2), "s"),
             ("simulated time over wall time", number((scene.stop - scene.start) / spent.wall, 3), ""),

@@ -5,6 +5,7 @@ to show there. A panel is a dictionary of `kind` (how the page draws it: web/<ki
 """
 
 import math
+from collections import Counter
 
 import numpy as np
 
@@ -38,19 +39,20 @@ def _campbell(result, view):
         return None
     speeds = np.unique([row["speed_rad_s"] for row in view.modes])
     frequencies, decrements = [], []
-    colours = {"forward": "blue", "backward": "orange"}
+    colours, of_colour = {"forward": "blue", "backward": "orange"}, Counter()
     for number_, rows in view.branches():
         names = [row["direction"] for row in rows]
         name = max(set(names), key=names.count)
-        colour = colours.get(name, "green")
-        label = f"{number_} {name}"
+        colour, label = colours.get(name, "green"), f"{number_} {name}"
+        dash = of_colour[colour]
+        of_colour[colour] += 1
         at = np.searchsorted(speeds, [row["speed_rad_s"] for row in rows])
         frequency, decrement = np.full(len(speeds), np.nan), np.full(len(speeds), np.nan)
         frequency[at] = [abs(row["frequency_rad_s"]) / math.tau for row in rows]
         decrement[at] = [linear.decrement(row["damping_ratio"]) for row in rows]
-        frequencies.append(curve(label, frequency, colour))
-        decrements.append(curve(label, np.where(np.abs(decrement) <= MOST_DAMPED, decrement, np.nan), colour))
-    frequencies.append(curve("1×", speeds / math.tau, "muted", dash=True))
+        frequencies.append(curve(label, frequency, colour, dash=dash))
+        decrements.append(curve(label, np.where(np.abs(decrement) <= MOST_DAMPED, decrement, np.nan), colour, dash=dash))
+    frequencies.append(curve("1×", speeds / math.tau, "muted", dash=1))
     critical = [crossing["speed_rad_s"] for crossing in view.critical]
     marks = [{"x": speed * RPM, "y": speed / math.tau} for speed in critical]
     plots = [("frequency [Hz]", frequencies, {"marks": marks})]
@@ -104,7 +106,7 @@ def _energy(result, view):
         unit, size = multiple(largest, "J")
         # One may hide another: what lies below is wide, what lies above is dashed.
         colours = {"kinetic": "blue", "potential": "orange", "total": "text"}
-        styles = {"total": {"dash": True}, "work supplied − lost": {"width": 5}}
+        styles = {"total": {"dash": 1}, "work supplied − lost": {"width": 5}}
         curves = [curve(n, c / size, colours.get(n, "purple"), **styles.get(n, {})) for n, c in changes.items()]
         plots.append((f"change [{unit}]", curves, {}))
     residual = columns["energy.residual"]

@@ -7,7 +7,7 @@ COLOURS = ("blue", "orange", "green", "purple")
 
 
 def curve(label, values, colour, **style):
-    """A curve of `lines`; `style`: dash, points, width."""
+    """A curve of `lines`; `style`: dash (0 to 2), points, width."""
     return {"label": label, "values": values, "colour": colour, **style}
 
 

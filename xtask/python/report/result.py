@@ -18,10 +18,10 @@ class Timings:
     """What a run took [s]."""
 
     solver: float
-    """CPU time within fmi2DoStep."""
-    total: float
-    """CPU time from the set-up of the experiment to its end, the host's own work included."""
-    wall: float
+    """CPU time of the solver: in fmpy, that within fmi2DoStep."""
+    total: float | None = None
+    """CPU time from the set-up of the experiment to its end, the host's own work included; None without a host."""
+    wall: float | None = None
     """Wall time of the same."""
 
 
@@ -49,8 +49,8 @@ class Result:
         return self.columns[np.union1d(np.arange(0, len(time), stride), len(time) - 1)]
 
 
-def read(folder, table="result.csv"):
-    """The run in `folder`: its modelDescription.xml and its `table`, `time` and a column an output."""
+def read(folder, table="result.csv", solver=None):
+    """The run in `folder`: its modelDescription.xml and its `table`, `time` and a column an output; `solver` is the CPU time it took [s]."""
     try:
         scene = Scene.of(read_model_description(str(folder / "modelDescription.xml")))
         with (folder / table).open(encoding="utf-8", newline="") as file:
@@ -63,4 +63,5 @@ def read(folder, table="result.csv"):
         raise NotAResult(f"{folder / table}: no column {', '.join(sorted(missing))}")
     if len(values) < 2 or any(len(row) != len(names) for row in values):
         raise NotAResult(f"{folder / table}: at least two rows are needed, all as long as the header")
-    return Result(scene, np.array(values, dtype=[(name, float) for name in names]), "without an FMU, by cargo xtask run")
+    columns = np.array(values, dtype=[(name, float) for name in names])
+    return Result(scene, columns, "without an FMU, by cargo xtask run", None if solver is None else Timings(solver))

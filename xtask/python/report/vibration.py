@@ -102,8 +102,8 @@ def waterfall(result, view):
     return {
         "kind": "waterfall",
         "title": f"Waterfall, {station.name}",
-        "caption": f"Amplitudes of whirls, forward above and backward below 0 Hz; the brightest is {number(amplitude.max() / size, 3)} "
-        f"{unit}, black 60 dB below. Dashed: once and twice a turn.",
+        "caption": "Amplitudes of whirls, forward above and backward below 0 Hz. Dashed: once and twice a turn.",
+        "loudest": f"{number(amplitude.max() / size, 3)}\u00a0{unit}",
         "x": [float(times[0]), float(times[-1])],
         "y": float(frequencies[-1]),
         "levels": np.round(decibels + 60.0).astype(int).tolist(),

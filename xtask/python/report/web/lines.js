@@ -23,9 +23,12 @@ drawnBy.lines = (box, panel) => {
   };
 };
 
-function style({ colour: name, dash, points = false, width = 1.25 }) {
-  const stroke = colour(name);
-  return { stroke, width, pxAlign: 0, dash: dash && [6, 4], points: { show: points, size: 4, fill: stroke, stroke } };
+// How curves are dashed, and how their legend shows it.
+const DASHES = [[undefined, "solid"], [[6, 4], "dashed"], [[2, 3], "dotted"]];
+
+function style({ colour: name, dash: number = 0, points = false, width = 1.25 }) {
+  const [stroke, [dash, marker]] = [colour(name), DASHES[number % DASHES.length]];
+  return { stroke, width, pxAlign: 0, dash, marker, points: { show: points, size: 4, fill: stroke, stroke } };
 }
 
 // A dashed line across the plane, at an x with its name or at a y.

@@ -18,7 +18,7 @@ function plot(box, data, { x, y, width = box.clientWidth, height, series, scales
     series,
     scales: { x: { time: false, ...scales.x }, y: scales.y },
     cursor: cursor ?? { show: false },
-    legend: { live, show: series.length > 2 || live, markers: { width: 3 } },
+    legend: { live, show: series.length > 2 || live, markers: { width: 3, dash: (_, i) => series[i].marker ?? "solid" } },
     hooks,
   }, data, box);
 }

@@ -29,6 +29,10 @@ drawnBy.waterfall = (box, panel) => {
         })],
       },
     });
+    const scale = box.appendChild(Object.assign(document.createElement("div"), { className: "scale" }));
+    const ramp = document.createElement("i");
+    ramp.style.background = `linear-gradient(to right, ${MAP.map((rgb) => `rgb(${rgb})`)})`;
+    scale.append(`−${LOUDEST} dB`, ramp, `0 dB: ${panel.loudest}`);
   };
 };
 

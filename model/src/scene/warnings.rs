@@ -1,0 +1,48 @@
+//! What a scene can be, but is hardly meant to be.
+
+use super::Scene;
+
+/// So many radii of gyration from c, a place on the axis is taken for a slip, of mm for m \[1].
+const FAR: f64 = 30.0;
+
+impl Scene {
+    /// What its author may not have meant, in words.
+    pub fn warnings(&self) -> Vec<String> {
+        self.far_places().chain(self.heavy_unbalances()).chain(self.idle_inputs()).collect()
+    }
+
+    /// Names and values of the parameters whose names end so; of what is switched off too.
+    fn given(&self, end: &str) -> impl Iterator<Item = (&str, f64)> {
+        let of_end = self.variables.iter().filter(move |variable| variable.name.ends_with(end));
+        of_end.filter_map(|variable| Some((&*variable.name, *self.starts.get(&variable.place.value_reference())?)))
+    }
+
+    fn far_places(&self) -> impl Iterator<Item = String> {
+        let rotor = self.parameters().setup.rotor;
+        let gyration = libm::sqrt(rotor.Jt / rotor.m);
+        self.given(".position").filter(move |(_, x)| x.abs() > FAR * gyration).map(move |(name, x)| {
+            let times = (x.abs() / gyration).round();
+            format!("{name} = {x:?} m is {times} radii of gyration, {gyration:.3} m, from c: are these mm?")
+        })
+    }
+
+    fn heavy_unbalances(&self) -> impl Iterator<Item = String> {
+        let m = self.parameters().setup.rotor.m;
+        let masses = self.given(".mass").filter(move |(name, mass)| name.starts_with("unbalance") && *mass > m);
+        masses.map(move |(name, mass)| format!("{name} = {mass:?} kg is more than rotor.m = {m:?} kg: are these g?"))
+    }
+
+    fn idle_inputs(&self) -> impl Iterator<Item = String> {
+        let [start, stop] = [self.experiment.start, self.experiment.stop];
+        self.inputs.iter().filter_map(move |input| {
+            let ([first, last], name) = ([input.time[0], input.time[input.time.len() - 1]], &input.name);
+            if first >= stop {
+                Some(format!("the input {name} begins at {first:?} s, and the run ends at {stop:?} s"))
+            } else if input.time.len() > 1 && last <= start {
+                Some(format!("the input {name} ends at {last:?} s, and the run begins at {start:?} s"))
+            } else {
+                None
+            }
+        })
+    }
+}
