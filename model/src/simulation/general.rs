@@ -1,15 +1,38 @@
 //! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
 
-use super::{Any, Growth};
+use super::{Any, Growth, Integrator};
 use crate::effects::All;
 use crate::error::Invalid;
 use crate::integrate::Fault;
 use crate::variable::Place;
 use crate::variables::{Parameters, Reading};
+use std::ops::{Deref, DerefMut};
 
-/// [`Any`], for programs that only run it: what is generic there is compiled here.
+/// [`Any`], of which what follows here is compiled here; all else where it is called.
 #[derive(Clone)]
 pub struct General(Any);
+
+impl General {
+    /// A rotor with these parameters, for who integrates it.
+    #[inline(never)]
+    pub fn with(integrator: Integrator, parameters: Parameters<All>) -> Self {
+        Self(Any::with(integrator, parameters))
+    }
+}
+
+impl Deref for General {
+    type Target = Any;
+
+    fn deref(&self) -> &Any {
+        &self.0
+    }
+}
+
+impl DerefMut for General {
+    fn deref_mut(&mut self) -> &mut Any {
+        &mut self.0
+    }
+}
 
 impl From<Parameters<All>> for General {
     #[inline(never)]

@@ -149,7 +149,7 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
             0..3 => ("force", length / self.rotor.frame.body.per_m, "N"),
             _ => ("moment", inertia, "N.m"),
         };
-        format!("a {what} of {:.3e} {unit} along {}", balance.left[largest] * size, ["x", "y", "z"][largest % 3])
+        format!("a {what} of {:.3} {unit} along {}", balance.left[largest] * size, ["x", "y", "z"][largest % 3])
     }
 
     /// Where it stands, sought from `r` \[m] and `gamma` \[rad] by Newton's method; None where it does not get there. Where nothing holds it
@@ -265,7 +265,7 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
     let lost = |remains: &str| Invalid {
         variable: "start.at_rest".into(),
         reason: format!(
-            "= true: no place where loads balance at {speed} rad/s was found from start.r_c and start.gamma, {remains} remains: \
+            "= true: no place where loads balance at {speed:.3} rad/s was found from start.r_c and start.gamma, {remains} remains: \
              a support or bearings must hold the rotor where a load acts; give it a start nearer to its rest"
         ),
     };

@@ -152,8 +152,8 @@ fn what_cannot_rest_is_told() {
     let falls = "[rotor]\nm = 1.0\nJa = 0.1\nJt = 0.1\n[effects.gravity]\ng = { z = -9.81 }\n[start]\nat_rest = true\n";
     assert_eq!(
         refused(falls),
-        "start.at_rest = true: no place where loads balance at 0 rad/s was found from start.r_c and start.gamma: a support or bearings \
-         must hold the rotor where a load acts; give it a start nearer to its rest"
+        "start.at_rest = true: no place where loads balance at 0.000 rad/s was found from start.r_c and start.gamma, a force of \
+         -9.810 N along z remains: a support or bearings must hold the rotor where a load acts; give it a start nearer to its rest"
     );
     let moving = Scene::parse(Path::new("moving.toml"), &start("v_c.y = 1.0")).expect_err("it moves").to_string();
     assert!(moving.contains("start.v_c, start.omega.y and start.omega.z must be 0"), "{moving}");

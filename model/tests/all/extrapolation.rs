@@ -108,10 +108,10 @@ fn what_is_remembered_goes_with_the_state() {
     let [mut one, mut other] = [(); 2].map(|()| rotor(2, 1.0));
     let all = told(&mut one, 0..8, wavy);
     told(&mut other, 0..4, wavy);
-    let bytes = to_bytes(&mut other.simulation);
+    let bytes = to_bytes(&mut *other.simulation);
     told(&mut other, 4..8, wavy);
     let mut restored = rotor(0, 0.0);
-    from_bytes(&mut restored.simulation, &bytes).expect("whole");
+    from_bytes(&mut *restored.simulation, &bytes).expect("whole");
     assert_eq!(told(&mut restored, 4..8, wavy), all[4..]);
     // A step that is done again is the same.
     let saved = one.simulation.clone();

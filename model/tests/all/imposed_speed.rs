@@ -6,8 +6,9 @@ use crate::harness::named::{Named, ROTOR, refusal};
 use crate::harness::within;
 use nalgebra::Vector3;
 use oracles::rigid_body::Moving;
-use split_rotor_model::simulation::{Any, Integrator};
+use split_rotor_model::simulation::{Any, General, Integrator};
 use split_rotor_model::stored::{from_bytes, to_bytes};
+use split_rotor_model::variables::Parameters;
 
 const EXACTLY: &str = "method = \"dop853\"\nrelative_tolerance = 1e-12";
 
@@ -351,9 +352,9 @@ fn partner(
         named.set("imposed_speed.w", w);
         if k == steps / 2 {
             // A state that is saved carries what the partner is told next.
-            let bytes = to_bytes(&mut named.simulation);
-            named.simulation = Default::default();
-            from_bytes(&mut named.simulation, &bytes).expect("whole");
+            let bytes = to_bytes(&mut *named.simulation);
+            named.simulation = General::with(Integrator::Method, Parameters::default());
+            from_bytes(&mut *named.simulation, &bytes).expect("whole");
             assert_eq!(named.get("imposed_speed.tau_mean"), torque);
         }
         named.simulation.advance(h * f64::from(k + 1)).expect("a possible motion");

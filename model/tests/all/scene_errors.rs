@@ -2,7 +2,7 @@
 //! what would be right.
 
 use split_rotor_model::scene::{Problem, Scene, SceneError};
-use split_rotor_model::simulation::Any;
+use split_rotor_model::simulation::General;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -301,7 +301,7 @@ fn a_slip_in_any_key_of_any_scene_is_told_or_leaves_a_scene() {
                     }
                     Ok(scene) => {
                         // Its start may still be refused, by the same rules as in the FMU.
-                        _ = Any::from(scene.parameters()).start(scene.experiment.start, None);
+                        _ = General::from(scene.parameters()).start(scene.experiment.start, None);
                         sound += 1;
                     }
                 }

@@ -2,7 +2,7 @@
 //! tests/serialized.rs.
 
 use crate::harness::named::Named;
-use split_rotor_model::simulation::{Any, Integrator, Simulation};
+use split_rotor_model::simulation::{General, Integrator};
 use split_rotor_model::stored::{from_bytes, to_bytes};
 use split_rotor_model::variables::Parameters;
 
@@ -52,17 +52,17 @@ fn go_on(named: &mut Named, span: f64) -> Vec<Vec<u64>> {
 }
 
 /// The same simulation, from its bytes, in the place of `place`.
-fn restored(of: &mut Named, place: Any) -> Named {
-    let bytes = to_bytes(&mut of.simulation);
+fn restored(of: &mut Named, place: General) -> Named {
+    let bytes = to_bytes(&mut *of.simulation);
     let mut copy = Named::new(&of.scene.name, of.simulation.integrator());
     copy.simulation = place;
-    from_bytes(&mut copy.simulation, &bytes).expect("whole");
-    assert_eq!(to_bytes(&mut copy.simulation), bytes, "written once more");
+    from_bytes(&mut *copy.simulation, &bytes).expect("whole");
+    assert_eq!(to_bytes(&mut *copy.simulation), bytes, "written once more");
     copy
 }
 
-fn nothing(integrator: Integrator) -> Any {
-    Simulation::with(integrator, Parameters::default())
+fn nothing(integrator: Integrator) -> General {
+    General::with(integrator, Parameters::default())
 }
 
 /// Conservative, working and model exchange runs of every method.

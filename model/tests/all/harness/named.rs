@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use oracles::machine::Machine;
 use split_rotor_model::effects::All;
 use split_rotor_model::scene::{Scene, SceneError};
-use split_rotor_model::simulation::{Any, Hosted, Integrator, Simulation};
+use split_rotor_model::simulation::{Any, General, Hosted, Integrator};
 use split_rotor_model::variable::{Meta, Place, Role};
 use split_rotor_model::variables::Variable;
 use std::path::Path;
@@ -14,7 +14,7 @@ pub struct Named {
     /// What its file says.
     pub scene: Scene,
     /// Over the list of all effects.
-    pub simulation: Any,
+    pub simulation: General,
 }
 
 /// The paper's rotor, as the first lines of a scene.
@@ -123,7 +123,7 @@ impl Named {
     }
 
     fn of(scene: Scene, integrator: Integrator) -> Self {
-        let simulation = Simulation::with(integrator, scene.parameters());
+        let simulation = General::with(integrator, scene.parameters());
         Self { scene, simulation }
     }
 
