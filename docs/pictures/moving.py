@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-RUN = HERE.parents[1] / "target" / "run" / "turbo" / "samples.csv"
+RUN = HERE.parents[1] / "target" / "run" / "turbo" / "result.csv"
 
 FRAMES, SECONDS = 160, 12
 A_TURN = 12

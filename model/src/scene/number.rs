@@ -63,7 +63,9 @@ impl Reader<'_> {
                     format!("{in_file} = {} has a decimal comma", self.given(value)),
                     format!("write \"{right}\""),
                 ),
-                Err(Unreadable::Unit(what, right)) => tell(self, format!("{in_file}: `{what}` is no unit"), right),
+                Err(Unreadable::Unit(what, right)) => {
+                    tell(self, format!("{in_file}{}: `{what}` is no unit", brackets(unit)), right)
+                }
             };
         }
         as_number(value.get_ref()).or_else(|| self.wrong_type(value, in_file, &format!("a number{}", of_unit(" in "))))

@@ -1,9 +1,11 @@
 //! The keys of scenes, section by section, as the list of variables has them.
 
 use super::experiment::{self, Experiment};
+use super::tables::SPEED;
 use super::units::{PREFIXES, UNITS};
 use super::values::{heading, in_file, is_unbalance};
 use super::{Scene, moment};
+use crate::effects::table::MOST_NODES;
 use crate::effects::{CATALOGUE, Info};
 use crate::variable::units::Unit;
 use crate::variable::{Bound, Kind, Meta, Place, Role};
@@ -108,6 +110,9 @@ fn key(variable: &Variable, within: &str, own: &[&Variable], starts: Option<&BTr
             of.items.iter().map(|item| format!("\"{}\"", item.1)).collect::<Vec<_>>().join(" or ")
         }
         (_, Kind::Boolean) => "true or false".into(),
+        (Role::Parameter { bound, .. }, kind) if meta.node().is_some_and(|(of, _)| of == SPEED) => {
+            format!("{}, ascending, up to {MOST_NODES}", words(bound, kind))
+        }
         (Role::Parameter { bound: Bound::Finite, .. } | Role::Input { .. }, _) => String::new(),
         (Role::Parameter { bound, .. }, kind) => words(bound, kind),
         _ => String::new(),

@@ -6,7 +6,7 @@ use crate::variables::Variable;
 use std::ops::Range;
 
 /// The column that says where the nodes are.
-const SPEED: &str = "speed";
+pub(super) const SPEED: &str = "speed";
 
 /// The columns that a file gives.
 #[derive(Default)]

@@ -225,6 +225,32 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
     std::fs::remove_dir_all(&folder).expect("it is there");
 }
 
+#[test]
+fn what_is_hardly_meant_is_warned_of() {
+    let warnings = |text: &str| {
+        let text = format!("{ROTOR}[effects.drive]\n{text}\n[experiment]\nstart = 1.0\nstop = 3.0\n");
+        Scene::parse(Path::new("odd.toml"), &text).expect("a scene").warnings()
+    };
+    let input = |times: &str| format!("[[input]]\nname = \"drive.tau\"\ntime = [{times}]\nvalue = [1, 2]\n");
+    let unbalance = |mass: &str| format!("[[effects.unbalance]]\nmass = \"{mass}\"\nradius = 0.01\nposition = 0.1\n");
+    let place = |x: &str| format!("[[effects.probe]]\nposition = {x}\n");
+    for odd in [
+        (place("-120"), "probe[1].position = -120.0 m is 960 radii of gyration, 0.125 m, from c: are these mm?"),
+        (unbalance("40 kg"), "unbalance[1].mass = 40.0 kg is more than rotor.m = 5.0 kg: are these g?"),
+        (input("3, 4"), "the input drive.tau begins at 3.0 s, and the run ends at 3.0 s"),
+        (input("0, 1"), "the input drive.tau ends at 1.0 s, and the run begins at 1.0 s"),
+    ] {
+        assert_eq!(warnings(&odd.0), [odd.1], "{}", odd.0);
+    }
+    for ordinary in [place("3.7"), unbalance("40 g"), input("0, 2"), input("2.9, 9")] {
+        assert_eq!(warnings(&ordinary), [""; 0], "{ordinary}");
+    }
+    for name in crate::harness::named::names() {
+        let scene = Named::new(&name, split_rotor_model::simulation::Integrator::Method).scene;
+        assert_eq!(scene.warnings(), [""; 0], "{name}");
+    }
+}
+
 /// A host reads a run at so many points at most, if it takes the scene's own step: more than one a turn of what spins fast.
 const POINTS: f64 = 3.001e4;
 
