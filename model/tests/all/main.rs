@@ -1,4 +1,5 @@
-//! The tests of the model in one program: it is linked once, and the list of all effects is compiled once.
+//! The tests of the model in one program: it is linked once, and the list of all effects is compiled once. Beside it stands what every
+//! new effect must keep, `power.rs`.
 
 mod harness;
 
@@ -36,7 +37,6 @@ mod ordinary;
 mod paper;
 mod periodic;
 mod port;
-mod power;
 mod random_scenes;
 mod rotation;
 mod rub;

@@ -2,7 +2,7 @@
 //! (`benches/instructions.rs`).
 
 use super::operations::{Operations, of_recurrences, own_multiply_adds};
-use super::{cargo_bench, head, scenes, target};
+use super::{cargo_bench, head, target};
 use crate::run::{cargo, installed, output};
 use crate::{c, paths};
 use anyhow::{Context, Result, bail, ensure};
@@ -64,14 +64,19 @@ impl Count {
     }
 }
 
-/// Prints the tables of all scenes; which limits that must hold do not.
-pub fn print() -> Result<Vec<String>> {
+/// The scenes with limits that must hold; those of arithmetic are the same with every scene.
+pub fn limited() -> Vec<String> {
+    INSTRUCTIONS.iter().map(|limit| limit.scene.to_owned()).collect()
+}
+
+/// Prints the tables of these scenes; which limits that must hold do not.
+pub fn print(scenes: &[String]) -> Result<Vec<String>> {
     let runner = runner()?;
     let mut broken = Vec::new();
     let mut counts = Vec::new();
-    for scene in scenes() {
-        counts = count(&scene, &runner)?;
-        println!("{}", head(&[&scene, "instructions", "at most"]));
+    for scene in scenes {
+        counts = count(scene, &runner)?;
+        println!("{}", head(&[scene, "instructions", "at most"]));
         for count in &counts {
             let limit = INSTRUCTIONS.iter().find(|limit| limit.is_of(&scene, count));
             let at_most = limit.map(|limit| limit.at_most);
@@ -80,9 +85,8 @@ pub fn print() -> Result<Vec<String>> {
                 broken.push(format!("{scene}, {}: {} instructions", count.what(), count.instructions));
             }
         }
-        series(&scene, &counts)?;
+        series(scene, &counts)?;
     }
-    // The same with every scene.
     arithmetic(&counts, &mut broken)?;
     Ok(broken)
 }

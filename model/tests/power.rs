@@ -1,9 +1,13 @@
 //! What every effect must keep, with any parameters and inputs, in any motion of either chart: the power of its load is what
 //! it supplies, less what it loses and what its potential gains; and that it is analytic where it says so. A new effect needs no word
-//! about it.
+//! about it. A program of its own: who adds an effect runs it without compiling all other tests.
 
-use crate::harness::named::ascending;
-use crate::harness::{Random, Scene, largest, within};
+#[allow(dead_code, reason = "what the other tests need of it")]
+#[path = "all/harness/mod.rs"]
+mod harness;
+
+use harness::named::ascending;
+use harness::{Random, Scene, largest, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::body::{Inertia, Shape};
 use split_rotor_model::dual::Tangent;
