@@ -90,7 +90,8 @@ def test_exact_energy_that_does_not_add_up_is_an_error(paper, run, monkeypatch, 
         r"error: the energy of paper does not add up: the largest residual, \S+ J, exceeds its bound, 0 J\n", error
     )
     page = (tmp_path / "demo" / "report.html").read_text(encoding="utf-8")
-    assert 'in play; bound 0\u00a0J: it does not hold</dt><dd class="bad">' in page
+    what = "at most: not less than the 0\u00a0J that the tolerance allows"
+    assert re.search(f'{what} where [^<]* moves</dt><dd class="bad">', page)
 
 
 def test_exact_a_run_that_ends_early_is_an_error(paper, run, monkeypatch, capsys):

@@ -42,7 +42,9 @@ def test_exact_message_of_a_file_that_is_not_text(xtask, tmp_path):
     scene.write_bytes(b"title = '\xff'")
     refused = xtask("describe", scene)
     assert (refused.returncode, refused.stdout) == (1, "")
-    assert refused.stderr == f"error: it cannot be read: stream did not contain valid UTF-8\n--> {scene}\n"
+    said = ["error: this letter is not written in UTF-8", f" --> {scene}:1:10"]
+    said += ["  |", "1 | title = '\ufffd'", "  |          ^ save the file as UTF-8\n"]
+    assert refused.stderr == "\n".join(said)
 
 
 @pytest.mark.parametrize("command", ["hard-cases", "bench", "test"])

@@ -283,6 +283,7 @@ fn at_high_spin(spin: f64, solver: [f64; 3], tolerance: f64) -> (f64, Vec<f64>) 
 const AT_HIGH_SPIN: f64 = 1e-6;
 
 #[test]
+#[ignore = "long"]
 fn high_spin_in_given_steps_errs_little_or_shortens_them() {
     for spin in [1e4, 1e5] {
         let (_, exact) = at_high_spin(spin, [3.0, 6.0, 0.0], 1e-13);
@@ -516,6 +517,7 @@ const UNDAMPED: [(&str, f64); 14] = [
 const BETWEEN: [f64; 4] = [0.1, 2.0, 0.6, 0.015];
 
 #[test]
+#[ignore = "long"]
 fn regress_what_happens_between_comparisons_keeps_the_tolerance() {
     let shown = |changes: &[(&str, f64)], solver: [f64; 3], step: f64| -> Vec<f64> {
         let mut named = loose(changes, solver);
