@@ -78,7 +78,7 @@ pub fn print(scenes: &[String]) -> Result<Vec<String>> {
         counts = count(scene, &runner)?;
         println!("{}", head(&[scene, "instructions", "at most"]));
         for count in &counts {
-            let limit = INSTRUCTIONS.iter().find(|limit| limit.is_of(&scene, count));
+            let limit = INSTRUCTIONS.iter().find(|limit| limit.is_of(scene, count));
             let at_most = limit.map(|limit| limit.at_most);
             println!("| {} | {} | {} |", count.what(), count.instructions, target(at_most, count.instructions));
             if limit.is_some_and(|limit| count.instructions > limit.at_most) {
