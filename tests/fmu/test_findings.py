@@ -92,3 +92,17 @@ def test_exact_contact_is_told_with_its_first_time_and_gap(findings):
     found = findings._contact(run([0.0, 60.0], **{"rub[1].contact": touches}))
     assert found.what == "the shaft touches rub[1], whose gap is 10\u00a0mm, first at 0.31\u00a0s"
     assert findings._contact(run([0.0, 60.0], **{"rub[1].contact": 0.0 * touches})) is None
+
+
+def test_a_verdict_of_small_motions_says_what_it_leaves_out(findings):
+    modes = [{"mode": 1, "direction": "forward", "speed_rad_s": speed, "frequency_rad_s": 100.0, "damping_ratio": 0.1} for speed in (0.0, 90.0)]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
+    free, touching = (findings._stability(run([0.0, 80.0]), linear, touches) for touches in (False, True))
+    assert (free.judged, touching.judged) == ("good", "") and touching.what.startswith("while nothing touches, ")
+
+
+def test_exact_a_body_that_is_not_symmetric_is_unstable_where_its_revolutions_say_so(findings):
+    # Growth of this size is rounding or is not: the linear view knows.
+    modes = [{"speed_rad_s": speed, "growth_rate_1_s": 2e-6} for speed in (50.0, 90.0)]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=True, growing=(90.0,))
+    assert [findings._stability(run([speed, speed]), linear).judged for speed in (50.0, 90.0)] == ["", "bad"]

@@ -180,6 +180,12 @@ def test_exact_turns_take_a_whirl_apart(report, sense):
     assert np.abs(turns.order(-1)) == pytest.approx(np.full(40, BACKWARD), abs=CUBIC * FORWARD)
     assert turns.whirl == pytest.approx(np.full(40, FORWARD + BACKWARD), rel=2e-3)  # at one of 64 angles
     assert report.turns.turns(Station("c", 0.0), whirling(300.0, 5, sense)) is None, "too few samples"
+    # Where it turned back a little before, and does once more at the end, what lies between is looked at.
+    whole = whirling(300.0, 12, sense)
+    before, after = whole[6:0:-1].copy(), whole[-2:-8:-1].copy()
+    before["time"], after["time"] = -before["time"], 2.0 * whole["time"][-1] - after["time"]
+    again = report.turns.turns(Station("c", 0.0), np.concatenate([before, whole, after]))
+    assert np.array_equal(again.offset, turns.offset) and np.array_equal(again.time, turns.time)
 
 
 def test_exact_samples_follow_a_motion_or_do_not(report):

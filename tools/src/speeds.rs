@@ -2,11 +2,15 @@
 
 use crate::{run, scenes};
 use anyhow::{Result, ensure};
+use split_rotor_model::effects::Info;
 use split_rotor_model::linear::{Machine, Obstacle};
 use split_rotor_model::scene::Scene;
 
 /// So much higher than the scene goes one looks \[1].
 const HIGHER: f64 = 1.5;
+
+/// Effects whose torque brings a rotor to speeds that no parameter tells.
+const DRIVES: [&str; 2] = ["drive", "motor"];
 
 /// No rotor turns faster [rad/s].
 pub const HIGHEST: f64 = 1e9;
@@ -50,14 +54,16 @@ fn grid(
     Ok(speeds)
 }
 
-/// The speed of the largest size [rad/s] that a scene tells: of its start, its drive or its tables, or to which its inputs bring it; else its
-/// fastest mode's at rest.
+/// The speed of the largest size [rad/s] that a scene tells: of its start, its drive or its tables, or to which a torque or its inputs bring it;
+/// else its fastest mode's at rest.
 fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     let told = scenes::values(scene);
     let value = |name: &str| told(name).unwrap_or_default();
     let imposed = value("imposed_speed.w");
     let last = imposed + value("imposed_speed.a") * scene.experiment.stop;
-    let reached = if scene.inputs.is_empty() { 0.0 } else { run::fastest(scene) };
+    let is_driven = |(info, _): &(&Info, u32)| DRIVES.contains(&info.name);
+    let is_run = !scene.inputs.is_empty() || scene.effects.iter().any(is_driven);
+    let reached = if is_run { run::fastest(scene) } else { 0.0 };
     let told = [imposed, last, reached, value("start.omega.x"), value("motor.synchronous_speed")];
     let reached = told.into_iter().fold(0.0_f64, |most, speed| if speed.abs() > most.abs() { speed } else { most });
     // Tables are of the size of the speed.

@@ -40,6 +40,9 @@ impl Reader<'_> {
             let impossible = format!("{in_file} = {} is not possible", self.given(value));
             let is_pure = unit.name.is_empty();
             return match units::read(text) {
+                Ok(Quantity { exponents, .. }) if per_minute(text, exponents, unit) => {
+                    tell(self, format!("{in_file} = {} may count turns or radians", self.given(value)), RPM.into())
+                }
                 Ok(Quantity { value, exponents, .. }) if exponents[..3] == unit.exponents[..3] => Some(value),
                 Ok(Quantity { exponents, unit: given, .. }) => {
                     let what = units::quantity(unit.exponents).unwrap_or("a quantity");
@@ -85,6 +88,14 @@ impl Reader<'_> {
         }
         Some(f64::from(item?.0))
     }
+}
+
+/// What is said of a speed in 1/min.
+const RPM: &str = "turns a minute are rpm, radians rad/min";
+
+/// Whether a speed is given in 1/min, which rotor people read as turns, though the unit by itself says radians.
+fn per_minute(text: &str, exponents: [i8; 4], unit: &Unit) -> bool {
+    unit.exponents[3] != 0 && exponents[3] == 0 && exponents[..3] == unit.exponents[..3] && text.contains("min")
 }
 
 /// ` [m]`, or nothing for a pure number.

@@ -81,7 +81,11 @@ fn doubled(text: &str, place: &Range<usize>, line: &Range<usize>, told: &[Proble
 /// A text without quotes.
 fn unquoted(text: &str, place: &Range<usize>) -> Problem {
     let given = &text[place.clone()];
-    let right = format!("write \"{given}\"");
+    let right = match given.to_lowercase().as_str() {
+        "yes" | "on" | "true" => "write true, if a yes is meant".into(),
+        "no" | "off" | "false" => "write false, if a no is meant".into(),
+        _ => format!("write \"{}\"", given.trim_matches(['‘', '’', '“', '”', '\''])),
+    };
     let is_quantity = matches!(units::read(given), Ok(_) | Err(Unreadable::Unit(..)));
     let wrong = if is_quantity { "a number with its unit needs quotes" } else { "a text needs quotes" };
     Problem::at(place.clone(), format!("{wrong}: {given}"), right)

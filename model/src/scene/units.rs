@@ -249,8 +249,11 @@ fn unknown(name: &str) -> String {
     for unit in UNITS.iter().filter(|unit| unit.prefixed) {
         names.extend(PREFIXES.iter().map(|(prefix, _)| format!("{prefix}{}", unit.name)));
     }
-    let meant = did_you_mean(name, names.iter().map(String::as_str));
-    meant.unwrap_or_else(|| {
+    // Two units without a space between, such as Nm, are no third one.
+    let parts = name.char_indices().skip(1).map(|(at, _)| name.split_at(at));
+    let both = parts.filter(|(one, other)| named(one).is_some() && named(other).is_some());
+    let both = both.last().map(|(one, other)| format!("did you mean `{one} {other}`?"));
+    both.or_else(|| did_you_mean(name, names.iter().map(String::as_str))).unwrap_or_else(|| {
         let names: Vec<_> = UNITS.iter().map(|unit| unit.name).collect();
         format!("the units are {}", names.join(", "))
     })
@@ -357,6 +360,9 @@ mod tests {
             other => panic!("{text}: {other:?}"),
         };
         assert_eq!(unit("5 rmp"), ("rmp", "did you mean `rpm`?".into()));
+        assert_eq!(unit("5 Nm").1, "did you mean `N m`?");
+        assert_eq!(unit("40 gmm").1, "did you mean `g mm`?");
+        assert_eq!(unit("0.04 kgm2").1, "did you mean `kg m`?");
         assert_eq!(unit("5 N/m.s").0, "s");
         assert_eq!(unit("5 N/(m.s").1, "the bracket is not closed");
         assert_eq!(unit("5 m)").0, ")");

@@ -121,6 +121,20 @@ fn each_quantity_of_a_variable_has_a_name() {
 }
 
 #[test]
+fn a_speed_in_1_per_minute_is_refused_for_it_may_count_turns() {
+    let speed = |text: &str| format!("{ROTOR}[start]\nomega = {{ x = \"{text}\" }}\n");
+    for unit in ["1/min", "min^-1", "min⁻¹"] {
+        let said = format!(
+            "line 7: start.omega.x = \"3000 {unit}\" may count turns or radians: turns a minute are rpm, radians rad/min"
+        );
+        assert_eq!(refusal(&speed(&format!("3000 {unit}"))), said);
+    }
+    for sound in ["3000 rpm", "3000 rev/min", "3000 rad/min", "50 1/s", "50 Hz"] {
+        Scene::parse(Path::new("good.toml"), &speed(sound)).expect(sound);
+    }
+}
+
+#[test]
 fn exact_gravity_that_is_empty_is_that_of_the_earth() {
     let along = |rest: &str| ["x", "y", "z"].map(|axis| value(rest, &format!("gravity.g.{axis}")));
     assert_eq!(along("[effects.gravity]\n"), [0.0, 0.0, -9.81]);

@@ -57,6 +57,7 @@ impl<'s> Turning<'s> {
             "title": self.scene.title,
             "floquet": true,
             "thresholds": self.thresholds,
+            "growing": self.orbits.iter().filter(|orbit| orbit.loss().is_some()).map(|orbit| orbit.speed).collect::<Vec<_>>(),
             "modes": rows::objects(self.rows()),
         })
     }

@@ -29,8 +29,9 @@ class Finding:
 
 def findings(result, view):
     """All that this run and its linear view have."""
-    found = [_critical(view), *_passed(result, view), _stability(result, view), *_motion(result), _contact(result), _load(result)]
-    found += [_time(result), _energy(result)]
+    contact = _contact(result)
+    found = [_critical(view), *_passed(result, view), _stability(result, view, contact is not None), *_motion(result), contact]
+    found += [_load(result), _time(result), _energy(result)]
     return [finding for finding in found if finding]
 
 
@@ -86,14 +87,14 @@ def _range(spin):
     return f"{rpm(spin.min())} to {rpm(spin.max())}" if np.ptp(spin) > 0.01 * spin.max() else rpm(spin.max())
 
 
-def _stability(result, view):
+def _stability(result, view, touches=False):
     if view is None:
         return None
     spin = np.abs(result.columns["omega_phi"])
     if view.floquet:
         speed, rate = view.nearest_growth(spin[0])
         what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet)"
-        return Finding("unstable", what, "bad") if rate > linear.NEITHER else Finding("nothing grows", what)
+        return Finding("unstable", what, "bad") if speed in view.growing else Finding("nothing grows", what)
     # Nothing is said of speeds at which nobody looked.
     looked = [row["speed_rad_s"] for row in view.modes]
     spin = np.clip(spin, min(looked), max(looked))
@@ -112,7 +113,8 @@ def _stability(result, view):
         in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
         grows = f"grows by e in {in_}" if in_ else "grows"
         return Finding("unstable", f"{row['direction']} mode {grows} {at}, {how}{bounds}", "bad")
-    return Finding("stable", f"at {range_}; least {how}, {row['direction']} mode {at}", "good")
+    what = f"at {range_}; least {how}, {row['direction']} mode {at}"
+    return Finding("stable", f"while nothing touches, {what}") if touches else Finding("stable", what, "good")
 
 
 def _when(result, threshold):

@@ -22,6 +22,8 @@ class Linear:
     """Speeds [rad/s], and on which side of them motions grow, "above" or "below"; "" where that is not told."""
     floquet: bool
     """Of a body that is not symmetric: exponents of its revolutions in place of modes."""
+    growing: tuple[float, ...] = ()
+    """Speeds [rad/s] at which small motions of such a body grow."""
 
     def branches(self):
         """Of each mode its number and its rows, ascending speeds; those along the axis and those that never swing left out."""
@@ -61,10 +63,12 @@ def read(file):
     # A motion that neither swings nor grows has no damping ratio.
     modes = [row | {"damping_ratio": row["damping_ratio"] or 0.0} for row in found["modes"]]
     critical = [crossing for crossing in crossed if crossing["direction"] != AXIAL]
+    growing = found.get("growing", [])
     # Speeds are shown by their size. A rotor that runs the other way round is looked at there.
     if all(row["speed_rad_s"] <= 0.0 for row in modes):
         modes = [row | {"speed_rad_s": -row["speed_rad_s"]} for row in reversed(modes)]
         critical = [crossing | {"speed_rad_s": -crossing["speed_rad_s"]} for crossing in reversed(critical)]
+        growing = [-speed for speed in growing]
         other = {"above": "below", "below": "above", "": ""}
         thresholds = [(-speed, other[grows]) for speed, grows in reversed(thresholds)]
     return Linear(
@@ -72,6 +76,7 @@ def read(file):
         critical=critical,
         thresholds=thresholds,
         floquet=found.get("floquet", False),
+        growing=tuple(growing),
     )
 
 

@@ -43,10 +43,11 @@ def samples(result):
 
 
 def turns(station, result):
-    """The turns of a run; None where it has fewer than three, turns back, or is sampled too seldom."""
+    """The turns of the longest part of a run in one sense; None where that has fewer than three, or is sampled too seldom."""
+    result = result[_in_one_sense(result["phi"])]
     sense = np.sign(result["phi"][-1] - result["phi"][0])
     angle, time = sense * result["phi"], result["time"]
-    if not np.all(np.diff(angle) > 0.0) or samples(result) < LEAST_SAMPLES:
+    if len(angle) < 2 or samples(result) < LEAST_SAMPLES:
         return None
     first, last = np.ceil(angle[0] / (2.0 * np.pi)), np.floor(angle[-1] / (2.0 * np.pi))
     count = int(last - first)
@@ -60,6 +61,14 @@ def turns(station, result):
     return Turns(
         (starts[1:] + starts[:-1]) / 2.0, 2.0 * np.pi / np.diff(starts), offset.reshape(count, PER_TURN)
     )
+
+
+def _in_one_sense(angle):
+    """The rows between two reversals, those over which the angle changes most."""
+    sense = np.sign(np.diff(angle))
+    ends = np.concatenate([[0], np.flatnonzero(np.diff(sense)) + 1, [len(sense)]])
+    longest = np.abs(np.diff(angle[ends])).argmax()
+    return slice(ends[longest], ends[longest + 1] + 1)
 
 
 def _cubic(time, value, rate, when):

@@ -32,8 +32,10 @@ def unseen(result):
         return None if stations.is_followed(result.columns) else "the samples are too far apart to follow the motion."
     if _seen(result):
         return None
-    needed = f"three turns in one sense and {LEAST_SAMPLES:g} samples a turn are needed"
-    return f"{needed}; the fastest turn of this run has {number(samples(result.columns), 2)}."
+    if samples(result.columns) >= LEAST_SAMPLES:
+        return "they are shown of three turns in one sense or more."
+    needed = f"they need {LEAST_SAMPLES:g} samples a turn, and the fastest has {number(samples(result.columns), 2)}"
+    return f"{needed}: make experiment.step smaller."
 
 
 def _sweeps(seen):
@@ -77,7 +79,8 @@ def run_up(result, view):
         f"The part of the motion that goes round once in a turn, turn by turn: the longer half axis of its orbit (largest: "
         f"{', '.join(largest)}), and by how much its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out."
     )
-    return paths("Run-up", caption, "speed [rpm]", (f"amplitude 1× [{unit}]", amplitudes), ("phase [°]", phases))
+    title = "Run-up" if seen[0][1].speed[-1] >= seen[0][1].speed[0] else "Run-down"
+    return paths(title, caption, "speed [rpm]", (f"amplitude 1× [{unit}]", amplitudes), ("phase [°]", phases))
 
 
 def _amplitude(seen):
