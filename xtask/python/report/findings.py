@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from . import linear, measure, stations
+from . import linear, measure, stations, vibration
 from .notation import number, quantity, rpm
 from .panels import loads
 from .turns import turns
@@ -144,6 +144,8 @@ def _motion(result):
         whirls = [(t.whirl[1:].max(), t, station) for station, t in seen if t]
         if whirls:
             largest, t, station = max(whirls, key=lambda whirl: whirl[0])
+            if largest <= vibration.FLAT * stations.largest_offset(result.scene, columns):
+                return
             when = 1 + t.whirl[1:].argmax()
             at = f"at {number(t.time[when], 3)}\u00a0s, {rpm(t.speed[when])}"
             yield Finding(quantity(largest, "m"), f"largest whirl, {station.name}, {at}; from the second turn on")
