@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from . import linear
+from .findings import findings
 from .measure import energy_balance, spin_deviation
 from .page import render
 
@@ -20,12 +21,15 @@ def add_options(parser):
 def deliver(result, arguments, folder, brief=False):
     """Writes `folder`/report.html of a `Result`; returns the exit code, 1 where the energy does not add up.
 
-    Prints a summary, or where the report is if `brief`.
+    Prints what the results warn of, and a summary, or where the report is if `brief`.
     """
     view = linear.read(arguments.linear) if arguments.linear else arguments.no_linear
     report = folder / "report.html"
     report.write_text(render(result, view), encoding="utf-8")
     balance = energy_balance(result.columns, result.scene.relative_tolerance)
+    for finding in findings(result, view if isinstance(view, linear.Linear) else None):
+        if finding.judged == "bad":
+            print(f"  warning    {finding.value}: {finding.what}")
     print(f"  report     {report}" if brief else _summary(result, balance, report))
     if balance.holds:
         return 0
