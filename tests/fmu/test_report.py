@@ -116,7 +116,7 @@ def test_report_says_why_it_has_no_orbits(demo, fmus, tmp_path):
     (tmp_path / "result.csv").write_bytes((demo("film_bearings").parent / "trajectory.csv").read_bytes())
     assert _report(tmp_path).returncode == 0
     pages = [path.read_text(encoding="utf-8") for path in (tmp_path / "report.html", demo("film_bearings"))]
-    said = "No orbits, paths and frequencies: three turns in one sense and 6 samples a turn are needed; the fastest turn of this run has 1.9."
+    said = "No orbits, paths and frequencies: they need 6 samples a turn, and the fastest has 1.9: make experiment.step smaller."
     assert [said in page for page in pages] == [True, False]
     assert ['"title":"Orbits"' in page for page in pages] == [False, True]
 
