@@ -151,17 +151,22 @@ impl Scene {
         Problem::invalid(place, invalid)
     }
 
+    /// Its effects, without those that are switched off at first.
+    fn acting(&self) -> impl Iterator<Item = (&'static Info, u32)> {
+        let is_on = |(info, index): &(&Info, u32)| {
+            let switch = Place::switch(Place::effect_block(info.number, *index)).value_reference();
+            self.starts.get(&switch) != Some(&0.0)
+        };
+        self.effects.iter().copied().filter(is_on)
+    }
+
     /// What does not go together, but for rules that join one of these values.
     fn broken_rules(&self, unsure: &[String]) -> Vec<Invalid> {
-        let is_on = |(info, index): &&(&Info, u32)| {
-            let switch = Place::switch(Place::effect_block(info.number, *index)).value_reference();
-            !self.general || self.starts[&switch] != 0.0
-        };
-        let on: Vec<_> = self.effects.iter().filter(is_on).collect();
+        let on: Vec<_> = self.acting().collect();
         // A rule's words name what it joins.
         let is_sure = |broken: &Invalid| !unsure.iter().any(|name| broken.to_string().contains(name));
         let mut broken: Vec<_> = self.parameters().broken_rules().filter(is_sure).collect();
-        for (info, index) in on.iter().copied() {
+        for (info, index) in &on {
             if let Some((other, _)) = on.iter().find(|(other, _)| info.excludes.contains(&other.name)) {
                 broken.push(Invalid::excluded(info.switch_name(*index), &other.switch_name(1)));
             }

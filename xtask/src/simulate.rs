@@ -25,11 +25,11 @@ const SEEN: f64 = 1e4;
 pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
     let name = scene;
     let scene = scenes::find_warned(name)?;
+    check_size(&scene)?;
     let folder = paths::target().join("run").join(&scene.name);
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
     let table = folder.join(RESULT);
-    check_size(&scene)?;
     let mut recorded = Recorded::of(&scene);
     let outcome = recorded.record(&scene.experiment, &table);
     if recorded.print(&scene.title)? {
@@ -39,11 +39,13 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
     if with_report {
         let Experiment { start, stop, step, .. } = scene.experiment;
         let parts = (SEEN * step / (stop - start) * (1.0 - 1e-9)).ceil().max(1.0);
-        let often = Experiment { step: step / parts, ..scene.experiment };
-        let table = if parts > 1.0 { SAMPLES } else { RESULT };
-        if parts > 1.0 {
+        let table = if parts > 1.0 {
+            let often = Experiment { step: step / parts, ..scene.experiment };
             Recorded::of(&scene).record(&often, &folder.join(SAMPLES))?;
-        }
+            SAMPLES
+        } else {
+            RESULT
+        };
         let view = report::linear_view(name);
         let mut report = python::python()?;
         let solver = recorded.solving.as_secs_f64().to_string();

@@ -1,6 +1,5 @@
 //! The points of an input from a CSV: a time and a value in each line, below a line that may name the columns and their units.
 
-use super::input::DESCENDS;
 use super::number::brackets;
 use super::problem::{Line, Problem};
 use super::units;
@@ -24,6 +23,9 @@ const MOST_TOLD: usize = 3;
 
 /// What a line must be.
 const POINT: &str = "a line has a time in s and a value, two finite numbers with a comma between them";
+
+/// What times must do, here and in a scene.
+pub(super) const DESCENDS: &str = "times must not descend";
 
 /// The times \[s] and values of a variable.
 type Points = (Vec<f64>, Vec<f64>);
@@ -141,8 +143,7 @@ impl Column<'_> {
             Some(unit) => {
                 let text = format!("{} {unit}", cell.trim());
                 let quantity = units::read(&text).ok()?;
-                // As in a scene, a radian is a pure number.
-                (quantity.exponents[..3] == self.unit.exponents[..3]).then_some(quantity.value)?
+                (quantity.fits(self.unit) && !quantity.may_count_turns(self.unit)).then_some(quantity.value)?
             }
         };
         number.is_finite().then_some(number)

@@ -1,6 +1,6 @@
 //! `[[input]]`: an input over time, from the file of the scene or from a CSV beside it.
 
-use super::csv::Csv;
+use super::csv::{Csv, DESCENDS};
 use super::problem::Problem;
 use super::reader::{Reader, Value};
 use super::similar::{did_you_mean, similar};
@@ -14,7 +14,6 @@ use toml::de::DeTable;
 
 /// The key of the section in the file, and its keys.
 pub(super) const SECTION: &str = "input";
-pub(super) const DESCENDS: &str = "times must not descend";
 const KEYS: [&str; 4] = ["name", "time", "value", "file"];
 
 /// An input over time: linear between its points, held before and after them.

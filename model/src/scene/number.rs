@@ -40,10 +40,10 @@ impl Reader<'_> {
             let impossible = format!("{in_file} = {} is not possible", self.given(value));
             let is_pure = unit.name.is_empty();
             return match units::read(text) {
-                Ok(Quantity { exponents, .. }) if per_minute(text, exponents, unit) => {
+                Ok(quantity) if quantity.may_count_turns(unit) => {
                     tell(self, format!("{in_file} = {} may count turns or radians", self.given(value)), RPM.into())
                 }
-                Ok(Quantity { value, exponents, .. }) if exponents[..3] == unit.exponents[..3] => Some(value),
+                Ok(quantity) if quantity.fits(unit) => Some(quantity.value),
                 Ok(Quantity { exponents, unit: given, .. }) => {
                     let what = units::quantity(unit.exponents).unwrap_or("a quantity");
                     let found = units::quantity(exponents).map_or_else(|| format!("in {given}"), str::to_owned);
@@ -92,11 +92,6 @@ impl Reader<'_> {
 
 /// What is said of a speed in 1/min.
 const RPM: &str = "turns a minute are rpm, radians rad/min";
-
-/// Whether a speed is given in 1/min, which rotor people read as turns, though the unit by itself says radians.
-fn per_minute(text: &str, exponents: [i8; 4], unit: &Unit) -> bool {
-    unit.exponents[3] != 0 && exponents[3] == 0 && exponents[..3] == unit.exponents[..3] && text.contains("min")
-}
 
 /// ` [m]`, or nothing for a pure number.
 pub(super) fn brackets(unit: &Unit) -> String {

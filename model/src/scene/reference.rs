@@ -61,11 +61,7 @@ pub fn all() -> Vec<Section> {
 
 /// The sections of a scene, with those of the effects that are on, and its values.
 pub fn of(scene: &Scene) -> Vec<Section> {
-    let mut effects = scene.effects.clone();
-    effects.retain(|(info, index)| {
-        let switch = Place::switch(Place::effect_block(info.number, *index)).value_reference();
-        scene.starts.get(&switch) != Some(&0.0)
-    });
+    let effects: Vec<_> = scene.acting().collect();
     let mut sections = sections(&scene.variables, &effects, Some(&scene.starts));
     sections.push(experiment(Some(scene)));
     sections

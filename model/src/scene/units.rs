@@ -4,6 +4,7 @@
 //! multiply by rounded factors.
 
 use super::similar::did_you_mean;
+use crate::variable::units::Unit;
 use std::f64::consts::PI;
 
 /// A unit as people write it.
@@ -107,6 +108,18 @@ pub(super) struct Quantity<'t> {
     pub exponents: [i8; 4],
     /// How the unit is written.
     pub unit: &'t str,
+}
+
+impl Quantity<'_> {
+    /// Whether it can be given for this unit: radians are pure numbers.
+    pub fn fits(&self, unit: &Unit) -> bool {
+        self.exponents[..3] == unit.exponents[..3]
+    }
+
+    /// Whether it fits a unit with radians, but by minutes, which rotor people count turns by: a speed in 1/min.
+    pub fn may_count_turns(&self, unit: &Unit) -> bool {
+        self.fits(unit) && unit.exponents[3] != 0 && self.exponents[3] == 0 && self.unit.contains("min")
+    }
 }
 
 /// Why a text is no number with a unit.

@@ -140,16 +140,12 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
         Balance { left, slopes, jacobian, axis, turning, moment }
     }
 
-    /// The largest of the loads that do not balance, in words.
-    #[cold]
-    fn largest_load(&self, balance: &Balance<N>) -> String {
+    /// The largest of the loads that do not balance: which of three forces [N] and three moments [N·m], and its size.
+    fn largest_load(&self, balance: &Balance<N>) -> (usize, f64) {
         let (inertia, length) = self.across();
         let largest = balance.left.iamax();
-        let (what, size, unit) = match largest {
-            0..3 => ("force", length / self.rotor.frame.body.per_m, "N"),
-            _ => ("moment", inertia, "N.m"),
-        };
-        format!("a {what} of {:.3} {unit} along {}", balance.left[largest] * size, ["x", "y", "z"][largest % 3])
+        let size = if largest < 3 { length / self.rotor.frame.body.per_m } else { inertia };
+        (largest, balance.left[largest] * size)
     }
 
     /// Where it stands, sought from `r` \[m] and `gamma` \[rad] by Newton's method; None where it does not get there. Where nothing holds it
@@ -262,14 +258,16 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
     let mut balanced = parameters.clone();
     put_on_axis(&mut balanced.effects);
     let speed = balanced.effects.imposed(t).map_or(given.omega.x, |[speed, _]| speed);
-    let lost = |remains: &str| Invalid {
-        variable: "start.at_rest".into(),
-        reason: format!(
-            "= true: no place where loads balance at {speed:.3} rad/s was found from start.r_c and start.gamma, {remains} remains: \
-             a support or bearings must hold the rotor where a load acts; give it a start nearer to its rest"
-        ),
+    let lost = |(largest, size): (usize, f64)| {
+        let (what, unit) = if largest < 3 { ("force", "N") } else { ("moment", "N.m") };
+        let axis = ["x", "y", "z"][largest % 3];
+        let reason = format!(
+            "= true: no place where loads balance at {speed:.3} rad/s was found from start.r_c and start.gamma, a {what} of {size:.3} {unit} \
+             along {axis} remains: a support or bearings must hold the rotor where a load acts; give it a start nearer to its rest"
+        );
+        Invalid { variable: "start.at_rest".into(), reason }
     };
-    let mut remains = String::new();
+    let mut remains = (0, 0.0);
     let mut begun = Motion::<N>::at_start(&mut balanced, t);
     let mut span = None;
     for _ in 0..MOST_CREEPING {
@@ -286,14 +284,14 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
         remains = spinning.largest_load(&here);
         let size = here.left.norm();
         let over = *span.get_or_insert(if size > 0.0 { FARTHEST / size } else { f64::MAX });
-        let step = spinning.creep(&here, over).ok_or_else(|| lost(&remains))?;
+        let step = spinning.creep(&here, over).ok_or_else(|| lost(remains))?;
         if step.norm() > FARTHEST {
             span = Some(over / GROWS);
             continue;
         }
         let (r, gamma, switches) = spinning.moved(at.r, at.gamma, &step);
         if step.norm() < NEAR && !switches {
-            let rest = spinning.rest(r, gamma).ok_or_else(|| lost(&remains))?;
+            let rest = spinning.rest(r, gamma).ok_or_else(|| lost(remains))?;
             let (_, length) = spinning.across();
             let moved = (rest.r - r).norm() / length + (rest.gamma - gamma).norm();
             let stays = sides(&rotor, &spinning.state(rest.r, rest.gamma)) == sides(&rotor, &spinning.state(r, gamma));
@@ -311,5 +309,5 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
             begun.state = spinning.state(r, gamma);
         }
     }
-    Err(lost(&remains))
+    Err(lost(remains))
 }

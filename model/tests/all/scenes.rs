@@ -132,6 +132,19 @@ fn a_speed_in_1_per_minute_is_refused_for_it_may_count_turns() {
     for sound in ["3000 rpm", "3000 rev/min", "3000 rad/min", "50 1/s", "50 Hz"] {
         Scene::parse(Path::new("good.toml"), &speed(sound)).expect(sound);
     }
+    // Nor in the columns of a CSV.
+    let folder = std::env::temp_dir().join(format!("split_rotor_speeds_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder for what is tried");
+    let told = ["rpm", "1/min"].map(|unit| {
+        let csv = format!("time [s],imposed_speed.w [{unit}]\n0,0\n1,60\n");
+        std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
+        let input = "[effects.imposed_speed]\n[[input]]\nname = \"imposed_speed.w\"\nfile = \"x.csv\"\n";
+        let scene = Scene::parse(&folder.join("any.toml"), &format!("{ROTOR}{input}"));
+        scene.map(|scene| scene.inputs[0].value.clone()).map_err(|error| error.problems[0].wrong.clone())
+    });
+    let refused = "line 1 of x.csv does not name the columns".to_owned();
+    assert_eq!(told, [Ok(vec![0.0, 2.0 * std::f64::consts::PI]), Err(refused)]);
+    std::fs::remove_dir_all(&folder).expect("it is there");
 }
 
 #[test]

@@ -25,9 +25,10 @@ def deliver(result, arguments, folder, brief=False):
     """
     view = linear.read(arguments.linear) if arguments.linear else arguments.no_linear
     report = folder / "report.html"
-    report.write_text(render(result, view), encoding="utf-8")
+    found = findings(result, view if isinstance(view, linear.Linear) else None)
+    report.write_text(render(result, view, found), encoding="utf-8")
     balance = energy_balance(result.columns, result.scene.relative_tolerance)
-    for finding in findings(result, view if isinstance(view, linear.Linear) else None):
+    for finding in found:
         if finding.judged == "bad":
             print(f"  warning    {finding.value}: {finding.what}")
     print(f"  report     {report}" if brief else _summary(result, balance, report))

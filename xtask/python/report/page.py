@@ -12,7 +12,6 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
 from . import paper, vibration
-from .findings import findings
 from .linear import Linear
 from .notation import count, number
 from .panels import panels
@@ -22,8 +21,8 @@ SCRIPTS = ("numbers", "colours", "plot", "lines", "paths", "waterfall", "space",
 """The page's own scripts, each after those that it uses."""
 
 
-def render(result, view):
-    """The report of a `Result`, as HTML text; `view` is its `Linear`, or why it has none."""
+def render(result, view, findings):
+    """The report of a `Result`, as HTML text; `view` is its `Linear`, or why it has none; `findings` stand first."""
     templates = Environment(
         loader=FileSystemLoader(WEB),
         autoescape=True,
@@ -37,7 +36,7 @@ def render(result, view):
         scene=scene,
         by=result.by,
         step=np.median(np.diff(result.columns["time"])),
-        findings=findings(result, linear),
+        findings=findings,
         panels=shown,
         left_out=_left_out(result, view),
         comparisons=list(paper.comparisons(result.columns)) if scene.identifier == paper.IDENTIFIER else [],

@@ -64,9 +64,9 @@ impl Count {
     }
 }
 
-/// The scenes with limits that must hold; those of arithmetic are the same with every scene.
-pub fn limited() -> Vec<String> {
-    INSTRUCTIONS.iter().map(|limit| limit.scene.to_owned()).collect()
+/// Whether a scene has limits that must hold; those of arithmetic are the same with every scene.
+pub fn is_limited(scene: &str) -> bool {
+    INSTRUCTIONS.iter().any(|limit| limit.scene == scene)
 }
 
 /// Prints the tables of these scenes; which limits that must hold do not.
