@@ -1,5 +1,5 @@
 /* Every variable through the getter and the setter of its type: it starts as the XML says, and keeps what is set where it may be
-   set. What other types than its own are told, tests/arguments.rs tests; here it is done once, with strings. */
+   set. What other types than its own are told, tests/interface/arguments.rs tests; here it is done once, with strings. */
 #include "parts.h"
 #include "rotor.h"
 

@@ -1,5 +1,5 @@
 /* FMU states in a host's memory: many at a time, used again, as bytes in blocks of just their size, and cut
-   (what is flipped: tests/serialized.rs). What follows from a state has the same bits in the library as it is packaged. */
+   (what is flipped: tests/interface/serialized.rs). What follows from a state has the same bits in the library as it is packaged. */
 #include "parts.h"
 #include "rotor.h"
 #include "saved.h"

@@ -1,5 +1,5 @@
 """The capability flags of the XML are all that docs/fmi.md promises. That what they promise works is tested call by call: in Rust
-(tests/state.rs, serialized.rs, derivatives.rs, stepping.rs, inputs.rs), and of each packaged FMU in C (tests/c)."""
+(tests/interface/state.rs, serialized.rs, derivatives.rs, stepping.rs, inputs.rs), and of each packaged FMU in C (tests/c)."""
 
 import pytest
 

@@ -1,7 +1,7 @@
 """The input drive.tau from fmpy: steps and ramps as fmpy gives them; an upright rotor, which has a closed form.
 
 Nothing but the torque acts on it: K_x = K_0 + the integral of the torque, and what the drive supplies is the change of
-the kinetic energy. What a polynomial of the input does, call by call: tests/inputs.rs.
+the kinetic energy. What a polynomial of the input does, call by call: tests/interface/inputs.rs.
 """
 
 import numpy as np

@@ -1,5 +1,5 @@
 //! The drive: a tilted rotor beside an independent rigid body, and where its law ends. Its power: `power.rs`; its input, and an
-//! upright rotor in closed form: `tests/inputs.rs`; its ledger: `ledger.rs`.
+//! upright rotor in closed form: `tests/interface/inputs.rs`; its ledger: `ledger.rs`.
 
 use crate::harness::{Driven, DrivenFree, Method, Scene, TORQUE, at, largest, times, within};
 use nalgebra::{Vector2, Vector3};

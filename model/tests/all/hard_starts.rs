@@ -1,5 +1,5 @@
 //! Starts and steps at the edge of what can be done: a rotor at rest, a start at the singular point, absurd forces. Late times and tiny
-//! communication steps: the gallery (`xtask/src/hard_cases/times.rs`); impossible parameters: tests/arguments.rs.
+//! communication steps: the gallery (`xtask/src/hard_cases/times.rs`); impossible parameters: tests/interface/arguments.rs.
 
 use crate::harness::named::{Named, ascending};
 use crate::harness::{Method, Scene, Supported, at, within};

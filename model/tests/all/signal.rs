@@ -1,5 +1,5 @@
 //! Inputs: polynomials about communication points, their pieces, and the order of what is held or extrapolated. What a host may send
-//! when, and what becomes of it: tests/inputs.rs.
+//! when, and what becomes of it: tests/interface/inputs.rs.
 
 use crate::harness::swinging::within_order;
 use crate::harness::{Driven, Method, Scene, TORQUE, at, largest, within};

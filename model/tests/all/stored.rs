@@ -1,5 +1,5 @@
 //! A run that is walked out and in goes on with the same bits: every kind of run, in both charts, at any moment. Damaged bytes:
-//! tests/serialized.rs.
+//! tests/interface/serialized.rs.
 
 use crate::harness::named::Named;
 use split_rotor_model::simulation::{General, Integrator};

@@ -1,9 +1,7 @@
 //! Which tolerance and which method are in force: what the scene, the experiment and the host say of them, and that the log
 //! says which counts.
 
-mod harness;
-
-use harness::{Instance, Record, reference};
+use crate::harness::{Instance, Record, reference};
 use split_rotor::abi::{Real, Status};
 
 /// What the motion is after a second, by which two tolerances or methods can be told from one another.

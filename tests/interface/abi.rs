@@ -1,11 +1,8 @@
 //! The 44 exported functions in each state of each kind of instance: what is legal succeeds, what is not is refused, with a
 //! log line that says which function, which state or kind and what would be right, and changes nothing. `arguments.rs`
 //! holds what is wrong with arguments, `stepping.rs` what a step does.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, Life, NO_VARIABLE, RULES, Stage, inputs, reals, reference, refused, scene};
+use crate::harness::{Instance, Life, NO_VARIABLE, RULES, Stage, inputs, reals, reference, refused, scene};
 use split_rotor::abi::*;
 use split_rotor::exports;
 use split_rotor::scene::Simulation;

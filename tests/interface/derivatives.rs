@@ -1,9 +1,6 @@
 //! Directional derivatives and derivatives of outputs through the C interface, against differences of what the FMU shows.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, inputs, reference, scene};
+use crate::harness::{Instance, inputs, reference, scene};
 use split_rotor::abi::{Integer, MODEL_EXCHANGE, Real, Status, ValueReference};
 use split_rotor::exports::{fmi2GetDirectionalDerivative, fmi2GetRealOutputDerivatives};
 use split_rotor::scene::Simulation;

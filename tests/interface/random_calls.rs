@@ -1,11 +1,7 @@
 //! Random sequences of calls: `calls` makes and checks them, the fuzz target in `fuzz/` makes a million more.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod calls;
-mod harness;
-
-use calls::Tally;
-use harness::{Life, RULES, Stage};
+use crate::calls::{self, Tally};
+use crate::harness::{Life, RULES, Stage};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestError, TestRunner};

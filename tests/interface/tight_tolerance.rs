@@ -1,9 +1,7 @@
 //! What becomes of a tolerance that no arithmetic of doubles can keep: it is refused, or the step is given up, with a
 //! message that names it, and soon. `arguments.rs` says which are refused.
 
-mod harness;
-
-use harness::Instance;
+use crate::harness::Instance;
 use split_rotor::abi::Status;
 use std::sync::mpsc::channel;
 use std::thread;

@@ -1,10 +1,7 @@
 //! Rollback: after fmi2SetFMUstate everything goes on with the bits that followed when the state was saved, whatever
 //! happened in between.
-#![allow(unsafe_code, reason = "FMU states are raw pointers")]
 
-mod harness;
-
-use harness::{Instance, Life, Saved, Traveller, reference, refused, scene, tumbling};
+use crate::harness::{Instance, Life, Saved, Traveller, reference, refused, scene, tumbling};
 use split_rotor::abi::{MODEL_EXCHANGE, Status};
 use split_rotor::exports::{fmi2FreeFMUstate, fmi2SetFMUstate};
 use std::ptr::null_mut;

@@ -1,10 +1,7 @@
 //! What a host lends to be written: where a call succeeds, all of it is written and nothing beyond, whatever was there
 //! before; nobody need have initialised it. `arguments.rs` holds what refusals leave alone.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, Life, Saved, Stage, reals, reference, scene};
+use crate::harness::{Instance, Life, Saved, Stage, reals, reference, scene};
 use split_rotor::abi::*;
 use split_rotor::exports::*;
 use split_rotor::scene::Simulation;

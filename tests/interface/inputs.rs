@@ -1,10 +1,7 @@
 //! Inputs: what is held, what derivatives add, what belongs together, and what is forgotten when. They run where the scene
 //! has the input `drive.tau`; without springs and gravity its torque τ turns the rotor about its axis e, and Ja dω/dt = τ.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, Saved, reference, refused, scene};
+use crate::harness::{Instance, Saved, reference, refused, scene};
 use split_rotor::abi::{CO_SIMULATION, Integer, MODEL_EXCHANGE, Real, Status, ValueReference};
 use split_rotor::exports::fmi2SetReal;
 

@@ -1,10 +1,7 @@
 //! FMU states as bytes: what follows has the same bits in another process (in this one: `state.rs`); what is damaged, or comes
 //! from elsewhere, is refused.
-#![allow(unsafe_code, reason = "FMU states are raw pointers")]
 
-mod harness;
-
-use harness::{Instance, Life, Saved, Traveller, inputs, only, reals, scene, tumbling};
+use crate::harness::{Instance, Life, Saved, Traveller, inputs, only, reals, scene, tumbling};
 use split_rotor::abi::{CO_SIMULATION, MODEL_EXCHANGE, Real, Status};
 use split_rotor::scene::values;
 use split_rotor_model::section::GUID;
@@ -60,7 +57,7 @@ fn exact_what_follows_in_another_process_has_the_same_bits() {
         expected.push(told(traveller));
     }
     let own = std::env::current_exe().expect("it has a path");
-    let name = "exact_what_follows_in_another_process_has_the_same_bits";
+    let name = "serialized::exact_what_follows_in_another_process_has_the_same_bits";
     let status = Command::new(own).args(["--exact", name]).env(CHILD, &folder).status().expect("it can be run");
     assert!(status.success(), "{status}");
     for (n, expected) in expected.iter().enumerate() {

@@ -1,10 +1,7 @@
 //! Model exchange through the C interface: states, rates and nominals, the events at which the chart of the states changes,
 //! and what an integrator is told that tries a state too far away.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, only, scene, there, variable};
+use crate::harness::{Instance, only, scene, there, variable};
 use split_rotor::abi::{Integer, MODEL_EXCHANGE, Real, Status};
 use split_rotor::exports::fmi2GetEventIndicators;
 use split_rotor::scene::Simulation;

@@ -1,10 +1,9 @@
 //! Arguments that are wrong: null pointers, value references, types, orders, counts, numbers that cannot be. Each is an
 //! error that names the function, the argument and what would be right, and changes nothing.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, Life, NO_VARIABLE, RULES, Saved, Stage, has, inputs, only, reference, refused, scene, there};
+use crate::harness::{
+    Instance, Life, NO_VARIABLE, RULES, Saved, Stage, has, inputs, only, reference, refused, scene, there,
+};
 use split_rotor::abi::*;
 use split_rotor::exports;
 use split_rotor::scene::Simulation;

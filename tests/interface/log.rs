@@ -1,10 +1,7 @@
 //! fmi2Instantiate, and what an instance says: to whom, under which name, in which categories. That the struct of callbacks may go
 //! meanwhile, the harness tries with each instance; percent signs in messages: tests/c/logs.c.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, Record, Request, only, scene, tumbling};
+use crate::harness::{Instance, Record, Request, only, scene, tumbling};
 use split_rotor::abi::*;
 use split_rotor::exports;
 use std::ffi::{CStr, CString};

@@ -1,11 +1,8 @@
 //! What fmi2DoStep does through the C interface: which times it takes and refuses, what stands in the way of a step and
 //! what is left then, and that a motion depends on nothing but its parameters: not on the communication steps, not on a
 //! reset. `solver.rs` says which tolerance and method are in force; `tests/c` runs instances beside one another, and threads.
-#![allow(unsafe_code, reason = "the exported functions are those of a C interface")]
 
-mod harness;
-
-use harness::{Instance, only, reference, scene, there, tumbling};
+use crate::harness::{Instance, only, reference, scene, there, tumbling};
 use split_rotor::abi::{Real, Status, TRUE, ValueReference};
 use split_rotor::exports::fmi2DoStep;
 use split_rotor_model::variable::{Kind, Role};
@@ -25,7 +22,7 @@ fn motion(instance: &mut Instance) -> Vec<u64> {
 fn refused(instance: &mut Instance, from: Real, step: Real, words: &[&str]) {
     // SAFETY: a live instance.
     let call = |c| unsafe { fmi2DoStep(c, from, step, TRUE) };
-    harness::refused(instance, call, &[&["fmi2DoStep: "], words].concat());
+    crate::harness::refused(instance, call, &[&["fmi2DoStep: "], words].concat());
 }
 
 #[test]
