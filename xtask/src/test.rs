@@ -18,21 +18,22 @@ use std::time::Instant;
 type Job = (&'static str, fn() -> Result<()>);
 
 /// What always runs. Several run side by side, here and below, so what takes longest comes first.
-const SHORT: [Job; 5] = [
+const SHORT: [Job; 4] = [
     ("Rust's tests", rust_tests),
     ("packaged FMUs and hard cases", packaged_fmus),
-    ("bits of a plain build", plain_build),
     ("call rules of a driven scene", driven_tests),
     ("documentation of the code", documentation),
 ];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 14] = [
+const LONG: [Job; 16] = [
     ("bits of every platform", abroad::bits_of_every_platform),
     ("counts that must hold", bench::must_hold),
     ("third-party clients", clients),
     ("fuzz", fuzz::fuzz),
     ("sanitizers", sanitize::sanitizers),
+    ("bits of a plain build", plain_build),
+    ("random calls of a driven scene", || driven(&["random_calls"])),
     ("the example of an effect", copies::example_is_right),
     ("Python package", || wheel::wheel().map(drop)),
     ("long runs", long_runs),
@@ -92,8 +93,10 @@ fn together(jobs: &[&Job]) -> Result<()> {
     })
 }
 
+/// Those of the examples too, which are not built as programs besides.
 fn rust_tests() -> Result<()> {
-    run(cargo().args(["test", "--quiet"]))
+    run(cargo().args(["test", "--quiet", "--tests"]))?;
+    run(cargo().args(["test", "--quiet", "--doc"]))
 }
 
 /// The comments of the code as pages, without a warning.
@@ -103,10 +106,14 @@ fn documentation() -> Result<()> {
 
 /// The call rules once more with a scene that has an input.
 fn driven_tests() -> Result<()> {
+    driven(&["abi", "arguments", "derivatives", "exchange", "inputs", "serialized", "state"])
+}
+
+/// These files of `tests/interface` with that scene.
+fn driven(files: &[&str]) -> Result<()> {
     // Of all members, so that of what it stands on nothing is built anew.
-    let driven = ["test", "--quiet", "--features", "split-rotor/driven", "--test", "interface", "--"];
-    let tests = ["abi", "arguments", "derivatives", "exchange", "inputs", "random_calls", "serialized", "state"];
-    run(cargo().args(driven).args(tests.map(|name| format!("{name}::"))))
+    let test = ["test", "--quiet", "--features", "split-rotor/driven", "--test", "interface", "--"];
+    run(cargo().args(test).args(files.iter().map(|name| format!("{name}::"))))
 }
 
 /// The bits are the same where nothing is optimised; where all is, the packaged FMUs have them too.

@@ -64,6 +64,10 @@ pub(super) const UNITS: &[Written] = &[
     other("lbf", [44_482_216_152_605.0, 1e13], [1, 1, -2, 0]),
 ];
 
+/// What people write for some of them, which no likeness of letters finds.
+const ALSO: &[(&str, &str)] =
+    &[("sec", "s"), ("r", "rev"), ("U", "rev"), ("turns", "rev"), ("degrees", "deg"), ("inch", "in"), ("lbs", "lb")];
+
 /// Prefixes and their powers of ten.
 pub(super) const PREFIXES: &[(&str, i32)] =
     &[("n", -9), ("u", -6), ("µ", -6), ("μ", -6), ("m", -3), ("c", -2), ("d", -1), ("k", 3), ("M", 6), ("G", 9)];
@@ -258,6 +262,9 @@ fn named(name: &str) -> Option<(i32, &'static Written)> {
 
 /// What is said of a name that is no unit.
 fn unknown(name: &str) -> String {
+    if let Some((_, unit)) = ALSO.iter().find(|(also, _)| *also == name) {
+        return format!("did you mean `{unit}`?");
+    }
     let mut names: Vec<_> = UNITS.iter().map(|unit| unit.name.to_owned()).collect();
     for unit in UNITS.iter().filter(|unit| unit.prefixed) {
         names.extend(PREFIXES.iter().map(|(prefix, _)| format!("{prefix}{}", unit.name)));
@@ -376,6 +383,8 @@ mod tests {
         assert_eq!(unit("5 Nm").1, "did you mean `N m`?");
         assert_eq!(unit("40 gmm").1, "did you mean `g mm`?");
         assert_eq!(unit("0.04 kgm2").1, "did you mean `kg m`?");
+        assert_eq!(unit("5 sec").1, "did you mean `s`?");
+        assert_eq!(unit("3000 U/min"), ("U", "did you mean `rev`?".into()));
         assert_eq!(unit("5 N/m.s").0, "s");
         assert_eq!(unit("5 N/(m.s").1, "the bracket is not closed");
         assert_eq!(unit("5 m)").0, ")");

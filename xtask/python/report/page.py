@@ -6,7 +6,6 @@ import re
 from itertools import groupby
 from pathlib import Path
 
-import fmpy
 import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
@@ -91,9 +90,8 @@ def _version_of_uplot():
 
 def _versions(scene):
     return [
-        ("FMU", f"{scene.identifier} {scene.version}, FMI {scene.fmi_version}"),
+        ("model", f"{scene.identifier} {scene.version}, FMI {scene.fmi_version}"),
         ("GUID", scene.guid),
-        ("fmpy", fmpy.__version__),
         ("uPlot", _version_of_uplot()),
         ("Python", f"{platform.python_version()} on {platform.system()} {platform.machine()}"),
     ]

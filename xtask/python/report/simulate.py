@@ -4,6 +4,7 @@ import math
 from tempfile import TemporaryDirectory
 from time import perf_counter, thread_time
 
+import fmpy
 import numpy as np
 from fmpy import extract, simulate_fmu
 from fmpy.fmi1 import FMICallException
@@ -64,7 +65,7 @@ def simulate(fmu_path, description, scene, inputs=()):
     reached = columns["time"][-1]
     if not np.isclose(reached, scene.stop):
         raise _failed(f"the FMU stopped at {reached:g} s of {scene.stop:g} s", log)
-    return Result(scene, np.asarray(columns), "as a co-simulation by fmpy", timings, tuple(log))
+    return Result(scene, np.asarray(columns), f"as a co-simulation by fmpy {fmpy.__version__}", timings, tuple(log))
 
 
 def _time_steps(fmu):
