@@ -166,7 +166,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         self.start_until(t, relative_tolerance, None)
     }
 
-    /// [`Simulation::start`] of a run that is known to stop at `stop` \[s]: no step runs ahead of that.
+    /// [`Simulation::start`] of a run that is known to stop at `stop` \[s]: no step runs ahead of that, and no more
+    /// motion is expected than comes about by then.
     pub fn start_until(&mut self, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid> {
         self.begin(t, relative_tolerance, stop, None)
     }
@@ -448,7 +449,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// What each continuous state of the host's counts with, in its unit.
     pub fn nominals(&self) -> [f64; N] {
-        Self::to_host(self.nominals_inside())
+        Self::to_host(self.nominals_inside(f64::INFINITY))
     }
 
     /// The indicators of events of a motion that a host integrates or will integrate: the first [`Simulation::INDICATORS`] count.
@@ -478,20 +479,24 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// What the continuous state at this place counts with; None where there is none.
     pub fn nominal(&self, place: Place) -> Option<f64> {
-        self.parameters.number_in_state::<N>(place).map(|n| self.nominals_inside()[n])
+        self.parameters.number_in_state::<N>(place).map(|n| self.nominals_inside(f64::INFINITY)[n])
     }
 
-    fn nominals_inside(&self) -> [f64; N] {
+    fn nominals_inside(&self, span: f64) -> [f64; N] {
         let t = self.time().unwrap_or_default();
         let mut parameters = self.parameters.clone();
         let start = Motion::<N>::begins(&mut parameters, t).unwrap_or_else(|_| Motion::at_start(&mut parameters, t));
-        Nominals::of(&parameters.effects, &start, t).each()
+        Nominals::of(&parameters.effects, &start, t, span).each()
     }
 
     /// Below which place \[m], velocity [m/s], angular momentum [kg·m²/s] and tilt \[rad] errors are not compared with a smaller
     /// motion.
     pub fn least_sizes(&self) -> [f64; 4] {
-        let nominals = self.nominals();
+        let span = match &self.run {
+            Some(Run::Method(integration)) => integration.span(),
+            _ => f64::INFINITY,
+        };
+        let nominals = Self::to_host(self.nominals_inside(span));
         [0, 3, 6, 9].map(|n| LEAST * BESIDE * nominals[n])
     }
 

@@ -54,8 +54,10 @@ impl Csv<'_> {
         let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).peekable();
         let mut columns = [&SECOND, variable.meta.unit].map(|unit| Column { unit, written: None });
         if let Some((number, line)) = lines.next_if(|(_, line)| names(line)) {
-            let named = columns_of(line, variable, variables);
-            columns = named.map_err(|right| vec![self.at((number, line), "does not name the columns", &right)])?;
+            let (own, unit) = (&variable.name, brackets(variable.meta.unit));
+            let right = "the first line has a time in s and a value, or names both columns: time [s]";
+            let wrong = |is: String| vec![self.at((number, line), &is, &format!("{right},{own}{unit}"))];
+            columns = columns_of(line, variable, variables).map_err(wrong)?;
         }
         let (mut points, mut wrong, mut latest) = (Vec::new(), Vec::new(), f64::NEG_INFINITY);
         for line in lines {
@@ -102,27 +104,27 @@ fn names(line: &str) -> bool {
     line.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '"' || c == '#')
 }
 
-/// The columns that this line names, or what would be right.
+/// The columns that this line names, or what it does instead.
 fn columns_of<'l>(line: &'l str, variable: &Variable, variables: &[Variable]) -> Result<[Column<'l>; 2], String> {
-    let right = || {
-        let (own, unit) = (&variable.name, brackets(variable.meta.unit));
-        format!("the first line has a time in s and a value, or names both columns: time [s],{own}{unit}")
-    };
+    let unnamed = || "does not name the columns".to_owned();
     // As numpy writes it, behind a #.
-    let (time, value) = line.trim_start().trim_start_matches('#').split_once(',').ok_or_else(right)?;
+    let (time, value) = line.trim_start().trim_start_matches('#').split_once(',').ok_or_else(unnamed)?;
     let ((time, time_unit), (value, value_unit)) = (cell(time), cell(value));
     let ends = |variable: &Variable| variable.name == value || variable.name.ends_with(&format!(".{value}"));
     let other = |other: &Variable| other.name == value || matches!(other.meta.role, Role::Input { .. }) && ends(other);
     let is_other = !ends(variable) && variables.iter().any(other);
     let is_time = |name: &str| TIMES.iter().any(|known| known.eq_ignore_ascii_case(name));
     if !is_time(time) || is_time(value) || !names(value) || value.contains(',') || is_other {
-        return Err(right());
+        return Err(unnamed());
     }
     let columns = [(&SECOND, time_unit), (variable.meta.unit, value_unit)].map(|(unit, written)| {
         let written = written.filter(|written| *written != unit.name);
         Column { unit, written }
     });
-    if columns.iter().all(|column| column.number("1").is_some()) { Ok(columns) } else { Err(right()) }
+    match columns.iter().find(|column| column.number("1").is_none()) {
+        None => Ok(columns),
+        Some(unfit) => Err(format!("has a unit that does not fit, [{}]", unfit.written.unwrap_or_default())),
+    }
 }
 
 /// The name and the unit in brackets of `name [unit]`.

@@ -149,7 +149,8 @@ impl<const N: usize> Integration<N> {
         span: Option<f64>,
     ) -> Self {
         let t = instant.reading.motion.t;
-        let tolerance = tolerance(setup, effects, start, t);
+        let span = span.unwrap_or(f64::INFINITY);
+        let tolerance = tolerance(setup, effects, start, t, span);
         let Motion { frame, state: y, events, .. } = *start;
         let plan = Plan::new(&setup.solver, effects);
         let method = Method::start(plan, tolerance, &frame.under(effects), t, y);
@@ -168,7 +169,7 @@ impl<const N: usize> Integration<N> {
             most: setup.solver.max_evaluations,
             last,
             t,
-            stop: span.map_or(f64::INFINITY, |span| t + span),
+            stop: t + span,
             total_at_start: instant.reading.ledger.total_at_start,
             events,
             ..Self::blank()
@@ -208,6 +209,11 @@ impl<const N: usize> Integration<N> {
     /// The communication point \[s].
     pub(super) fn time(&self) -> f64 {
         self.t
+    }
+
+    /// How long the run still lasts \[s], infinite where nobody knows.
+    pub(super) fn span(&self) -> f64 {
+        self.stop - self.t
     }
 
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.

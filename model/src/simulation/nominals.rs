@@ -30,8 +30,13 @@ pub struct Nominals<const N: usize> {
 const UNKNOWN: f64 = 1e-6;
 
 impl<const N: usize> Nominals<N> {
-    /// Of a motion that starts at time `t` \[s].
-    pub(super) fn of<E: Effects>(effects: &E, Motion { frame, state, own_nominal, .. }: &Motion<N>, t: f64) -> Self {
+    /// Of a motion that starts at time `t` \[s] and lasts for `span` \[s], infinite where nobody knows.
+    pub(super) fn of<E: Effects>(
+        effects: &E,
+        Motion { frame, state, own_nominal, .. }: &Motion<N>,
+        t: f64,
+        span: f64,
+    ) -> Self {
         let rotor = frame.under(effects);
         let (rates, slopes) = (rotor.rates_of_all(t, state), rotor.jacobian(t, state));
         let (rates, slopes) = (rigid(&rates), slopes.map(|slopes| rotated(slopes, own(N))));
@@ -45,8 +50,11 @@ impl<const N: usize> Nominals<N> {
         let swings = springs.iter().map(|&(rate, at, inertia, _)| (slopes[rate][at] / inertia).abs().sqrt());
         let rate = swings.filter(|rate| rate.is_finite()).fold(omega, larger);
         let rate = if rate > 0.0 && rate.is_finite() { rate } else { 1.0 };
-        // How far springs give way to what pushes at the start.
-        let gives = springs.map(|(rate, at, _, length)| (rates[rate] / slopes[rate][at]).abs() * length);
+        // How far springs give way to what pushes at the start: by (ωT)²/2 of that, where the run ends before they swing.
+        let gives = springs.map(|(rate, at, inertia, length)| {
+            let share = 0.5 * (slopes[rate][at] / inertia).abs() * span * span;
+            (rates[rate] / slopes[rate][at]).abs() * length * if share < 1.0 { share } else { 1.0 }
+        });
         let eccentricity = body.asymmetric.map_or(0.0, |asymmetric| asymmetric.centre.yz().norm());
         let at = Coordinates::from_slice(rigid(state));
         let (offset, tilt, speed) = (at.r.yz().norm(), at.gamma.norm(), at.v.yz().norm() / rate);

@@ -110,15 +110,15 @@ impl<const N: usize> Motion<N> {
 /// weight may be far more than what the rotor then does.
 pub(super) const BESIDE: f64 = 1e-4;
 
-/// How small the error of a step must be.
+/// How small the error of a step must be in a run that lasts for `span` \[s], infinite where nobody knows.
 pub(super) fn tolerance<E: Effects, const N: usize>(
     setup: &Setup,
     effects: &E,
     motion: &Motion<N>,
     t: f64,
+    span: f64,
 ) -> Tolerance<N> {
     let Solver { relative_tolerance: relative, absolute_tolerance, .. } = setup.solver;
-    let squares = Nominals::of(effects, motion, t).squares();
-    let part = |of: f64| squares.map(|square| of * of * square);
-    Tolerance { relative, absolute: part(absolute_tolerance), nominal: part(BESIDE) }
+    let part = |of: f64, span: f64| Nominals::of(effects, motion, t, span).squares().map(|square| of * of * square);
+    Tolerance { relative, absolute: part(absolute_tolerance, f64::INFINITY), nominal: part(BESIDE, span) }
 }

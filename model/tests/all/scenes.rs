@@ -142,7 +142,7 @@ fn a_speed_in_1_per_minute_is_refused_for_it_may_count_turns() {
         let scene = Scene::parse(&folder.join("any.toml"), &format!("{ROTOR}{input}"));
         scene.map(|scene| scene.inputs[0].value.clone()).map_err(|error| error.problems[0].wrong.clone())
     });
-    let refused = "line 1 of x.csv does not name the columns".to_owned();
+    let refused = "line 1 of x.csv has a unit that does not fit, [1/min]".to_owned();
     assert_eq!(told, [Ok(vec![0.0, 2.0 * std::f64::consts::PI]), Err(refused)]);
     std::fs::remove_dir_all(&folder).expect("it is there");
 }
@@ -227,9 +227,9 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         ("time,time\n1,2\n", columns),
         ("time,turns\n1,2\n", columns),
         ("time,tau,speed\n1,2\n", columns),
-        ("time [m],tau\n1,2\n", columns),
-        ("time,tau [N]\n1,2\n", columns),
-        ("time,tau [ ]\n1,2\n", columns),
+        ("time [m],tau\n1,2\n", "line 1 of x.csv has a unit that does not fit, [m]"),
+        ("time,tau [N]\n1,2\n", "line 1 of x.csv has a unit that does not fit, [N]"),
+        ("time,tau [ ]\n1,2\n", "line 1 of x.csv has a unit that does not fit, []"),
     ] {
         std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
         let error = parse("file = \"x.csv\"").expect_err(csv);
