@@ -9,6 +9,9 @@ use toml::de::Error;
 /// What the reader of TOML calls a key that stands twice, and a text without quotes.
 const DUPLICATE: &str = "duplicate key";
 const UNQUOTED: &str = "string values must be quoted";
+/// What it says of each line below a bracket that nobody closes, and what is said of the first.
+const UNSEPARATED: &str = "missing comma between array elements";
+const OPEN: &str = "a bracket `[` above is not closed";
 
 /// What is no TOML in a text, and whether all else in it was read as it is meant.
 pub(super) fn problems(text: &str, errors: &[Error]) -> (Vec<Problem>, bool) {
@@ -18,8 +21,13 @@ pub(super) fn problems(text: &str, errors: &[Error]) -> (Vec<Problem>, bool) {
     errors.sort_by_key(|(place, _)| place.start);
     for (place, message) in &errors {
         let line = line_around(text, place.start);
-        let told = if problems.iter().any(|problem| within(problem, &line)) {
+        let is_below_open = message.starts_with(UNSEPARATED) && text[line.start..place.start].trim().is_empty();
+        let follows = |problem: &Problem| within(problem, &line) || is_below_open && problem.wrong == OPEN;
+        let told = if problems.iter().any(follows) {
             None
+        } else if is_below_open {
+            rest_is_sound = false;
+            Some(Problem::at(place.clone(), OPEN, "write `]` before this"))
         } else if let Some(comma) = decimal_comma(text, &line) {
             let (given, right) = (&text[comma.clone()], text[comma.clone()].replace(',', "."));
             Some(Problem::at(comma, format!("{given} has a decimal comma"), format!("write {right}")))
@@ -81,6 +89,9 @@ fn doubled(text: &str, place: &Range<usize>, line: &Range<usize>, told: &[Proble
 /// A text without quotes.
 fn unquoted(text: &str, place: &Range<usize>) -> Problem {
     let given = &text[place.clone()];
+    if given.starts_with('(') {
+        return bare_list(text, place);
+    }
     let right = match given.to_lowercase().as_str() {
         "yes" | "on" | "true" => "write true, if a yes is meant".into(),
         "no" | "off" | "false" => "write false, if a no is meant".into(),
@@ -89,6 +100,14 @@ fn unquoted(text: &str, place: &Range<usize>) -> Problem {
     let is_quantity = matches!(units::read(given), Ok(_) | Err(Unreadable::Unit(..)));
     let wrong = if is_quantity { "a number with its unit needs quotes" } else { "a text needs quotes" };
     Problem::at(place.clone(), format!("{wrong}: {given}"), right)
+}
+
+/// Numbers in a row without square brackets.
+fn bare_list(text: &str, place: &Range<usize>) -> Problem {
+    let line = line_around(text, place.start);
+    let value = text[line].split_once('=').map_or("", |(_, value)| value).split('#').next().unwrap_or_default();
+    let numbers = value.trim().trim_matches(['(', ')']);
+    Problem::at(place.clone(), "numbers in a row need square brackets", format!("write [{numbers}]"))
 }
 
 /// What the reader of TOML says, with a remedy of ours where its own says little.
@@ -100,6 +119,8 @@ fn other(text: &str, place: &Range<usize>, line: &Range<usize>, message: &str) -
         (UNQUOTED, _) if place.is_empty() => {
             return Problem::at(place.clone(), format!("`{key}` has no value"), format!("write `{key} = ...`"));
         }
+        ("unexpected key or value", _) if text[place.start..].starts_with(',') => return bare_list(text, place),
+        ("unexpected leading zero", _) => "leave it out; a decimal point, if one is meant, is a `.`".into(),
         _ if text[place.start..].starts_with(':') => "write `=` between a key and its value".into(),
         ("invalid fraction" | "invalid mantissa", _) => "a point has digits on both sides, as in 0.5".into(),
         ("invalid float", _) => "write one number".into(),

@@ -1,6 +1,7 @@
 //! What a scene can be, but is hardly meant to be.
 
 use super::Scene;
+use crate::variable::{Place, Role};
 
 /// So many radii of gyration from c, a place on the axis is taken for a slip, of mm for m \[1].
 const FAR: f64 = 30.0;
@@ -8,7 +9,8 @@ const FAR: f64 = 30.0;
 impl Scene {
     /// What its author may not have meant, in words.
     pub fn warnings(&self) -> Vec<String> {
-        self.far_places().chain(self.heavy_unbalances()).chain(self.idle_inputs()).collect()
+        let places_and_masses = self.far_places().chain(self.heavy_unbalances());
+        places_and_masses.chain(self.idle_effects()).chain(self.idle_inputs()).collect()
     }
 
     /// Names and values of the parameters whose names end so; of what is switched off too.
@@ -30,6 +32,24 @@ impl Scene {
         let m = self.parameters().setup.rotor.m;
         let masses = self.given(".mass").filter(move |(name, mass)| name.starts_with("unbalance") && *mass > m);
         masses.map(move |(name, mass)| format!("{name} = {mass:?} kg is more than rotor.m = {m:?} kg: are these g?"))
+    }
+
+    /// What acts has a mass, a stiffness or a damping, whose unit holds kg. What has an input is left to its host.
+    fn idle_effects(&self) -> impl Iterator<Item = String> {
+        self.acting().filter_map(|(info, index)| {
+            let block = Place::effect_block(info.number, index);
+            let own = || self.variables.iter().filter(move |variable| variable.place.block == block);
+            let is_driven = own().any(|variable| matches!(variable.meta.role, Role::Input { .. }));
+            let strong = own().filter(|variable| {
+                matches!(variable.meta.role, Role::Parameter { .. }) && variable.meta.unit.exponents[0] != 0
+            });
+            let (names, values): (Vec<_>, Vec<_>) = strong
+                .map(|variable| (variable.meta.name, self.starts.get(&variable.place.value_reference()).copied()))
+                .unzip();
+            let is_idle = !is_driven && !values.is_empty() && values.iter().all(|value| *value == Some(0.0));
+            let verb = if names.len() == 1 { "is" } else { "are" };
+            is_idle.then(|| format!("{} does nothing: {} {verb} 0", info.block_name(index), names.join(", ")))
+        })
     }
 
     fn idle_inputs(&self) -> impl Iterator<Item = String> {

@@ -151,6 +151,11 @@ const CASES: &[Case] = &[
              [[effects.bearing]]\nposition = 0.0\nspeed = [0, 2, 2]\nkyy = [1, 2]\n[solver]",
         )],
     ),
+    // Brackets.
+    ("open_list", &[("[start]", "[start]\ngamma = [1.0, 2.0\nphi = 0.0\n")]),
+    ("round_brackets", &[("m = 5.0", "m = (5.0, 0.0)")]),
+    ("no_brackets", &[("m = 5.0", "m = 5.0, 0.0 # kg")]),
+    ("comma_in_a_list", &[("m = 5.0", "m = [0,001, 2]")]),
     // Inputs.
     (
         "misspelt_name_of_an_input",

@@ -264,6 +264,12 @@ fn what_is_hardly_meant_is_warned_of() {
     for odd in [
         (place("-120"), "probe[1].position = -120.0 m is 960 radii of gyration, 0.125 m, from c: are these mm?"),
         (unbalance("40 kg"), "unbalance[1].mass = 40.0 kg is more than rotor.m = 5.0 kg: are these g?"),
+        (unbalance("0 kg"), "unbalance[1] does nothing: mass is 0"),
+        ("[effects.drag]".into(), "drag does nothing: linear, quadratic are 0"),
+        (
+            "[[effects.bearing]]\nposition = 0.1".into(),
+            "bearing[1] does nothing: kyy, kyz, kzy, kzz, cyy, cyz, czy, czz, kxx, cxx, kt, ct are 0",
+        ),
         (input("3, 4"), "the input drive.tau begins at 3.0 s, and the run ends at 3.0 s"),
         (input("0, 1"), "the input drive.tau ends at 1.0 s, and the run begins at 1.0 s"),
     ] {
