@@ -98,12 +98,16 @@ impl<'s> Recorded<'s> {
         writeln!(table, "time,{}", names.join(","))?;
         let progress = Progress::of(run::points(experiment));
         progress.set_message("simulating");
-        let (watched, mut writing) = (&mut self.watched, Duration::ZERO);
+        let (watched, mut writing, mut told) = (&mut self.watched, Duration::ZERO, 0);
         let began = ThreadTime::now();
         let outcome = self.run.follow(experiment, |run, t| {
             let began = ThreadTime::now();
             write(run.values()?, t, watched, &mut table)?;
             progress.inc(1);
+            // At once: what grows without bound may take long.
+            let new = &run.grown()[told..];
+            progress.suspend(|| new.iter().for_each(|growth| eprintln!("warning: {growth}")));
+            told += new.len();
             writing += began.elapsed();
             Ok(())
         });

@@ -8,6 +8,8 @@ BOUND_FACTOR = 10.0
 """How many relative tolerances the energy may be off, of the energy turned over."""
 LARGEST_BOUND = 1e-3
 """What it may be off at most, however loose the tolerance."""
+ROUNDING = 16.0 * np.finfo(float).eps
+"""How far a sum of energies is off by rounding, of the largest."""
 
 
 @dataclass(frozen=True)
@@ -35,10 +37,12 @@ def energy_balance(result, relative_tolerance):
         + np.abs(result["energy.supplied"]).max()
         + np.abs(result["energy.dissipated"]).max()
     )
+    tolerated = min(BOUND_FACTOR * relative_tolerance, LARGEST_BOUND) * turnover
+    largest = max(np.abs(result[f"energy.{kind}"]).max() for kind in ("kinetic", "potential", "supplied", "dissipated"))
     return EnergyBalance(
         residual=np.abs(result["energy.residual"]).max(),
         turnover=turnover,
-        bound=min(BOUND_FACTOR * relative_tolerance, LARGEST_BOUND) * turnover,
+        bound=max(tolerated, ROUNDING * largest),
     )
 
 

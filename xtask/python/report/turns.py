@@ -8,8 +8,10 @@ PER_TURN = 64
 """Angles of a turn at which it is looked at."""
 LEAST_SAMPLES = 6.0
 """Samples that a turn needs; cubics through place and velocity are then right to 0.3 % of a synchronous whirl."""
+UNLIKE = 1.0 / 3.0
+"""What goes round as many times in each turn differs by less than this part from its mean over some turns."""
 SETTLING = 10
-"""Turns over which the middle of a whirl is taken, so that one at a part of the speed goes round within them."""
+"""Turns over which the middle and the parts of a whirl are taken, so that one at a part of the speed goes round within them."""
 
 
 @dataclass(frozen=True)
@@ -27,14 +29,18 @@ class Turns:
     def whirl(self):
         """The largest distance from the middle in each turn [m], all frequencies together."""
         middle = self.offset.mean(axis=1)
-        window = np.ones(min(SETTLING, len(middle)))
-        near = np.convolve(middle, window, "same") / np.convolve(np.ones(len(middle)), window, "same")
-        return np.abs(self.offset - near[:, None]).max(axis=1)
+        return np.abs(self.offset - _near(middle, np.ones(min(SETTLING, len(middle))))[:, None]).max(axis=1)
 
     def order(self, multiple):
         """The part of each turn that goes round `multiple` times in it, complex amplitude [m]; negative: backward."""
         angles = 2.0 * np.pi * np.arange(PER_TURN) / PER_TURN
         return (self.offset * np.exp(-1j * multiple * angles)).mean(axis=1)
+
+    def holds(self, multiple):
+        """Whether `order` is like that of the turns around: what goes round at another rate passes for it in one turn only."""
+        each = self.order(multiple)
+        around = _near(each, np.hanning(min(SETTLING, len(each)) + 2)[1:-1])
+        return np.abs(each - around) < UNLIKE * np.abs(around)
 
 
 def samples(result):
@@ -61,6 +67,11 @@ def turns(station, result):
     return Turns(
         (starts[1:] + starts[:-1]) / 2.0, 2.0 * np.pi / np.diff(starts), offset.reshape(count, PER_TURN)
     )
+
+
+def _near(each, window):
+    """The mean about each turn with these weights, at the ends of those that are there."""
+    return np.convolve(each, window, "same") / np.convolve(np.ones(len(each)), window, "same")
 
 
 def _in_one_sense(angle):

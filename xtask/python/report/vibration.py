@@ -64,28 +64,42 @@ def run_up(result, view):
     seen = _seen(result) if result.scene.blocks("unbalance") else []
     if not _sweeps(seen):
         return None
+    parts = [(station, t.speed[1:], *_synchronous(t)) for station, t in seen]
+    parts = [part for part in parts if np.isfinite(part[2]).any()]
+    if not parts:
+        return None
     amplitudes, phases, largest = [], [], []
-    unit, size = multiple(max(_amplitude(t).max() for _, t in seen), "m")
-    for station, t in seen:
-        speed, amplitude = t.speed[1:] * RPM, _amplitude(t)[1:] / size
-        top = amplitude.argmax()
-        largest.append(f"{station.name} {number(amplitude[top], 3)} {unit} at {rpm(t.speed[1 + top])}")
-        mark = {"x": speed[top], "y": amplitude[top]}
-        amplitudes.append((station.name, speed, amplitude, [mark]))
-        phase = np.degrees(np.unwrap(np.angle(t.order(1)[1:])))
-        phase -= 360.0 * round(phase[top] / 360.0)
-        phases.append((station.name, speed, np.where(amplitude > 0.02 * amplitude.max(), phase, np.nan)))
+    unit, size = multiple(max(np.nanmax(amplitude) for _, _, amplitude, _ in parts), "m")
+    for station, speed, amplitude, phase in parts:
+        top = np.nanargmax(amplitude)
+        largest.append(f"{station.name} {number(amplitude[top] / size, 3)} {unit} at {rpm(speed[top])}")
+        mark = {"x": speed[top] * RPM, "y": amplitude[top] / size}
+        amplitudes.append((station.name, speed * RPM, amplitude / size, [mark]))
+        phase = phase - 360.0 * round(phase[top] / 360.0)
+        phases.append((station.name, speed * RPM, np.where(amplitude > 0.02 * amplitude[top], phase, np.nan)))
     caption = (
-        f"The part of the motion that goes round once in a turn, turn by turn: the longer half axis of its orbit (largest: "
-        f"{', '.join(largest)}), and by how much its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out."
+        f"The part of the motion that goes round once in a turn: the longer half axis of its orbit (largest: "
+        f"{', '.join(largest)}), and by how much its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out"
+        f"{_hidden(parts)}."
     )
     title = "Run-up" if seen[0][1].speed[-1] >= seen[0][1].speed[0] else "Run-down"
     return paths(title, caption, "speed [rpm]", (f"amplitude 1× [{unit}]", amplitudes), ("phase [°]", phases))
 
 
-def _amplitude(seen):
-    """The longer half axis of the synchronous orbit in each turn [m]."""
-    return np.abs(seen.order(1)) + np.abs(seen.order(-1))
+def _synchronous(seen):
+    """Longer half axis [m] and phase [°] of the synchronous orbit after the first turn; NaN where others hide it."""
+    forward, backward, shown = seen.order(1)[1:], seen.order(-1)[1:], seen.holds(1)[1:]
+    amplitude = np.abs(forward) + np.abs(backward)
+    phase = np.full(len(amplitude), np.nan)
+    phase[shown] = np.degrees(np.unwrap(np.angle(forward[shown])))
+    return np.where(shown, amplitude, np.nan), phase
+
+
+def _hidden(parts):
+    """What the caption says of turns that are not shown."""
+    if all(np.isfinite(amplitude).all() for _, _, amplitude, _ in parts):
+        return ""
+    return f", and so are turns in which motions of other frequencies hide it"
 
 
 def waterfall(result, view):
