@@ -38,7 +38,7 @@ def passed(findings, speeds, **crossing):
 
 def test_exact_a_critical_speed_among_those_of_the_run_is_told_with_its_amplification_factor(findings):
     (what,) = passed(findings, [0.0, 600.0])
-    assert what.startswith("critical speed within the speeds of this run, 0\u00a0rpm to 5\u202f730\u00a0rpm; amplification factor 10 (")
+    assert what.startswith("critical speed that an unbalance drives, within the speeds of this run, 0\u00a0rpm to 5\u202f730\u00a0rpm; amplification factor 10 (")
     assert "API 617" in what
     (what,) = passed(findings, [0.0, -600.0])  # either sense
     assert "amplification factor 10" in what
@@ -62,7 +62,7 @@ def test_exact_those_that_are_alike_are_told_as_one(findings):
 
 def test_exact_it_is_next_to_the_run_as_far_as_its_peak_is_wide(findings):
     (what,) = passed(findings, [0.0, 191.0])  # 200 rad/s less 5 %: 190 rad/s
-    assert what.startswith("critical speed next to the speeds of this run")
+    assert what.startswith("critical speed that an unbalance drives, next to the speeds of this run")
     assert passed(findings, [0.0, 189.0]) == [] == passed(findings, [211.0, 400.0])
 
 

@@ -179,6 +179,7 @@ def test_exact_turns_take_a_whirl_apart(report, sense):
     assert turns.order(1) == pytest.approx(np.full(40, FORWARD * np.exp(-1j * LAG)), abs=CUBIC * FORWARD)
     assert np.abs(turns.order(-1)) == pytest.approx(np.full(40, BACKWARD), abs=CUBIC * FORWARD)
     assert turns.whirl == pytest.approx(np.full(40, FORWARD + BACKWARD), rel=2e-3)  # at one of 64 angles
+    assert turns.holds(1).all()
     assert report.turns.turns(Station("c", 0.0), whirling(300.0, 5, sense)) is None, "too few samples"
     # Where it turned back a little before, and does once more at the end, what lies between is looked at.
     whole = whirling(300.0, 12, sense)
@@ -186,6 +187,25 @@ def test_exact_turns_take_a_whirl_apart(report, sense):
     before["time"], after["time"] = -before["time"], 2.0 * whole["time"][-1] - after["time"]
     again = report.turns.turns(Station("c", 0.0), np.concatenate([before, whole, after]))
     assert np.array_equal(again.offset, turns.offset) and np.array_equal(again.time, turns.time)
+
+
+def test_exact_another_whirl_does_not_pass_for_one_that_goes_round_with_the_rotor(report):
+    from report.stations import Station
+
+    columns = whirling(300.0, 12)
+    # Seen from a rotor that turns by a quarter faster, the same motion goes round 0.8 times a turn.
+    columns["phi"] *= 1.25
+    turns = report.turns.turns(Station("c", 0.0), columns)
+    assert np.abs(turns.order(1)).min() > 0.5 * FORWARD and not turns.holds(1).any()
+
+
+def test_exact_energy_adds_up_but_for_rounding(report):
+    names = [f"energy.{name}" for name in ("kinetic", "potential", "supplied", "dissipated", "residual")]
+    columns = np.zeros(3, dtype=[(name, float) for name in names])
+    columns["energy.potential"] = -3.6e-3
+    for residual, holds in ((8.7e-19, True), (1e-16, False)):
+        columns["energy.residual"] = residual
+        assert report.measure.energy_balance(columns, 1e-8).holds == holds
 
 
 def test_exact_samples_follow_a_motion_or_do_not(report):

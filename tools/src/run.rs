@@ -94,7 +94,10 @@ impl<'s> Run<'s> {
                 self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
                 seen(self, reached)?;
             }
-            outcome.map_err(stuck)?;
+            outcome.map_err(|fault| match self.grown.last() {
+                Some(growth) => Error::msg(format!("{fault}; {growth}")),
+                None => stuck(fault),
+            })?;
             from = next;
         }
         Ok(())

@@ -102,7 +102,7 @@ impl Toolchain {
             match toolchain {
                 Ok(toolchain) => all.push(toolchain),
                 Err(lack) if target.platform == own.platform => {
-                    println!("{name} is for machines like this one: {lack}")
+                    println!("{name} is built for machines like this one; for all others {lack}")
                 }
                 Err(lack) => eprintln!("{name} is not built: {lack}"),
             }

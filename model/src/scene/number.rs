@@ -7,6 +7,9 @@ use crate::variable::units::Unit;
 use crate::variable::{Enumeration, Kind, Meta};
 use toml::de::DeValue;
 
+/// What word processors make of a minus.
+const DASHES: [char; 3] = ['−', '–', '—'];
+
 impl Reader<'_> {
     /// The value of a parameter or input, checked; None where it is not possible.
     pub(super) fn number(&mut self, value: &Value, meta: &Meta, in_file: &str) -> Option<f64> {
@@ -54,6 +57,9 @@ impl Reader<'_> {
                         format!("{in_file} is {what}{}; {} is {found}", brackets(unit), self.given(value)),
                         right,
                     )
+                }
+                Err(Unreadable::NoNumber) if text.contains(DASHES) => {
+                    tell(self, impossible, format!("a minus is written `-`: \"{}\"", text.replace(DASHES, "-")))
                 }
                 Err(Unreadable::NoNumber) => tell(self, impossible, format!("it must be a number{}", of_unit(" in "))),
                 Err(Unreadable::NoUnit) if is_pure => tell(self, impossible, "write it without quotes".into()),

@@ -113,7 +113,10 @@ fn key(variable: &Variable, within: &str, own: &[&Variable], starts: Option<&BTr
         (Role::Parameter { bound, .. }, kind) => words(bound, kind),
         _ => String::new(),
     };
-    let (name, meaning) = (&name[within.len()..], meta.description.replace("node 1", "each node"));
+    let (name, mut meaning) = (&name[within.len()..], meta.description.replace("node 1", "each node"));
+    if meta.node().is_some_and(|(of, _)| of == SPEED) {
+        meaning += "; between nodes monotone cubics, level at both ends, beyond them constant";
+    }
     let (name, default) = if is_array {
         (name.split('[').next().unwrap_or(name), Some("no table".to_owned()))
     } else {

@@ -156,6 +156,7 @@ const CASES: &[Case] = &[
     ("round_brackets", &[("m = 5.0", "m = (5.0, 0.0)")]),
     ("no_brackets", &[("m = 5.0", "m = 5.0, 0.0 # kg")]),
     ("comma_in_a_list", &[("m = 5.0", "m = [0,001, 2]")]),
+    ("minus_of_a_word_processor", &[("m = 5.0", "m = \"−5 kg\"")]),
     // Inputs.
     (
         "misspelt_name_of_an_input",

@@ -68,7 +68,7 @@ def _passed(result, view):
         if not how:
             factors = ", ".join(number(0.5 / crossing["damping_ratio"], 2) for crossing in crossings)
             how = f"amplification factor{several} {factors} (from {SHARP} on it counts as critical, API 617)"
-        what = f"critical speed{several} {where} the speeds of this run, {_range(spin)}; {how}"
+        what = f"critical speed{several} that an unbalance drives, {where} the speeds of this run, {_range(spin)}; {how}"
         yield Finding(_in_rpm(_numbers(crossings)), what, "bad")
 
 
