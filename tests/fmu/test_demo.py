@@ -84,13 +84,14 @@ def test_exact_energy_that_does_not_add_up_is_an_error(paper, run, monkeypatch, 
     from report import measure
 
     monkeypatch.setattr(measure, "BOUND_FACTOR", 0.0)
+    monkeypatch.setattr(measure, "ROUNDING", 0.0)
     assert run(paper.path) == 1
     error = capsys.readouterr().err
     assert re.fullmatch(
         r"error: the energy of paper does not add up: the largest residual, \S+ J, exceeds its bound, 0 J\n", error
     )
     page = (tmp_path / "demo" / "report.html").read_text(encoding="utf-8")
-    what = "at most: not less than the 0\u00a0J that the tolerance allows"
+    what = "at most: not less than the 0\u00a0J that tolerance and rounding allow"
     assert re.search(f'{what} where [^<]* moves</dt><dd class="bad">', page)
 
 

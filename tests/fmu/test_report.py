@@ -143,6 +143,7 @@ def report(monkeypatch):
     monkeypatch.syspath_prepend(str(PYTHON))
     import report.linear
     import report.machine
+    import report.measure
     import report.pack
     import report.spectrum
     import report.stations

@@ -144,7 +144,7 @@ def _motion(result):
         whirls = [(t.whirl[1:].max(), t, station) for station, t in seen if t]
         if whirls:
             largest, t, station = max(whirls, key=lambda whirl: whirl[0])
-            if largest <= vibration.FLAT * stations.largest_offset(result.scene, columns):
+            if largest <= stations.ROUNDING * stations.largest_offset(result.scene, columns):
                 return
             when = 1 + t.whirl[1:].argmax()
             at = f"at {number(t.time[when], 3)}\u00a0s, {rpm(t.speed[when])}"
@@ -180,5 +180,5 @@ def _energy(result):
     balance = measure.energy_balance(result.columns, result.scene.relative_tolerance)
     bound, moved = quantity(balance.bound, "J"), quantity(balance.turnover, "J")
     kept, judged = ("less", "good") if balance.holds else ("not less", "bad")
-    what = f"energy that does not add up, at most: {kept} than the {bound} that the tolerance allows where {moved} moves"
+    what = f"energy that does not add up, at most: {kept} than the {bound} that tolerance and rounding allow where {moved} moves"
     return Finding(quantity(balance.residual, "J"), what, judged)

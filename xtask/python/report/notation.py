@@ -34,6 +34,8 @@ PREFIXES["s"] = PREFIXES["s"][2:]
 
 RPM = 60.0 / math.tau
 """Revolutions a minute in a rad/s."""
+STANDSTILL = 1e-9
+"""What turns slower than this [rad/s], a turn in two centuries, stands still."""
 
 
 def multiple(largest, unit):
@@ -49,5 +51,5 @@ def quantity(value, unit, digits=3):
 
 def rpm(speed):
     """A speed [rad/s] in rpm, in whole ones from 100 up."""
-    turns = speed * RPM
+    turns = speed * RPM if abs(speed) > STANDSTILL else 0.0
     return f"{count(turns).replace('-', '−') if abs(turns) >= 100.0 else number(turns, 3)}\u00a0rpm"

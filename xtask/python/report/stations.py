@@ -28,6 +28,8 @@ class Station:
         return result["v_c.y"] + 1j * result["v_c.z"] + self.position * turning
 
 
+ROUNDING = 1e-9
+"""Motions of less than this part of the largest distance are rounding."""
 FOLLOWED = 0.1
 """Samples follow a motion where the mean of the rates at two of them tells the way between to this part of the whole."""
 
@@ -37,7 +39,8 @@ def is_followed(result):
     c = Station("c", 0.0)
     offset, rate = c.offset(result), c.velocity(result)
     told = np.diff(result["time"]) * (rate[1:] + rate[:-1]) / 2.0
-    return np.abs(np.diff(offset) - told).max() <= FOLLOWED * np.abs(offset - offset.mean()).max()
+    swing, size = np.abs(offset - offset.mean()).max(), np.abs(offset).max()
+    return np.abs(np.diff(offset) - told).max() <= max(FOLLOWED * swing, ROUNDING * size)
 
 
 def all_of(scene, *kinds):

@@ -16,8 +16,6 @@ LAST = 3
 """Turns of an orbit."""
 SWEPT = 0.2
 """A run whose speed changes by this part of its highest is a run-up, or a run-down."""
-FLAT = 1e-9
-"""Vibrations of less than this part of the largest distance are rounding."""
 
 
 def _seen(result):
@@ -48,7 +46,7 @@ def orbits(result, view):
     seen = _seen(result) if stations.is_machine(result.scene) else []
     last = [(station, t.offset[-LAST:].ravel()) for station, t in seen]
     largest = max((np.abs(q - q.mean()).max() for _, q in last), default=0.0)
-    if largest <= FLAT * stations.largest_offset(result.scene, result.columns):
+    if largest <= stations.ROUNDING * stations.largest_offset(result.scene, result.columns):
         return None
     unit, size = multiple(largest, "m")
     ways = []
@@ -133,7 +131,7 @@ def whirls(result, view):
     """Frequencies of a run whose speed does not."""
     station = stations.looked_at(result.scene)[0]
     time, offset = result.columns["time"], station.offset(result.columns)
-    moving = np.abs(offset - offset.mean()).max() > FLAT * stations.largest_offset(result.scene, result.columns)
+    moving = np.abs(offset - offset.mean()).max() > stations.ROUNDING * stations.largest_offset(result.scene, result.columns)
     if _sweeps(_seen(result)) or unseen(result) or not moving:
         return None
     frequency, amplitude = spectrum.full(time, offset)

@@ -34,7 +34,7 @@ function controls(box, canvas, machine, moment) {
     const [, y, z] = moment.vector("r_c");
     const [length, unit] = [[1, "m"], [1e-3, "mm"], [1e-6, "µm"], [1e-9, "nm"]].find(([size]) => Math.hypot(y, z) >= size) ?? [1, "m"];
     panel.querySelector("output").textContent =
-      `t = ${text(moment.time)} s, ${text(moment.value("omega_phi") * 30 / Math.PI)} rpm, c ${text(Math.hypot(y, z) / length, 3)} ${unit} off the x axis; motion × ${exaggeration()}`;
+      `t = ${text(moment.time)} s, ${text(Number((moment.value("omega_phi") * 30 / Math.PI).toFixed(6)))} rpm, c ${text(Math.hypot(y, z) / length, 3)} ${unit} off the x axis; motion × ${exaggeration()}`;
   };
   slider.addEventListener("input", () => moment.show(Number(slider.value)));
   exaggerate.addEventListener("input", () => moment.show(moment.time));
