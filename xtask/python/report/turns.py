@@ -36,11 +36,12 @@ class Turns:
         angles = 2.0 * np.pi * np.arange(PER_TURN) / PER_TURN
         return (self.offset * np.exp(-1j * multiple * angles)).mean(axis=1)
 
-    def holds(self, multiple):
-        """Whether `order` is like that of the turns around: what goes round at another rate passes for it in one turn only."""
-        each = self.order(multiple)
-        around = _near(each, np.hanning(min(SETTLING, len(each)) + 2)[1:-1])
-        return np.abs(each - around) < UNLIKE * np.abs(around)
+    @property
+    def is_synchronous(self):
+        """Whether what goes round once in a turn, either way, is like that of the turns around: other whirls pass for it in one turn only."""
+        each = np.array([self.order(1), self.order(-1)])
+        around = np.array([_near(part, np.hanning(min(SETTLING, len(part)) + 2)[1:-1]) for part in each])
+        return np.abs(each - around).sum(axis=0) < UNLIKE * np.abs(around).sum(axis=0)
 
 
 def samples(result):

@@ -86,7 +86,7 @@ def run_up(result, view):
 
 def _synchronous(seen):
     """Longer half axis [m] and phase [°] of the synchronous orbit after the first turn; NaN where others hide it."""
-    forward, backward, shown = seen.order(1)[1:], seen.order(-1)[1:], seen.holds(1)[1:]
+    forward, backward, shown = seen.order(1)[1:], seen.order(-1)[1:], seen.is_synchronous[1:]
     amplitude = np.abs(forward) + np.abs(backward)
     phase = np.full(len(amplitude), np.nan)
     phase[shown] = np.degrees(np.unwrap(np.angle(forward[shown])))
