@@ -9,7 +9,7 @@ use toml::de::Error;
 /// What the reader of TOML calls a key that stands twice, and a text without quotes.
 const DUPLICATE: &str = "duplicate key";
 const UNQUOTED: &str = "string values must be quoted";
-/// What it says of each line below a bracket that nobody closes, and what is said of the first.
+/// What it says of the line below a bracket that nobody closes, and what is said of that.
 const UNSEPARATED: &str = "missing comma between array elements";
 const OPEN: &str = "a bracket `[` above is not closed";
 
@@ -22,7 +22,8 @@ pub(super) fn problems(text: &str, errors: &[Error]) -> (Vec<Problem>, bool) {
     for (place, message) in &errors {
         let line = line_around(text, place.start);
         let is_below_open = message.starts_with(UNSEPARATED) && text[line.start..place.start].trim().is_empty();
-        let follows = |problem: &Problem| within(problem, &line) || is_below_open && problem.wrong == OPEN;
+        // All below it is read as if it stood within.
+        let follows = |problem: &Problem| within(problem, &line) || problem.wrong == OPEN;
         let told = if problems.iter().any(follows) {
             None
         } else if is_below_open {
