@@ -61,8 +61,11 @@ pub struct Scene {
 impl Scene {
     /// The scene that a user means: a path to a TOML file, or a name in `folder`.
     pub fn find(name_or_path: &str, folder: &Path) -> Result<Self, SceneError> {
-        let is_path = name_or_path.contains(|c| c == '.' || std::path::is_separator(c));
-        let file = if is_path { name_or_path.into() } else { folder.join(format!("{name_or_path}.toml")) };
+        let with_suffix = format!("{name_or_path}.toml");
+        let named = folder.join(&with_suffix);
+        // A scene of the folder may have a dot in its name.
+        let is_path = name_or_path.contains(|c| c == '.' || std::path::is_separator(c)) && !named.is_file();
+        let file = if is_path { name_or_path.into() } else { named };
         if file.is_file() {
             return Self::read(&file);
         }
@@ -73,8 +76,7 @@ impl Scene {
             error("there is no such file", "")
         } else {
             let names = Self::names(folder);
-            let file = format!("{name_or_path}.toml");
-            let beside = Path::new(&file).is_file().then(|| format!("did you mean `{file}`?"));
+            let beside = Path::new(&with_suffix).is_file().then(|| format!("did you mean `{with_suffix}`?"));
             let meant = beside.or_else(|| did_you_mean(name_or_path, names.iter().map(String::as_str)));
             let right = meant.unwrap_or_else(|| "give a path to a TOML file, or the name of a scene".into());
             let mut error = error(&format!("there is no scene `{name_or_path}`"), &right);

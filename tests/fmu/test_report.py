@@ -180,7 +180,7 @@ def test_exact_turns_take_a_whirl_apart(report, sense):
     assert turns.order(1) == pytest.approx(np.full(40, FORWARD * np.exp(-1j * LAG)), abs=CUBIC * FORWARD)
     assert np.abs(turns.order(-1)) == pytest.approx(np.full(40, BACKWARD), abs=CUBIC * FORWARD)
     assert turns.whirl == pytest.approx(np.full(40, FORWARD + BACKWARD), rel=2e-3)  # at one of 64 angles
-    assert turns.is_synchronous.all()
+    assert turns.synchronous()[-1].all()
     assert report.turns.turns(Station("c", 0.0), whirling(300.0, 5, sense)) is None, "too few samples"
     # Where it turned back a little before, and does once more at the end, what lies between is looked at.
     whole = whirling(300.0, 12, sense)
@@ -197,7 +197,7 @@ def test_exact_another_whirl_does_not_pass_for_one_that_goes_round_with_the_roto
     # Seen from a rotor that turns by a quarter faster, the same motion goes round 0.8 times a turn.
     columns["phi"] *= 1.25
     turns = report.turns.turns(Station("c", 0.0), columns)
-    assert np.abs(turns.order(1)).min() > 0.5 * FORWARD and not turns.is_synchronous.any()
+    assert np.abs(turns.order(1)).min() > 0.5 * FORWARD and not turns.synchronous()[-1].any()
 
 
 def test_exact_energy_adds_up_but_for_rounding(report):

@@ -30,7 +30,7 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
     let table = folder.join(RESULT);
-    let mut recorded = Recorded::of(&scene);
+    let mut recorded = Recorded { tells: true, ..Recorded::of(&scene) };
     let outcome = recorded.record(&scene.experiment, &table);
     if recorded.print(&scene.title)? {
         println!("  table      {}", table.display());
@@ -79,6 +79,8 @@ struct Recorded<'s> {
     run: Run<'s>,
     watched: Vec<Watched>,
     solving: Duration,
+    /// Whether it warns of what grows.
+    tells: bool,
 }
 
 /// Outputs that count by their size, or by that of both together.
@@ -98,16 +100,17 @@ impl<'s> Recorded<'s> {
         writeln!(table, "time,{}", names.join(","))?;
         let progress = Progress::of(run::points(experiment));
         progress.set_message("simulating");
-        let (watched, mut writing, mut told) = (&mut self.watched, Duration::ZERO, 0);
+        let (watched, tells, mut writing, mut told) = (&mut self.watched, self.tells, Duration::ZERO, 0);
         let began = ThreadTime::now();
         let outcome = self.run.follow(experiment, |run, t| {
             let began = ThreadTime::now();
             write(run.values()?, t, watched, &mut table)?;
             progress.inc(1);
             // At once: what grows without bound may take long.
-            let new = &run.grown()[told..];
-            progress.suspend(|| new.iter().for_each(|growth| eprintln!("warning: {growth}")));
-            told += new.len();
+            while let Some(growth) = run.grown().get(told).filter(|_| tells) {
+                progress.suspend(|| eprintln!("warning: {growth}"));
+                told += 1;
+            }
             writing += began.elapsed();
             Ok(())
         });
@@ -118,7 +121,7 @@ impl<'s> Recorded<'s> {
 
     fn of(scene: &'s Scene) -> Self {
         let outputs: Vec<_> = run::outputs(scene).collect();
-        Self { watched: watched(&outputs), run: Run::of(scene, outputs), solving: Duration::ZERO }
+        Self { watched: watched(&outputs), run: Run::of(scene, outputs), solving: Duration::ZERO, tells: false }
     }
 
     /// Prints what came of it, if it began.

@@ -21,7 +21,7 @@ pub(super) fn problems(text: &str, errors: &[Error]) -> (Vec<Problem>, bool) {
     errors.sort_by_key(|(place, _)| place.start);
     for (place, message) in &errors {
         let line = line_around(text, place.start);
-        let is_below_open = message.starts_with(UNSEPARATED) && text[line.start..place.start].trim().is_empty();
+        let is_below_open = message.starts_with(UNSEPARATED) && is_header_or_key(text[line.clone()].trim_start());
         // All below it is read as if it stood within.
         let follows = |problem: &Problem| within(problem, &line) || problem.wrong == OPEN;
         let told = if problems.iter().any(follows) {
@@ -43,6 +43,11 @@ pub(super) fn problems(text: &str, errors: &[Error]) -> (Vec<Problem>, bool) {
         problems.extend(told);
     }
     (problems, rest_is_sound)
+}
+
+/// Whether a line is no part of a list.
+fn is_header_or_key(line: &str) -> bool {
+    line.starts_with('[') || line.contains('=') && !line.starts_with('{')
 }
 
 /// Whether a problem stands in this line.

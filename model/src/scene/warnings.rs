@@ -2,6 +2,7 @@
 
 use super::Scene;
 use crate::variable::{Place, Role};
+use crate::variables::Variable;
 
 /// So many radii of gyration from c, a place on the axis is taken for a slip, of mm for m \[1].
 const FAR: f64 = 30.0;
@@ -40,13 +41,12 @@ impl Scene {
             let block = Place::effect_block(info.number, index);
             let own = || self.variables.iter().filter(move |variable| variable.place.block == block);
             let is_driven = own().any(|variable| matches!(variable.meta.role, Role::Input { .. }));
-            let strong = own().filter(|variable| {
+            let is_strength = |variable: &&Variable| {
                 matches!(variable.meta.role, Role::Parameter { .. }) && variable.meta.unit.exponents[0] != 0
-            });
-            let (names, values): (Vec<_>, Vec<_>) = strong
-                .map(|variable| (variable.meta.name, self.starts.get(&variable.place.value_reference()).copied()))
-                .unzip();
-            let is_idle = !is_driven && !values.is_empty() && values.iter().all(|value| *value == Some(0.0));
+            };
+            let names: Vec<_> = own().filter(is_strength).map(|variable| variable.meta.name).collect();
+            let is_zero = |variable: &Variable| self.starts.get(&variable.place.value_reference()) == Some(&0.0);
+            let is_idle = !is_driven && !names.is_empty() && own().filter(is_strength).all(is_zero);
             let verb = if names.len() == 1 { "is" } else { "are" };
             is_idle.then(|| format!("{} does nothing: {} {verb} 0", info.block_name(index), names.join(", ")))
         })

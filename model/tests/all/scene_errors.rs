@@ -153,6 +153,7 @@ const CASES: &[Case] = &[
     ),
     // Brackets.
     ("open_list", &[("[start]", "[start]\ngamma = [1.0, 2.0\nphi = 0.0\n")]),
+    ("list_without_a_comma", &[("m = 5.0", "m = [1.0, 2.0\n  3.0]"), ("step =", "stpe =")]),
     ("round_brackets", &[("m = 5.0", "m = (5.0, 0.0)")]),
     ("no_brackets", &[("m = 5.0", "m = 5.0, 0.0 # kg")]),
     ("comma_in_a_list", &[("m = 5.0", "m = [0,001, 2]")]),

@@ -31,18 +31,14 @@ class EnergyBalance:
 
 def energy_balance(result, relative_tolerance):
     """The ledger total − total(start) − supplied + dissipated against its bound."""
-    turnover = (
-        result["energy.kinetic"].max()
-        + np.ptp(result["energy.potential"])
-        + np.abs(result["energy.supplied"]).max()
-        + np.abs(result["energy.dissipated"]).max()
-    )
+    sizes = {kind: np.abs(result[f"energy.{kind}"]).max() for kind in ("kinetic", "potential", "supplied", "dissipated")}
+    # Of the potential, whose zero is anywhere, only the change is in play.
+    turnover = sizes["kinetic"] + np.ptp(result["energy.potential"]) + sizes["supplied"] + sizes["dissipated"]
     tolerated = min(BOUND_FACTOR * relative_tolerance, LARGEST_BOUND) * turnover
-    largest = max(np.abs(result[f"energy.{kind}"]).max() for kind in ("kinetic", "potential", "supplied", "dissipated"))
     return EnergyBalance(
         residual=np.abs(result["energy.residual"]).max(),
         turnover=turnover,
-        bound=max(tolerated, ROUNDING * largest),
+        bound=max(tolerated, ROUNDING * max(sizes.values())),
     )
 
 

@@ -36,12 +36,12 @@ class Turns:
         angles = 2.0 * np.pi * np.arange(PER_TURN) / PER_TURN
         return (self.offset * np.exp(-1j * multiple * angles)).mean(axis=1)
 
-    @property
-    def is_synchronous(self):
-        """Whether what goes round once in a turn, either way, is like that of the turns around: other whirls pass for it in one turn only."""
-        each = np.array([self.order(1), self.order(-1)])
-        around = np.array([_near(part, np.hanning(min(SETTLING, len(part)) + 2)[1:-1]) for part in each])
-        return np.abs(each - around).sum(axis=0) < UNLIKE * np.abs(around).sum(axis=0)
+    def synchronous(self):
+        """`order` 1 and −1, and whether they are like those of the turns around: other whirls pass for them in one turn only."""
+        parts = np.array([self.order(1), self.order(-1)])
+        window = np.hanning(min(SETTLING, len(self.time)) + 2)[1:-1]
+        around = np.array([_near(part, window) for part in parts])
+        return *parts, np.abs(parts - around).sum(axis=0) < UNLIKE * np.abs(around).sum(axis=0)
 
 
 def samples(result):

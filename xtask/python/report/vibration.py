@@ -75,10 +75,11 @@ def run_up(result, view):
         amplitudes.append((station.name, speed * RPM, amplitude / size, [mark]))
         phase = phase - 360.0 * round(phase[top] / 360.0)
         phases.append((station.name, speed * RPM, np.where(amplitude > 0.02 * amplitude[top], phase, np.nan)))
+    is_whole = all(np.isfinite(amplitude).all() for _, _, amplitude, _ in parts)
+    hidden = "" if is_whole else ", and so are turns in which motions of other frequencies hide it"
     caption = (
         f"The part of the motion that goes round once in a turn: the longer half axis of its orbit (largest: "
-        f"{', '.join(largest)}), and by how much its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out"
-        f"{_hidden(parts)}."
+        f"{', '.join(largest)}), and by how much its forward part is ahead of the rotor’s mark, φ = 0. The first turn is left out{hidden}."
     )
     title = "Run-up" if seen[0][1].speed[-1] >= seen[0][1].speed[0] else "Run-down"
     return paths(title, caption, "speed [rpm]", (f"amplitude 1× [{unit}]", amplitudes), ("phase [°]", phases))
@@ -86,18 +87,11 @@ def run_up(result, view):
 
 def _synchronous(seen):
     """Longer half axis [m] and phase [°] of the synchronous orbit after the first turn; NaN where others hide it."""
-    forward, backward, shown = seen.order(1)[1:], seen.order(-1)[1:], seen.is_synchronous[1:]
+    forward, backward, shown = (part[1:] for part in seen.synchronous())
     amplitude = np.abs(forward) + np.abs(backward)
     phase = np.full(len(amplitude), np.nan)
     phase[shown] = np.degrees(np.unwrap(np.angle(forward[shown])))
     return np.where(shown, amplitude, np.nan), phase
-
-
-def _hidden(parts):
-    """What the caption says of turns that are not shown."""
-    if all(np.isfinite(amplitude).all() for _, _, amplitude, _ in parts):
-        return ""
-    return f", and so are turns in which motions of other frequencies hide it"
 
 
 def waterfall(result, view):
