@@ -37,3 +37,13 @@ def test_a_step_that_cannot_be_done_is_told(xtask, tmp_path):
     assert "ending.toml: no step is possible beyond t = " in done.stderr
     assert "the tilt |gamma| reaches 3.1 rad" in done.stderr
     assert "up to" in done.stdout
+
+
+def test_the_report_holds_a_run_against_the_tolerance_of_its_experiment(xtask, tmp_path):
+    text = (project.ROOT / "scenes" / "turbo.toml").read_text(encoding="utf-8")
+    scene = tmp_path / "loose.toml"
+    scene.write_text(text.replace("[experiment]", "[experiment]\ntolerance = 1e-4"), encoding="utf-8")
+    done = xtask("run", scene)
+    assert done.returncode == 0, done.stderr
+    page = (project.ROOT / "target" / "run" / "loose" / "report.html").read_text(encoding="utf-8")
+    assert '<td>relative tolerance</td><td class="value">0.0001</td>' in page

@@ -27,6 +27,8 @@ class Scene:
     start: float
     stop: float
     step: float
+    relative_tolerance: float
+    """What the experiment asks of the adaptive methods [-], which stands in for the parameter."""
     method: str
     parameters: dict[str, Parameter]
     outputs: tuple[str, ...]
@@ -45,6 +47,7 @@ class Scene:
             start=float(experiment.startTime or 0.0),
             stop=float(experiment.stopTime),
             step=float(experiment.stepSize),
+            relative_tolerance=float(experiment.tolerance),
             method=_method(description),
             parameters={p.name: p for p in parameters},
             outputs=tuple(v.name for v in description.modelVariables if v.causality == "output"),
@@ -52,11 +55,6 @@ class Scene:
             version=description.version or "–",
             guid=description.guid,
         )
-
-    @property
-    def relative_tolerance(self):
-        """The relative tolerance of the adaptive methods [-]."""
-        return self.value("solver.relative_tolerance")
 
     def value(self, name):
         """A parameter's number in its SI unit, 0 where the scene has no such parameter."""
