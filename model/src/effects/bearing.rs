@@ -42,7 +42,7 @@ pub struct Bearing<const NODES: usize = 0> {
     pub ct: f64,
     /// What K and C have besides against |ω_φ|: kyy, kyz, kzy, kzz, cyy, cyz, czy, czz of each node.
     table: Table<8, NODES>,
-    /// x of its station at the start, from where the axial spring is measured \[m], and the number of the table's stretch.
+    /// [`Bearing::axial`] at the start \[m], and the number of the table's stretch.
     memory: [f64; 2],
 }
 
@@ -108,10 +108,19 @@ impl<const NODES: usize> Bearing<NODES> {
         0.5 * (self.kyz - self.kzy)
     }
 
+    /// x of its station, from where it is when c is at the origin and t along e \[m]. By how much a small tilt draws the station back
+    /// would be lost beside its distance from c.
+    #[inline(always)]
+    fn axial<S: Scalar>(&self, motion: &Motion<S>) -> S {
+        // x = e·r_c − p (1 − e·t)
+        motion.r_c().x - motion.foreshortening() * S::constant(self.position)
+    }
+
     /// (x, q) of its station, x from its place at the start \[m].
     #[inline(always)]
     fn displacement<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        motion.station(self.position) - Vector3::x() * S::constant(self.memory[0])
+        let station = motion.station(self.position);
+        Vector3::new(self.axial(motion) - S::constant(self.memory[0]), station.y, station.z)
     }
 
     #[inline(always)]
@@ -343,7 +352,7 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
     }
 
     fn begin(&mut self, start: &Motion<f64>) {
-        self.memory[0] = start.station(self.position).x;
+        self.memory[0] = self.axial(start);
         if NODES > 0 {
             self.memory[1] = self.table.follow(start.omega_phi(), None);
         }

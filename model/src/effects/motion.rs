@@ -148,6 +148,19 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.kinematics.axis()
     }
 
+    /// 1 − e·t \[1], to its last digits where the axis leans little.
+    #[inline(always)]
+    pub fn foreshortening(&self) -> S {
+        let Some(series) = self.series() else { return self.kinematics.tilt.foreshortening() };
+        let axis = self.axis();
+        if series.now.power > 0 {
+            return -axis.x;
+        }
+        let [x, y, z] = [axis.x, axis.y, axis.z].map(|t| t.in_power().unwrap_or(f64::NAN));
+        // 1 − e·t = |e×t|²/(1 + e·t)
+        S::of_power(if x > 0.0 { (y * y + z * z) / (1.0 + x) } else { 1.0 - x })
+    }
+
     /// dt/dt [1/s].
     #[inline(always)]
     pub fn axis_rate(&self) -> Vector3<S> {

@@ -77,6 +77,17 @@ impl<S: Scalar> Tilt<S> {
         self.quarter + self.quarter
     }
 
+    /// 1 − e·t \[1], to its last digits where t is near e.
+    #[inline(always)]
+    pub fn foreshortening(&self) -> S {
+        let versine = self.versine() * self.theta_squared;
+        match self.chart {
+            Chart::FromE => versine,
+            // eq. 29: e·t = −cos θ′
+            Chart::FromMinusE => S::constant(2.0) - versine,
+        }
+    }
+
     /// g = γ×e in the chart, whose length is θ \[rad].
     #[inline(always)]
     fn g(&self) -> Vector2<S> {

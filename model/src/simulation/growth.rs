@@ -62,10 +62,11 @@ const MUCH: f64 = 0.05;
 
 /// A motion grows if it does so by this part of its own rate, and of the fastest one: what is less may be rounding, which
 /// parts equal eigenvalues by the root of ε \[1].
-const SEEN: f64 = 0.01;
+const GROWS: f64 = 1e-6;
 const ROUNDING: f64 = 1e-7;
 
-/// The equations hold as long as the axis moves slower than the motion grows, by this \[1].
+/// At any tilt the equations hold for what grows by this part of its own rate, and so much faster than the axis moves \[1].
+const FAST: f64 = 0.01;
 const STILL: f64 = 3.0;
 
 /// An asymmetric body turns its equations with it, which these do not see: its inertias about t differ by more than this \[1].
@@ -89,16 +90,22 @@ impl Watch {
         if (low..high).contains(&momentum) {
             return;
         }
-        let (fastest, rate) = Self::growth(rotor, t, y);
+        let rates = Self::rates(rotor, t, y);
+        let fastest = rates.map_or(f64::INFINITY, |rates| rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max));
         let much = MUCH * (momentum + fastest / rotor.frame.body.per_jt);
         self.known = [momentum - much, momentum + much];
         let motion = rotor.motion(t, y);
-        self.found = match self.found {
-            _ if rate == 0.0 => None,
+        let (lean, moves) = (motion.tilt.gamma().norm(), motion.gamma_rate().norm());
+        let grows = |rate: &&Complex<f64>| {
+            let (size, by) = (rate.norm(), rate.re);
+            // A small whirl changes the rates by its square; a large one leaves true what grows before the axis has gone far.
+            let holds = by > fastest * lean * lean + moves * moves / size || (by > FAST * size && by > STILL * moves);
             // While it grows, it may well come to move fast.
-            None if rate > STILL * motion.gamma_rate().norm() => Some(Growth { rate, t, speed: motion.axial_rate() }),
-            found => found,
+            by > GROWS * size && by > ROUNDING * fastest && (holds || self.found.is_some())
         };
+        let rate = rates.iter().flatten().filter(grows).map(|rate| rate.re).fold(0.0, f64::max);
+        let found = || Growth { rate, t, speed: motion.axial_rate() };
+        self.found = (rate > 0.0).then(|| self.found.unwrap_or_else(found));
     }
 
     /// The linear equations with velocities that count as much as places do: lengths in radii of gyration, and both beside the largest
@@ -123,8 +130,12 @@ impl Watch {
         (rate > 0.0).then(|| Linear::from_fn(|i, j| plain[(i, j)] * (part(j) / part(i))))
     }
 
-    /// The fastest rate of the linear equations [rad/s], and how fast a motion grows [1/s], 0 if none does.
-    fn growth<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> (f64, f64) {
+    /// The eigenvalues of the linear equations [rad/s]; None where they do not tell.
+    fn rates<E: Effects, const N: usize>(
+        rotor: &Rotor<'_, E>,
+        t: f64,
+        y: &[f64; N],
+    ) -> Option<SVector<Complex<f64>, LINEAR>> {
         const ITERATIONS: usize = 1000;
         let excess = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
         // The balanced rotor: what an unbalance adds turns with it.
@@ -134,15 +145,9 @@ impl Watch {
         let first = own(N);
         let Some(matrix) = Self::scaled(&Linear::from_fn(|i, j| jacobian[first + i][first + j]), &balanced.frame.body)
         else {
-            return (0.0, 0.0);
+            return Some(SVector::zeros());
         };
-        let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS);
-        let rates: SVector<Complex<f64>, LINEAR> = match schur {
-            Some(schur) if excess <= ASYMMETRIC * rotor.frame.body.per_jt => schur.complex_eigenvalues(),
-            _ => return (f64::INFINITY, 0.0),
-        };
-        let fastest = rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max);
-        let grows = |rate: &&Complex<f64>| rate.re > SEEN * rate.norm() && rate.re > ROUNDING * fastest;
-        (fastest, rates.iter().filter(grows).map(|rate| rate.re).fold(0.0, f64::max))
+        let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS)?;
+        (excess <= ASYMMETRIC * rotor.frame.body.per_jt).then(|| schur.complex_eigenvalues())
     }
 }

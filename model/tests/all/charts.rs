@@ -1,12 +1,12 @@
 //! The two charts against the closed form of the torque-free symmetric rotor: passages of the
 //! antipode −e at distances down to 0, whirl about it, and φ with all its turns.
 
-use crate::harness::{Method, Scene, at, times, within};
+use crate::harness::{FREE, Method, Scene, at, times, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::motion::FreeRotor;
 use oracles::rotation;
 use split_rotor_model::body::Body;
-use split_rotor_model::simulation::Simulation;
+use split_rotor_model::simulation::General;
 use std::f64::consts::{PI, TAU};
 
 /// Rate of the axis about K [rad/s].
@@ -30,9 +30,9 @@ fn passing(delta: f64) -> FreeRotor {
     FreeRotor { gamma: Vector2::zeros(), ..on_cone(INERTIA, half, half) }
 }
 
-fn started(rotor: &FreeRotor, method: Method, tolerance: f64) -> Simulation<()> {
+fn started(rotor: &FreeRotor, method: Method, tolerance: f64) -> General {
     let body = Body { Ja: rotor.Ja, Jt: rotor.Jt, ..Scene::paper().body };
-    Scene { body, gamma: rotor.gamma, omega: rotor.omega, method, tolerance, ..Scene::free() }.started()
+    Scene { body, gamma: rotor.gamma, omega: rotor.omega, method, tolerance, ..Scene::free() }.started(FREE)
 }
 
 /// Worst error of the attitude (Frobenius norm of the difference, √2 times the angle), looked at 20 times a turn over 100

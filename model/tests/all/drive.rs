@@ -1,14 +1,14 @@
 //! The drive: a tilted rotor beside an independent rigid body, and where its law ends. Its power: `power.rs`; its input, and an
 //! upright rotor in closed form: `tests/interface/inputs.rs`; its ledger: `ledger.rs`.
 
-use crate::harness::{Driven, DrivenFree, Method, Scene, TORQUE, at, largest, times, within};
+use crate::harness::{DRIVEN, DRIVEN_FREE, Method, SUPPORTED, Scene, TORQUE, at, largest, times, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::derivative;
 use oracles::rigid_body::RigidBody;
 use split_rotor_model::body::Body;
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::rotation::Chart;
-use split_rotor_model::simulation::Simulation;
+use split_rotor_model::simulation::General;
 use split_rotor_model::state::Kinematics;
 use split_rotor_model::variable::Place;
 use std::f64::consts::PI;
@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 const PHI: Place = Place { row: 1, ..TORQUE };
 const ACCELERATION: Place = Place { row: 3, ..TORQUE };
 
-fn read(simulation: &mut Simulation<Driven>, place: Place) -> f64 {
+fn read(simulation: &mut General, place: Place) -> f64 {
     simulation.get(place).expect("possible parameters").expect("an output")
 }
 
@@ -27,7 +27,7 @@ const OTHER_STEPS: [f64; 2] = [3e-12, 3e-10];
 #[test]
 fn without_torque_the_shaft_is_not_there() {
     let scene = Scene { gamma: Vector2::new(0.4, -0.2), d1: 10.0, ..Scene::paper() };
-    let [with, without] = [scene.run::<Driven>(times(1.0, 10)), scene.run::<crate::harness::Supported>(times(1.0, 10))];
+    let [with, without] = [scene.run(DRIVEN, times(1.0, 10)), scene.run(SUPPORTED, times(1.0, 10))];
     for (with, without) in with.iter().zip(&without) {
         within("r_c", (with.motion.at.r - without.motion.at.r).norm(), OTHER_STEPS[0]);
         within("axis", (with.motion.axis() - without.motion.axis()).norm(), OTHER_STEPS[1]);
@@ -78,8 +78,8 @@ fn body_of(scene: &Scene) -> RigidBody {
 }
 
 /// Starts the scene with [`TORQUES`].
-fn under_torque(scene: &Scene) -> Simulation<Driven> {
-    let mut simulation = scene.started::<Driven>();
+fn under_torque(scene: &Scene) -> General {
+    let mut simulation = scene.started(DRIVEN);
     simulation.set_input(TORQUE, TORQUES[0]);
     simulation.set_input_derivative(TORQUE, 1, TORQUES[1]);
     simulation.set_input_derivative(TORQUE, 2, TORQUES[2]);
@@ -129,8 +129,8 @@ fn exact_tilted_rotor_beside_a_rigid_body() {
 // ---------------------------------------------------------------------------------------------------------- limit
 
 /// A free rotor that turns end over end at 10 rad/s, straight through −e.
-fn end_over_end(method: Method) -> Simulation<DrivenFree> {
-    Scene { method, omega: Vector3::new(0.0, 0.0, 10.0), ..Scene::free() }.started()
+fn end_over_end(method: Method) -> General {
+    Scene { method, omega: Vector3::new(0.0, 0.0, 10.0), ..Scene::free() }.started(DRIVEN_FREE)
 }
 
 /// Where the tilt 10 t reaches 3.1 rad [s].
@@ -140,7 +140,7 @@ const REFUSED_AT: f64 = 1e-15;
 /// The axis of the rotor that turns end over end [1]: measured 2.6e-15.
 const END_OVER_END: f64 = 1e-14;
 
-fn assert_refused(simulation: &mut Simulation<DrivenFree>, to: f64, expected: f64) {
+fn assert_refused(simulation: &mut General, to: f64, expected: f64) {
     let fault = simulation.advance(to).expect_err("a torque acts where it has no limit");
     let Fault::Refused { t, reason } = fault else { panic!("{fault:?}") };
     assert!(reason.0.contains("3.1 rad") && reason.0.contains("tau"), "{fault}");

@@ -2,9 +2,9 @@
 //! a method of ours.
 
 use crate::harness::named::Named;
-use crate::harness::{Scene, Supported, largest, within};
+use crate::harness::{largest, within};
 use oracles::extrapolation::step;
-use split_rotor_model::simulation::{Any, Integrator, Simulation};
+use split_rotor_model::simulation::{Any, Integrator};
 use split_rotor_model::state::GAMMA;
 use std::cell::RefCell;
 use std::f64::consts::TAU;
@@ -123,18 +123,6 @@ fn exact_a_host_finds_the_same_motion() {
         assert_eq!(host.events, events, "{scene} {starts:?}");
         assert_eq!(host.get("solver.steps"), 0.0, "the host's own are not counted");
     }
-}
-
-#[test]
-fn laws_without_branches_ask_for_no_event() {
-    // As a type: the list of all effects has indicators, whatever is switched on.
-    let parameters = Scene::paper().simulation::<Supported>().parameters().clone();
-    let mut simulation = Simulation::<Supported>::with(Integrator::Host, parameters);
-    simulation.start(0.0, None).expect("a possible scene");
-    let mut exchange = simulation.exchange().expect("for a host");
-    assert!(!exchange.settle().any());
-    exchange.set_time(1e-3);
-    assert!(!exchange.complete_step());
 }
 
 #[test]

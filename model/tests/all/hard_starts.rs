@@ -2,7 +2,7 @@
 //! communication steps: the gallery (`xtask/src/hard_cases/times.rs`); impossible parameters: tests/interface/arguments.rs.
 
 use crate::harness::named::{Named, ascending};
-use crate::harness::{Method, Scene, Supported, at, within};
+use crate::harness::{FREE, Method, SUPPORTED, Scene, at, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::integrate::{Fault, Refusal};
@@ -24,7 +24,7 @@ fn assert_finite(reading: &Reading) {
 fn exact_resting_rotor_rests() {
     let scene = Scene { omega: Vector3::zeros(), ..Scene::free() };
     for method in Method::PAIRS {
-        let mut simulation = Scene { method, ..scene.clone() }.started::<()>();
+        let mut simulation = Scene { method, ..scene.clone() }.started(FREE);
         let reading = at(&mut simulation, 1e3);
         assert_eq!(reading.motion.at.r, Vector3::zeros());
         assert_eq!((reading.motion.angle().turns, reading.motion.angle().remainder), (0.0, 0.0));
@@ -38,7 +38,7 @@ fn exact_resting_rotor_rests() {
 fn regress_start_beyond_the_limit() {
     // |γ| ≤ π may be asked for; under a law that ends at 3.1 rad it cannot be moved, but can be read.
     let scene = Scene { gamma: Vector2::new(0.0, 3.12), c2: 1e-300, ..Scene::free() };
-    let mut simulation = scene.started::<Supported>();
+    let mut simulation = scene.started(SUPPORTED);
     assert!(matches!(simulation.advance(0.1), Err(Fault::Refused { t: 0.0, .. })));
     assert_finite(simulation.read().unwrap());
 }
@@ -51,7 +51,7 @@ fn regress_forces_that_would_take_for_ever_are_faults() {
     let mut scenes = [1e20, 1e80, 1e140, 1e160, 1e300, f64::MAX].map(|c1| Scene { c1, ..stretched.clone() }).to_vec();
     scenes.push(Scene { c2: 1e300, gamma: Vector2::new(0.0, 0.5), ..stretched });
     for scene in scenes {
-        let fault = scene.started::<Supported>().advance(1000.0).expect_err("more than 10¹² steps");
+        let fault = scene.started(SUPPORTED).advance(1000.0).expect_err("more than 10¹² steps");
         assert!(matches!(fault, Fault::Spent { .. } | Fault::Underflow { .. } | Fault::NotFinite { .. }), "{fault:?}");
     }
 }

@@ -1,7 +1,7 @@
 //! Small whirl and the swept solid angle; the gallery (`cargo xtask hard-cases`) has whole runs against motions in closed form, steady
 //! whirl at any tilt among them, and `stiff.rs` a damped decay.
 
-use crate::harness::{Scene, Supported, largest, times, within};
+use crate::harness::{SUPPORTED, Scene, largest, times, within};
 use nalgebra::{SMatrix, Vector2, Vector3};
 use oracles::motion::{Whirl, small_whirl};
 use oracles::numerics::root;
@@ -87,7 +87,7 @@ fn exact_phi_is_spin_plus_solid_angle() {
         ..Scene::paper()
     };
     let (end, parts) = (2.0, 20_000_u32);
-    let readings = scene.run::<Supported>(times(end, parts));
+    let readings = scene.run(SUPPORTED, times(end, parts));
     // (1 − cos θ)dψ/dt = e·(t×dt/dt)/(1 + cos θ)
     let sweep = |reading: &Reading| {
         let axis = reading.motion.axis();

@@ -185,6 +185,30 @@ fn exact_growth_of_what_turns_slowly_or_fast() {
     within("growth", worst, RATE);
 }
 
+/// As above, in a thousand radians and more: told while the rotor whirls, and only where damping does not outweigh it.
+#[test]
+fn regress_slow_growth_is_told_of_a_rotor_that_whirls() {
+    let (stiffness, mass) = (1e6, 5.0_f64);
+    for tilt in [0.0, 1e-3] {
+        for (cross, outweighs, grows) in [(1e3, 0.5, true), (1e3, 2.0, false), (0.0, 0.0, false)] {
+            // z̈ = −(2k − 2iκ) z/m − 2c ż/m grows where c √(2k/m) < κ.
+            let damping = outweighs * cross / (2.0 * stiffness / mass).sqrt();
+            let bearing = format!(
+                "kyy = {stiffness:?}\nkzz = {stiffness:?}\nkyz = {cross:?}\nkzy = {:?}\ncyy = {damping:?}\nczz = {damping:?}\n",
+                -cross
+            );
+            let text = format!(
+                "[start]\nomega = {{ x = 700.0 }}\ngamma = {{ z = {tilt:?} }}\nr_c = {{ y = {tilt:?} }}\n\
+                 [[effects.bearing]]\nposition = -0.2\n{bearing}[[effects.bearing]]\nposition = 0.2\n{bearing}"
+            );
+            let mut named = Named::started(&sized(0.1, &text));
+            named.simulation.advance(0.1).expect("a possible motion");
+            let found = named.simulation.growth();
+            assert_eq!(found.is_some(), grows, "{tilt} rad, {cross} N/m: {found:?}");
+        }
+    }
+}
+
 /// Friction inside as large as the damping outside drives a whirl above twice its own 20 rad/s.
 const INNER: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\n[[effects.bearing]]\nposition = 0.0\nkyy = 2000.0\nkzz = 2000.0\n\
     cyy = 40.0\nczz = 40.0\nkt = 500.0\nct = 1.0\n[effects.rotating_damping]\nd = 40.0\n[effects.imposed_speed]\n";

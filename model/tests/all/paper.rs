@@ -1,7 +1,7 @@
 //! The paper's example against its reference motion of 24 digits (`tests/fmu/data/README.md`), and against what the
 //! paper says of it.
 
-use crate::harness::{Scene, Supported, at, largest, times, within};
+use crate::harness::{SUPPORTED, Scene, at, largest, times, within};
 use oracles::{paper, rotation};
 
 /// Over 0 … 10 s with dop853 at the scene's own tolerance of 1e-10: r_c [m], axis [1 = rad], φ [rad], v_c [m/s], K_c [kg·m²/s],
@@ -11,7 +11,7 @@ const AT_ITS_TOLERANCE: [f64; 7] = [2.4e-11, 3.2e-9, 2.4e-10, 5e-9, 2.7e-8, 3.7e
 
 #[test]
 fn literature_reference_motion() {
-    let mut simulation = Scene::paper().started::<Supported>();
+    let mut simulation = Scene::paper().started(SUPPORTED);
     for exact in paper::instants() {
         let reading = at(&mut simulation, exact.t);
         let motion = &reading.motion;
@@ -35,7 +35,7 @@ const HALF_DIGIT: f64 = 0.000_05;
 
 #[test]
 fn literature_axial_rate_stays_within_a_tenth_of_a_percent() {
-    let mut simulation = Scene::paper().started::<Supported>();
+    let mut simulation = Scene::paper().started(SUPPORTED);
     let (mut most, mut when, mut in_first_second, mut theta, mut r_a) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for t in times(10.0, 10_000) {
         let motion = at(&mut simulation, t).motion;

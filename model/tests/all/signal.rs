@@ -2,10 +2,10 @@
 //! when, and what becomes of it: tests/interface/inputs.rs.
 
 use crate::harness::swinging::within_order;
-use crate::harness::{Driven, Method, Scene, TORQUE, at, largest, within};
+use crate::harness::{DRIVEN, Method, Scene, TORQUE, at, largest, within};
 use nalgebra::{Vector2, Vector3};
 use split_rotor_model::signal::Signal;
-use split_rotor_model::simulation::Simulation;
+use split_rotor_model::simulation::General;
 
 #[test]
 fn exact_polynomial_about_where_it_was_set() {
@@ -49,7 +49,7 @@ fn scene(method: Method) -> Scene {
 }
 
 /// Sends the derivatives up to `order` of a function at the communication point, its own first.
-fn send(simulation: &mut Simulation<Driven>, derivatives: &[f64]) {
+fn send(simulation: &mut General, derivatives: &[f64]) {
     simulation.set_input(TORQUE, derivatives[0]);
     for (order, value) in (1..).zip(&derivatives[1..]) {
         simulation.set_input_derivative(TORQUE, order, *value);
@@ -72,11 +72,11 @@ const RESIDUAL: f64 = 5e-9;
 #[test]
 fn exact_a_polynomial_is_the_sum_of_its_pieces() {
     for (method, allowed) in Method::PAIRS.into_iter().zip(PIECES) {
-        let mut whole = scene(method).started::<Driven>();
+        let mut whole = scene(method).started(DRIVEN);
         send(&mut whole, &torque(0.0));
         let whole = at(&mut whole, 1.0);
         for step in STEPS {
-            let mut pieces = scene(method).started::<Driven>();
+            let mut pieces = scene(method).started(DRIVEN);
             let mut t = 0.0;
             while t < 1.0 {
                 send(&mut pieces, &torque(t));
@@ -108,7 +108,7 @@ fn order_of_what_is_sent() {
         [5.0 * sin, 15.0 * cos, -45.0 * sin]
     };
     let run = |derivatives: usize, steps: u32| {
-        let mut simulation = Scene { tolerance: 1e-12, ..scene(Method::Dop853) }.started::<Driven>();
+        let mut simulation = Scene { tolerance: 1e-12, ..scene(Method::Dop853) }.started(DRIVEN);
         for i in 0..steps {
             send(&mut simulation, &torque(f64::from(i) / f64::from(steps))[..=derivatives]);
             at(&mut simulation, f64::from(i + 1) / f64::from(steps));

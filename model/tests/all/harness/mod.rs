@@ -4,6 +4,7 @@ pub mod asymmetric;
 pub mod named;
 pub mod swinging;
 
+use named::Named;
 pub use oracles::bounds::{largest, within};
 use oracles::machine::{self, Machine, Start};
 
@@ -14,50 +15,35 @@ use split_rotor_model::body::Body;
 use split_rotor_model::effects::drive::Drive;
 use split_rotor_model::effects::gravity::Gravity;
 use split_rotor_model::effects::support::Support;
-use split_rotor_model::effects::{Called, Effects, Entry, Info, named};
+use split_rotor_model::effects::{Called, Effects, Entry, named};
 use split_rotor_model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use split_rotor_model::integrate::{Tolerance, explicit::Explicit};
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::rotor::{Rotor, whole_rates};
 use split_rotor_model::scalar::Scalar;
-use split_rotor_model::simulation::Simulation;
+use split_rotor_model::simulation::{General, Integrator};
 use split_rotor_model::state::{COORDINATES, Coordinates, Kinematics};
-use split_rotor_model::variable::{Place, Role};
+use split_rotor_model::variable::Place;
 use split_rotor_model::variables::{Reading, of_scene};
 
-/// Gravity and the support: the paper's effects.
+/// Gravity and the support: the paper's effects. Tests of the equations and of single methods take them as a type; whole runs take the
+/// list of all effects, which is compiled once.
 pub type Supported = (Called<Gravity, 1>, (Called<Support, 1>, ()));
 
+/// The same by their names.
+pub const SUPPORTED: &[&str] = &["gravity", "support"];
+
 /// Gravity, the support and the drive.
-pub type Driven = (Called<Gravity, 1>, (Called<Support, 1>, (Called<Drive, 1>, ())));
+pub const DRIVEN: &[&str] = &["gravity", "support", "drive"];
 
 /// The drive alone.
-pub type DrivenFree = (Called<Drive, 1>, ());
+pub const DRIVEN_FREE: &[&str] = &["drive"];
+
+/// No effects.
+pub const FREE: &[&str] = &[];
 
 /// Where `drive.tau` stands; `drive.phi`, `.w` and `.a` follow.
 pub const TORQUE: Place = Place { block: Place::effect_block(Drive::NUMBER, 1), row: 0 };
-
-/// A list of effects with their names.
-pub trait Listed: Effects {
-    /// Their names, in the order of the list.
-    const NAMES: &'static [&'static str];
-}
-
-impl Listed for () {
-    const NAMES: &'static [&'static str] = &[];
-}
-
-impl Listed for Supported {
-    const NAMES: &'static [&'static str] = &["gravity", "support"];
-}
-
-impl Listed for Driven {
-    const NAMES: &'static [&'static str] = &["gravity", "support", "drive"];
-}
-
-impl Listed for DrivenFree {
-    const NAMES: &'static [&'static str] = &["drive"];
-}
 
 /// An explicit pair, by its number in the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,36 +130,26 @@ impl Scene {
         values
     }
 
-    /// Its simulation, not yet started. What the list of effects does not hold must be zero.
-    pub fn simulation<E: Listed>(&self) -> Simulation<E> {
-        let called: Vec<(&'static Info, u32)> =
-            E::NAMES.iter().map(|name| (named(name).expect("in the catalogue"), 1)).collect();
-        let variables = of_scene(&called);
-        let mut simulation = Simulation::default();
-        for variable in &variables {
-            if let Role::Parameter { default: Some(default), .. } = variable.meta.role {
-                simulation.set_parameter(variable.place, default);
-            }
+    /// Its simulation under these effects, started at time 0. What others would do must be zero.
+    pub fn started(&self, effects: &[&str]) -> General {
+        let mut named = Named::new("rotor", Integrator::Method);
+        for effect in SUPPORTED.iter().chain(effects) {
+            named.set(&format!("effects.{effect}"), f64::from(u8::from(effects.contains(effect))));
         }
         for (name, value) in self.values() {
-            match variables.iter().find(|v| v.name == name) {
-                Some(variable) => assert!(simulation.set_parameter(variable.place, value), "{name} is no parameter"),
-                None => assert_eq!(value, 0.0, "{name} is not of this scene"),
+            let effect = name.split('.').next().expect("the first part of a name");
+            if SUPPORTED.contains(&effect) && !effects.contains(&effect) {
+                assert_eq!(value, 0.0, "{name} is not of this scene");
             }
+            named.set(&name, value);
         }
-        simulation
+        named.start();
+        named.simulation
     }
 
-    /// Its simulation, started at time 0.
-    pub fn started<E: Listed>(&self) -> Simulation<E> {
-        let mut simulation = self.simulation();
-        simulation.start(0.0, None).expect("a possible scene");
-        simulation
-    }
-
-    /// What its simulation shows at each of these times [s].
-    pub fn run<E: Listed>(&self, times: impl IntoIterator<Item = f64>) -> Vec<Reading> {
-        let mut simulation = self.started::<E>();
+    /// What its simulation under these effects shows at each of these times [s].
+    pub fn run(&self, effects: &[&str], times: impl IntoIterator<Item = f64>) -> Vec<Reading> {
+        let mut simulation = self.started(effects);
         times.into_iter().map(|t| at(&mut simulation, t)).collect()
     }
 
@@ -226,7 +202,7 @@ pub fn tolerance<const N: usize>(relative: f64) -> Tolerance<N> {
 }
 
 /// What the simulation shows at time `t` [s].
-pub fn at<E: Effects, const N: usize>(simulation: &mut Simulation<E, N>, t: f64) -> Reading {
+pub fn at(simulation: &mut General, t: f64) -> Reading {
     simulation.advance(t).expect("a possible motion");
     *simulation.read().expect("possible parameters")
 }

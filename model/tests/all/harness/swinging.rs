@@ -1,14 +1,19 @@
 //! What observed orders are measured on: a rotor without small angles, and one that is damped and driven besides.
 
-use super::{Driven, Method, Scene, largest, tolerance, within};
+use super::{Method, Scene, largest, tolerance, within};
 use nalgebra::{Vector2, Vector3};
 use oracles::numerics::log_slope;
-use split_rotor_model::effects::Effects;
+use split_rotor_model::effects::drive::Drive;
+use split_rotor_model::effects::gravity::Gravity;
+use split_rotor_model::effects::support::Support;
+use split_rotor_model::effects::{Called, Effects};
 use split_rotor_model::integrate::System;
 use split_rotor_model::integrate::explicit::Explicit;
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::rotor::Rotor;
 use split_rotor_model::state::WITH_WORK;
+
+type Driven = (Called<Gravity, 1>, (Called<Support, 1>, (Called<Drive, 1>, ())));
 
 /// The paper's rotor, heavily tilted and swinging: no small angle, no steady state.
 pub fn swinging() -> Scene {
