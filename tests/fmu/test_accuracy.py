@@ -182,11 +182,11 @@ def test_exact_picture_has_few_curves(monkeypatch):
 
 
 def test_exact_message_where_no_method_reaches_the_end(xtask, tmp_path):
-    """A rotor that tumbles to where the law of its spring ends."""
+    """A rotor that tumbles to where the law of its spring ends, with the effects of `paper`, whose library is there."""
     scene = tmp_path / "accuracy_of_nothing.toml"
     scene.write_text(
         "[rotor]\nm = 1.0\nJa = 1.0\nJt = 1.0\nl = 0.5\n[start]\nomega = { y = 5.0 }\n"
-        "[effects.support]\nc2 = 1e-300\n[experiment]\nstop = 1.0\n",
+        "[effects.gravity]\ng = { z = -1e-300 }\n[effects.support]\nc2 = 1e-300\n[experiment]\nstop = 1.0\n",
         encoding="utf-8",
     )
     refused = xtask("accuracy", scene)

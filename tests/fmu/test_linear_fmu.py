@@ -291,7 +291,8 @@ def errors(rotor, linear, model, push):
 
 
 def test_exact_what_is_left_out_goes_with_the_square_of_the_push(linear, model, package):
-    rotor = package("pushed", SCENE)
+    # Over the list of all effects, whose library is there.
+    rotor = package("pushed", "general = true\n" + SCENE)
     small, large = (errors(rotor, linear, model, push) for push in (20.0, 40.0))
     moved = ["r_c.y", "r_c.z", "v_c.y", "gamma.y", "gamma.z", "omega.y", "K_c.z", "bearing[1].F.y", "port[1].r.z", "port[1].theta.y"]
     for name in moved:
