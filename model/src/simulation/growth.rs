@@ -2,6 +2,7 @@
 
 use crate::body::Inertia;
 use crate::effects::Effects;
+use crate::integrate::System;
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
 use crate::state::{Coordinates, GAMMA, PHI, own, rigid};
@@ -39,7 +40,7 @@ impl Display for Growth {
 /// Looks at the linear equations whenever the spin has changed much.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Watch {
-    /// Between these |K| nothing new is expected [kg·m²/s].
+    /// Between these K·e nothing new is expected [kg·m²/s].
     known: [f64; 2],
     /// What grows, since it began to.
     found: Option<Growth>,
@@ -57,7 +58,7 @@ type Linear = SMatrix<f64, LINEAR, LINEAR>;
 const VELOCITY: usize = 3;
 const MOMENTUM: usize = 6;
 
-/// |K| has changed much by this part of itself, and of what nutates as fast as the fastest motion \[1].
+/// The spin has changed much by this part of itself, and of the slowest whirl \[1].
 const MUCH: f64 = 0.05;
 
 /// A motion grows if it does so by this part of its own rate, and of the fastest one: what is less may be rounding, which
@@ -80,26 +81,31 @@ impl Watch {
 
     /// Looks at the rotor at time `t` \[s] and state `y`, if that is due.
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
-        // The state lacks what an imposed speed passed on.
-        let momentum = if E::FACTS.imposes {
-            rotor.motion(t, y).momentum().norm()
-        } else {
-            Coordinates::from_slice(rigid(y)).k.norm()
-        };
+        // The state lacks what an imposed speed passed on. What the axis does across e is no spin.
+        let momentum =
+            if E::FACTS.imposes { rotor.motion(t, y).momentum().x } else { Coordinates::from_slice(rigid(y)).k.x };
         let [low, high] = self.known;
         if (low..high).contains(&momentum) {
             return;
         }
         let rates = Self::rates(rotor, t, y);
         let fastest = rates.map_or(f64::INFINITY, |rates| rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max));
-        let much = MUCH * (momentum + fastest / rotor.frame.body.per_jt);
+        let whirls = rates.iter().flatten().map(|rate| rate.im.abs()).filter(|size| *size > ROUNDING * fastest);
+        let slowest = whirls.fold(fastest, f64::min);
+        let Inertia { per_jt, spin, .. } = rotor.frame.body;
+        let much = MUCH * (momentum.abs() + slowest / (per_jt + spin));
         self.known = [momentum - much, momentum + much];
         let motion = rotor.motion(t, y);
         let (lean, moves) = (motion.tilt.gamma().norm(), motion.gamma_rate().norm());
+        // M·t, by which a spin that nothing imposes changes.
+        let moment = Coordinates::from_slice(rigid(&System::rates::<true, false>(rotor, t, y))).k;
+        let torque = if motion.impulse.is_some() { 0.0 } else { moment.dot(motion.axis()).abs() };
         let grows = |rate: &&Complex<f64>| {
             let (size, by) = (rate.norm(), rate.re);
             // A small whirl changes the rates by its square; a large one leaves true what grows before the axis has gone far.
-            let holds = by > fastest * lean * lean + moves * moves / size || (by > FAST * size && by > STILL * moves);
+            let small = by > fastest * lean * lean + moves * moves / size || (by > FAST * size && by > STILL * moves);
+            // Half a torque that follows the axis drives it round, which it does not where the spin gives way.
+            let holds = small && by > torque * per_jt / size;
             // While it grows, it may well come to move fast.
             by > GROWS * size && by > ROUNDING * fastest && (holds || self.found.is_some())
         };

@@ -209,6 +209,45 @@ fn regress_slow_growth_is_told_of_a_rotor_that_whirls() {
     }
 }
 
+/// A torque that speeds a rotor up, or slows it down, drives no whirl, damped or not.
+#[test]
+fn regress_a_torque_is_not_called_growth() {
+    for torque in [60.0, -60.0] {
+        for damping in [0.0, 12.0] {
+            let bearing = format!("kyy = 2e5\nkzz = 2e5\ncyy = {damping:?}\nczz = {damping:?}\n");
+            let text = format!(
+                "[rotor]\nm = 40.0\nJa = 1.2\nJt = 0.8\n[start]\ngamma = {{ y = 1e-5 }}\n[effects.drive]\ntau = {torque:?}\n\
+                 [[effects.bearing]]\nposition = -0.1\n{bearing}[[effects.bearing]]\nposition = 0.1\n{bearing}"
+            );
+            let mut named = Named::started(&text);
+            for i in 1..=20 {
+                named.simulation.advance(0.1 * f64::from(i)).expect("a possible motion");
+                assert_eq!(named.simulation.growth(), None, "{torque} N·m, {damping} N·s/m");
+            }
+            let tilt = libm::hypot(named.get("gamma.y"), named.get("gamma.z"));
+            assert!(tilt < 1e-5, "{tilt} rad");
+        }
+    }
+}
+
+/// A shaft of 1 m, whose friction inside drives its whirl above this spin [rad/s], by the roots of the whirl: far below what its tilt
+/// would feel.
+const SLIM: f64 = 1018.0;
+
+#[test]
+fn regress_growth_of_a_slim_shaft_is_told_on_its_way_up() {
+    let bearing = "kyy = 2e6\nkzz = 2e6\ncyy = 200.0\nczz = 200.0\nkxx = 2e7\n";
+    let mut named = Named::started(&format!(
+        "[rotor]\nm = 15.4\nJa = 0.00481\nJt = 1.286\n[effects.rotating_damping]\nd = 400.0\n[effects.drive]\ntau = 0.77\n\
+         [[effects.bearing]]\nposition = -0.45\n{bearing}[[effects.bearing]]\nposition = 0.45\n{bearing}"
+    ));
+    for i in 1..=100 {
+        named.simulation.advance(0.1 * f64::from(i)).expect("a possible motion");
+    }
+    let Some(found) = named.simulation.growth() else { panic!("nothing is told") };
+    assert!((0.0..LATE).contains(&(found.speed / SLIM - 1.0)), "{found:?}");
+}
+
 /// Friction inside as large as the damping outside drives a whirl above twice its own 20 rad/s.
 const INNER: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\n[[effects.bearing]]\nposition = 0.0\nkyy = 2000.0\nkzz = 2000.0\n\
     cyy = 40.0\nczz = 40.0\nkt = 500.0\nct = 1.0\n[effects.rotating_damping]\nd = 40.0\n[effects.imposed_speed]\n";
