@@ -5,7 +5,7 @@ use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
-use crate::state::{Coordinates, GAMMA, PHI, own, rigid};
+use crate::state::{Coordinates, GAMMA, Kinematics, PHI, own, rigid};
 use crate::stored::stored;
 use nalgebra::linalg::Schur;
 use nalgebra::{Complex, Normed, SMatrix, SVector};
@@ -44,9 +44,34 @@ pub(super) struct Watch {
     known: [f64; 2],
     /// What grows, since it began to.
     found: Option<Growth>,
+    /// What would grow, were the tilt less.
+    doubted: Seen,
 }
 
-stored!(Watch { known, found });
+stored!(Watch { known, found, doubted });
+
+/// A motion among those of the linear equations.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    /// The fastest of them [rad/s].
+    fastest: f64,
+    /// |λ| of this one [rad/s].
+    size: f64,
+    /// How fast it grows [1/s].
+    by: f64,
+}
+
+stored!(Seen { fastest, size, by });
+
+impl Seen {
+    /// Whether it grows by more than the tilt may have made of it: a small whirl changes the rates by its square; a large one leaves true
+    /// what grows before the axis has gone far.
+    fn exceeds(&self, motion: &Kinematics<f64>) -> bool {
+        let Self { fastest, size, by } = *self;
+        let (lean, moves) = (motion.tilt.gamma().norm(), motion.gamma_rate().norm());
+        by > fastest * lean * lean + moves * moves / size || (by > FAST * size && by > STILL * moves)
+    }
+}
 
 /// The equations without φ, the work and the own states, which hold on their own: a motor does not make a whirl grow at a
 /// steady speed.
@@ -85,7 +110,8 @@ impl Watch {
         let momentum =
             if E::FACTS.imposes { rotor.motion(t, y).momentum().x } else { Coordinates::from_slice(rigid(y)).k.x };
         let [low, high] = self.known;
-        if (low..high).contains(&momentum) {
+        let is_settled = || self.doubted.by > 0.0 && self.doubted.exceeds(&rotor.motion(t, y));
+        if (low..high).contains(&momentum) && !is_settled() {
             return;
         }
         let rates = Self::rates(rotor, t, y);
@@ -96,20 +122,18 @@ impl Watch {
         let much = MUCH * (momentum.abs() + slowest / (per_jt + spin));
         self.known = [momentum - much, momentum + much];
         let motion = rotor.motion(t, y);
-        let (lean, moves) = (motion.tilt.gamma().norm(), motion.gamma_rate().norm());
         // M·t, by which a spin that nothing imposes changes.
         let moment = Coordinates::from_slice(rigid(&System::rates::<true, false>(rotor, t, y))).k;
         let torque = if motion.impulse.is_some() { 0.0 } else { moment.dot(motion.axis()).abs() };
-        let grows = |rate: &&Complex<f64>| {
-            let (size, by) = (rate.norm(), rate.re);
-            // A small whirl changes the rates by its square; a large one leaves true what grows before the axis has gone far.
-            let small = by > fastest * lean * lean + moves * moves / size || (by > FAST * size && by > STILL * moves);
-            // Half a torque that follows the axis drives it round, which it does not where the spin gives way.
-            let holds = small && by > torque * per_jt / size;
-            // While it grows, it may well come to move fast.
-            by > GROWS * size && by > ROUNDING * fastest && (holds || self.found.is_some())
-        };
-        let rate = rates.iter().flatten().filter(grows).map(|rate| rate.re).fold(0.0, f64::max);
+        let grows = |seen: &Seen| seen.by > GROWS * seen.size && seen.by > ROUNDING * fastest;
+        let seen = |rate: &Complex<f64>| Seen { fastest, size: rate.norm(), by: rate.re };
+        let growing = || rates.iter().flatten().map(seen).filter(grows);
+        let largest = |a: Seen, b: Seen| if b.by > a.by { b } else { a };
+        self.doubted = growing().filter(|seen| !seen.exceeds(&motion)).fold(Seen::default(), largest);
+        // Half a torque that follows the axis drives it round, which it does not where the spin gives way. While a motion grows, it may
+        // well come to move fast.
+        let holds = |seen: &Seen| seen.exceeds(&motion) && seen.by > torque * per_jt / seen.size;
+        let rate = growing().filter(|seen| holds(seen) || self.found.is_some()).fold(Seen::default(), largest).by;
         let found = || Growth { rate, t, speed: motion.axial_rate() };
         self.found = (rate > 0.0).then(|| self.found.unwrap_or_else(found));
     }

@@ -209,6 +209,21 @@ fn regress_slow_growth_is_told_of_a_rotor_that_whirls() {
     }
 }
 
+/// A rotor that is let go with a large tilt, of which damping leaves nothing, while its whirl grows.
+#[test]
+fn regress_slow_growth_is_told_when_the_tilt_has_died_out() {
+    for lean in [0.02, 0.1] {
+        let mut named = Named::started(&format!(
+            "[rotor]\nm = 10.0\nJa = 0.05\nJt = 0.08\n[start]\nomega = {{ x = 300.0 }}\ngamma = {{ y = {lean:?} }}\nr_c = {{ y = 1e-4 }}\n\
+             [[effects.bearing]]\nposition = 0.0\nkyy = 1e6\nkzz = 1e6\nkyz = 3e3\nkzy = -3e3\ncyy = 1.0\nczz = 1.0\nkt = 2e4\nct = 30.0\n"
+        ));
+        named.simulation.advance(1.0).expect("a possible motion");
+        let found = named.simulation.growth().expect("a whirl that grows");
+        // z̈ = −(k − iκ) z/m − c ż/m
+        within("growth", (found.rate / 0.424_3 - 1.0).abs(), 1e-3);
+    }
+}
+
 /// A torque that speeds a rotor up, or slows it down, drives no whirl, damped or not.
 #[test]
 fn regress_a_torque_is_not_called_growth() {
