@@ -83,7 +83,7 @@ type Linear = SMatrix<f64, LINEAR, LINEAR>;
 const VELOCITY: usize = 3;
 const MOMENTUM: usize = 6;
 
-/// The spin has changed much by this part of itself, and of the slowest whirl \[1].
+/// K·e has changed much by this part of |K|, and of Ja times the slowest whirl \[1].
 const MUCH: f64 = 0.05;
 
 /// A motion grows if it does so by this part of its own rate, and of the fastest one: what is less may be rounding, which
@@ -106,12 +106,13 @@ impl Watch {
 
     /// Looks at the rotor at time `t` \[s] and state `y`, if that is due.
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
-        // The state lacks what an imposed speed passed on. What the axis does across e is no spin.
+        // The state lacks what an imposed speed passed on.
         let momentum =
-            if E::FACTS.imposes { rotor.motion(t, y).momentum().x } else { Coordinates::from_slice(rigid(y)).k.x };
+            if E::FACTS.imposes { rotor.motion(t, y).momentum() } else { Coordinates::from_slice(rigid(y)).k };
         let [low, high] = self.known;
         let is_settled = || self.doubted.by > 0.0 && self.doubted.exceeds(&rotor.motion(t, y));
-        if (low..high).contains(&momentum) && !is_settled() {
+        // What the axis does across e is no spin.
+        if (low..high).contains(&momentum.x) && !is_settled() {
             return;
         }
         let rates = Self::rates(rotor, t, y);
@@ -119,8 +120,8 @@ impl Watch {
         let whirls = rates.iter().flatten().map(|rate| rate.im.abs()).filter(|size| *size > ROUNDING * fastest);
         let slowest = whirls.fold(fastest, f64::min);
         let Inertia { per_jt, spin, .. } = rotor.frame.body;
-        let much = MUCH * (momentum.abs() + slowest / (per_jt + spin));
-        self.known = [momentum - much, momentum + much];
+        let much = MUCH * (momentum.norm() + slowest / (per_jt + spin));
+        self.known = [momentum.x - much, momentum.x + much];
         let motion = rotor.motion(t, y);
         // M·t, by which a spin that nothing imposes changes.
         let moment = Coordinates::from_slice(rigid(&System::rates::<true, false>(rotor, t, y))).k;
