@@ -37,7 +37,7 @@ impl Display for Growth {
     }
 }
 
-/// Looks at the linear equations whenever the spin has changed much.
+/// Looks at the linear equations whenever the spin has changed much, or a tilt has died out that made them doubtful.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Watch {
     /// Between these K·e nothing new is expected [kg·m²/s].
@@ -131,8 +131,8 @@ impl Watch {
         let growing = || rates.iter().flatten().map(seen).filter(grows);
         let largest = |a: Seen, b: Seen| if b.by > a.by { b } else { a };
         self.doubted = growing().filter(|seen| !seen.exceeds(&motion)).fold(Seen::default(), largest);
-        // Half a torque that follows the axis drives it round, which it does not where the spin gives way. While a motion grows, it may
-        // well come to move fast.
+        // With the spin held fixed, half of a torque that follows the axis would seem to drive a whirl: by half of this at most. While a
+        // motion grows, it may well come to move fast.
         let holds = |seen: &Seen| seen.exceeds(&motion) && seen.by > torque * per_jt / seen.size;
         let rate = growing().filter(|seen| holds(seen) || self.found.is_some()).fold(Seen::default(), largest).by;
         let found = || Growth { rate, t, speed: motion.axial_rate() };
@@ -169,6 +169,9 @@ impl Watch {
     ) -> Option<SVector<Complex<f64>, LINEAR>> {
         const ITERATIONS: usize = 1000;
         let excess = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
+        if excess > ASYMMETRIC * rotor.frame.body.per_jt {
+            return None;
+        }
         // The balanced rotor: what an unbalance adds turns with it.
         let Frame { body, chart, turns, .. } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
@@ -178,7 +181,6 @@ impl Watch {
         else {
             return Some(SVector::zeros());
         };
-        let schur = Schur::try_new(matrix, f64::EPSILON, ITERATIONS)?;
-        (excess <= ASYMMETRIC * rotor.frame.body.per_jt).then(|| schur.complex_eigenvalues())
+        Some(Schur::try_new(matrix, f64::EPSILON, ITERATIONS)?.complex_eigenvalues())
     }
 }

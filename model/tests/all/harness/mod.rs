@@ -21,7 +21,7 @@ use split_rotor_model::integrate::{Tolerance, explicit::Explicit};
 use split_rotor_model::rotation::Chart;
 use split_rotor_model::rotor::{Rotor, whole_rates};
 use split_rotor_model::scalar::Scalar;
-use split_rotor_model::simulation::{General, Integrator};
+use split_rotor_model::simulation::General;
 use split_rotor_model::state::{COORDINATES, Coordinates, Kinematics};
 use split_rotor_model::variable::Place;
 use split_rotor_model::variables::{Reading, of_scene};
@@ -111,38 +111,33 @@ impl Scene {
         Self { g: Vector3::zeros(), c1: 0.0, c2: 0.0, r_c: Vector3::zeros(), ..Self::paper() }
     }
 
-    /// Name and value of each variable that it sets.
-    pub fn values(&self) -> Vec<(String, f64)> {
+    /// It as a machine, under these of its effects. What others would do must be zero.
+    fn machine(&self, effects: &[&str]) -> Machine {
         let Body { m, Ja, Jt, l } = self.body;
-        let machine = Machine {
+        let support = machine::Support { c: [self.c1, self.c2], d: [self.d1, self.d2] };
+        let acts = |effect: &str, is_none: bool| {
+            let acts = effects.contains(&effect);
+            assert!(acts || is_none, "{effect} is not of this scene");
+            acts
+        };
+        Machine {
             m,
             Ja,
             Jt,
             l,
             start: Start { r_c: self.r_c, v_c: self.v_c, phi: self.phi, gamma: self.gamma, omega: self.omega },
-            gravity: Some(self.g),
-            support: Some(machine::Support { c: [self.c1, self.c2], d: [self.d1, self.d2] }),
+            gravity: acts("gravity", self.g == Vector3::zeros()).then_some(self.g),
+            support: acts("support", [support.c, support.d] == [[0.0; 2]; 2]).then_some(support),
             ..Machine::default()
-        };
-        let mut values = machine.settings();
-        values.push(("solver.method".into(), f64::from(self.method as i32)));
-        values.push(("solver.relative_tolerance".into(), self.tolerance));
-        values
+        }
     }
 
-    /// Its simulation under these effects, started at time 0. What others would do must be zero.
+    /// Its simulation under these effects, started at time 0.
     pub fn started(&self, effects: &[&str]) -> General {
-        let mut named = Named::new("rotor", Integrator::Method);
-        for effect in SUPPORTED.iter().chain(effects) {
-            named.set(&format!("effects.{effect}"), f64::from(u8::from(effects.contains(effect))));
-        }
-        for (name, value) in self.values() {
-            let effect = name.split('.').next().expect("the first part of a name");
-            if SUPPORTED.contains(&effect) && !effects.contains(&effect) {
-                assert_eq!(value, 0.0, "{name} is not of this scene");
-            }
-            named.set(&name, value);
-        }
+        let mut named = Named::general(&self.machine(effects));
+        effects.iter().for_each(|effect| named.set(&format!("effects.{effect}"), 1.0));
+        named.set("solver.method", f64::from(self.method as i32));
+        named.set("solver.relative_tolerance", self.tolerance);
         named.start();
         named.simulation
     }
@@ -157,7 +152,7 @@ impl Scene {
     pub fn effects<E: Effects>(&self) -> E {
         let (mut effects, first) = (E::default(), Place::effect_block(1, 1));
         let variables = of_scene(&[(named("gravity").unwrap(), 1), (named("support").unwrap(), 1)]);
-        for (name, value) in self.values() {
+        for (name, value) in self.machine(SUPPORTED).settings() {
             let of_effect = variables.iter().find(|v| v.name == name && v.place.block >= first);
             assert!(of_effect.is_none_or(|variable| effects.set_parameter(variable.place, value)), "{name}");
         }
