@@ -8,6 +8,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
+# Those whose FMUs are tested, all unless this says which.
+PACKAGED = os.environ.get("SPLIT_ROTOR_PACKAGED", " ".join(SCENES)).split()
 # Those that name no adaptive method are too stiff, too fast or too long for most methods and for differences; so are the machines that
 # inputs over time drive.
 UNLIKE = ('method = "auto"', 'method = "symplectic"', "[[input]]")

@@ -2,7 +2,6 @@
 
 import motion
 import numpy as np
-import project
 import pytest
 from numpy.polynomial import Polynomial
 
@@ -40,7 +39,7 @@ def runs(fmus):
     """Each scene by CVode and by its own method."""
     return {
         scene: (exchange(fmus[scene], output=[*SHOWN, "state.chart"]), fmus[scene].simulate(output=SHOWN))
-        for scene in project.GENTLE
+        for scene in AXIS
     }
 
 

@@ -6,7 +6,7 @@ import pytest
 from fmpy.ssp.ssd import read_ssv
 
 # The others are long, or have tables, which the general FMU has not.
-SCENES = [scene for scene in project.GENTLE if scene not in project.GENERAL]
+SCENES = [scene for scene in project.GENTLE if scene in project.PACKAGED and scene not in project.GENERAL]
 
 
 @pytest.fixture(scope="module")

@@ -246,7 +246,7 @@ def test_exact_spectrum_tells_forward_from_backward(report):
 def test_exact_body_has_the_mass_and_inertia_of_the_rotor(report, fmus):
     from report.scene import Scene
 
-    for name in ("film_bearings", "paper", "dzhanibekov"):
+    for name in ("turbo", "paper", "dzhanibekov"):
         scene = Scene.of(fmus[name].description)
         body = report.machine._body(scene)
         m, length, corners = scene.value("rotor.m"), body["length"], np.array(body["outline"])
@@ -268,6 +268,16 @@ def test_exact_linear_view_leaves_out_what_no_unbalance_drives(report, xtask):
     assert {rows[0]["direction"] for _, rows in view.branches()} == {"forward", "backward"}
     assert report.linear.decrement(0.05) == pytest.approx(2.0 * np.pi * 0.05 / np.sqrt(1.0 - 0.05**2))
     assert np.isnan(report.linear.decrement(1.0))
+
+
+def test_exact_growth_of_an_asymmetric_body_is_looked_for_at_all_speeds_of_a_run(report):
+    rates = {100.0: -1.0, 1700.0: 3.0, 1800.0: 2.0, 2500.0: -2.0}
+    modes = [{"speed_rad_s": speed, "mode": 1, "growth_rate_1_s": rate} for speed, rate in rates.items()]
+    view = report.linear.Linear(modes, [], [(1581.0, ""), (2000.0, "")], True, (1700.0, 1800.0))
+    assert view.fastest_growth(0.0, 2100.0) == (1700.0, 3.0)
+    assert view.fastest_growth(1750.0, 1750.0) == (1700.0, 3.0), "both are as near"
+    assert view.fastest_growth(0.0, 50.0) == (100.0, -1.0)
+    assert view.fastest_growth(2100.0, 2200.0) == (2500.0, -2.0)
 
 
 def test_exact_thinned_curves_keep_their_extremes(report):

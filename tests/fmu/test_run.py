@@ -6,7 +6,7 @@ import pytest
 
 SCENES = [
     scene
-    for scene in project.SCENES
+    for scene in project.PACKAGED
     if scene != "long_run" and "[[input]]" not in (project.ROOT / "scenes" / f"{scene}.toml").read_text(encoding="utf-8")
 ]
 """The first takes as long as all others; the second are told their inputs by `run`, and fmpy is not."""

@@ -71,8 +71,14 @@ fn highest(scene: &Scene, machine: Option<&Machine>) -> Result<f64, Obstacle> {
     if highest > 0.0 {
         return Ok(highest.copysign(reached));
     }
-    let modes = machine.map(|machine| machine.modes(0.0, None)).transpose()?.map_or_else(Vec::new, |(_, modes)| modes);
-    let fastest = modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max);
+    let fastest = |machine: &Machine| {
+        let (_, modes) = machine.modes(0.0, None)?;
+        Ok(modes.iter().map(|mode| mode.eigenvalue.im).fold(0.0, f64::max))
+    };
+    let fastest = match machine {
+        Some(machine) => fastest(machine)?,
+        None => Machine::with_mean_inertia(&scene.parameters()).and_then(|mean| fastest(&mean)).unwrap_or(0.0),
+    };
     Ok(if fastest > 0.0 { fastest } else { 1.0 })
 }
 

@@ -54,7 +54,7 @@ pub fn hard_cases(extent: &Extent) -> Result<()> {
 
 /// The scenes whose FMUs the cases run in: no effects, gravity and support, those with a drive, asymmetry, unbalance at an
 /// imposed speed, bearings with rotating damping, all.
-fn scenes() -> [&'static str; 7] {
+pub fn scenes() -> [&'static str; 7] {
     ["free_top", "paper", "driven", "dzhanibekov", "jeffcott", "unstable_whirl", "rotor"]
 }
 

@@ -14,43 +14,43 @@ use std::sync::Mutex;
 use std::thread;
 use std::time::Instant;
 
-/// What a job does, and what runs it; where it cannot, that is an error, which names what is to be installed.
-type Job = (&'static str, fn() -> Result<()>);
+/// What a job does, and what runs it, at length where asked; where it cannot, that is an error, which names what is to be installed.
+type Job = (&'static str, fn(long: bool) -> Result<()>);
 
 /// What always runs. Several run side by side, here and below, so what takes longest comes first.
 const SHORT: [Job; 4] = [
-    ("Rust's tests", rust_tests),
+    ("Rust's tests", |_| rust_tests()),
     ("packaged FMUs and hard cases", packaged_fmus),
-    ("call rules of a driven scene", driven_tests),
-    ("documentation of the code", documentation),
+    ("call rules of a driven scene", |_| driven_tests()),
+    ("documentation of the code", |_| documentation()),
 ];
 
 /// What takes long, or needs more than the README asks for.
 const LONG: [Job; 16] = [
-    ("bits of every platform", abroad::bits_of_every_platform),
-    ("counts that must hold", bench::must_hold),
-    ("third-party clients", clients),
-    ("fuzz", fuzz::fuzz),
-    ("sanitizers", sanitize::sanitizers),
-    ("bits of a plain build", plain_build),
-    ("random calls of a driven scene", || driven(&["random_calls"])),
-    ("the example of an effect", copies::example_is_right),
-    ("Python package", || wheel::wheel().map(drop)),
-    ("long runs", long_runs),
-    ("memcheck", memcheck::valgrind),
-    ("hard cases in full", whole_gallery),
-    ("absence is free", copies::absence_is_free),
-    ("bits of wide builds", wide_builds),
-    ("peers", peers),
-    ("against ROSS", ross::ross),
+    ("bits of every platform", |_| abroad::bits_of_every_platform()),
+    ("counts that must hold", |_| bench::must_hold()),
+    ("third-party clients", |_| clients()),
+    ("fuzz", |_| fuzz::fuzz()),
+    ("sanitizers", |_| sanitize::sanitizers()),
+    ("bits of a plain build", |_| plain_build()),
+    ("random calls of a driven scene", |_| driven(&["random_calls"])),
+    ("the example of an effect", |_| copies::example_is_right()),
+    ("Python package", |_| wheel::wheel().map(drop)),
+    ("long runs", |_| long_runs()),
+    ("memcheck", |_| memcheck::valgrind()),
+    ("hard cases in full", |_| whole_gallery()),
+    ("absence is free", |_| copies::absence_is_free()),
+    ("bits of wide builds", |_| wide_builds()),
+    ("peers", |_| peers()),
+    ("against ROSS", |_| ross::ross()),
 ];
 
 /// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took.
 pub fn test(part: &str, long: bool) -> Result<()> {
     let of = |jobs: &'static [Job]| jobs.iter().filter(|(name, _)| name.contains(part)).collect::<Vec<_>>();
-    let (short, long) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
+    let (short, others) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
     let names = |jobs: &[Job]| jobs.iter().map(|(name, _)| format!("\n  {name}")).collect::<String>();
-    match *[&short[..], &long].concat() {
+    match *[&short[..], &others].concat() {
         // Nothing run would pass for nothing wrong.
         [] => bail!(
             "no job's name holds {part:?}{}: there are{}\nand with --long also{}",
@@ -61,16 +61,16 @@ pub fn test(part: &str, long: bool) -> Result<()> {
         [(name, job)] => {
             println!("\n== {name}");
             let start = Instant::now();
-            job()?;
+            job(long)?;
             println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
             Ok(())
         }
-        _ => [short, long].iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs)),
+        _ => [short, others].iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs, long)),
     }
 }
 
 /// Runs these jobs side by side, each by an xtask of its own, whose words are shown when it has ended.
-fn together(jobs: &[&Job]) -> Result<()> {
+fn together(jobs: &[&Job], long: bool) -> Result<()> {
     let (progress, running) = (Progress::of(jobs.len()), Mutex::new(Vec::new()));
     side_by_side(jobs, |_, (name, _)| {
         progress.tell(&format!("== {name} begins"));
@@ -81,7 +81,7 @@ fn together(jobs: &[&Job]) -> Result<()> {
         };
         now(&|running| running.push(name));
         let mut job = Command::new(env::current_exe()?);
-        let output = job.args(["test", name, "--long"]).stdin(Stdio::null()).output()?;
+        let output = job.args(["test", name]).args(long.then_some("--long")).stdin(Stdio::null()).output()?;
         progress.suspend(|| {
             print!("{}", String::from_utf8_lossy(&output.stdout));
             eprint!("{}", String::from_utf8_lossy(&output.stderr));
@@ -129,11 +129,18 @@ fn wide_builds() -> Result<()> {
     run(cargo().args(bits).arg(paths::target().join("wide")).env("RUSTFLAGS", "-Ctarget-cpu=native"))
 }
 
-/// The packaged FMUs under a host in C and under fmpy; then the hard cases by them, the long ones shortened, and that each can fail.
-fn packaged_fmus() -> Result<()> {
-    c_host::plain(&package::package(&Scene::names(&paths::scenes()), None)?)?;
-    pytest(&["tests/fmu", "tests/clients"])?;
+/// The packaged FMUs under a host in C and under fmpy, those of every list of effects only at length; then the hard cases by them, the
+/// long ones shortened, and that each can fail.
+fn packaged_fmus(long: bool) -> Result<()> {
+    let scenes = if long { Scene::names(&paths::scenes()) } else { first() };
+    c_host::plain(&package::package(&scenes, None)?)?;
+    run(pytest(&["tests/fmu", "tests/clients"])?.env("SPLIT_ROTOR_PACKAGED", scenes.join(" ")))?;
     hard_cases::run(&Extent { mutants: true, ..Extent::default() })
+}
+
+/// Each list of effects takes a minute to compile: of the scenes those of the hard cases, one through all charts, and that of the README.
+fn first() -> Vec<String> {
+    hard_cases::scenes().into_iter().chain(["tumbling", "turbo"]).map(str::to_owned).collect()
 }
 
 /// The hard cases that were shortened, in full.
@@ -144,7 +151,7 @@ fn whole_gallery() -> Result<()> {
 /// The packaged FMUs under third-party clients, and pytest's other long tests.
 fn clients() -> Result<()> {
     python::clients()?;
-    pytest(&["--long", "-m", "long", "tests/fmu", "tests/clients"])
+    run(&mut pytest(&["--long", "-m", "long", "tests/fmu", "tests/clients"])?)
 }
 
 /// The Rust tests of the model that take long.
@@ -164,11 +171,12 @@ fn peers() -> Result<()> {
     Ok(())
 }
 
-/// Runs these tests, as many files at a time as there are processors.
-fn pytest(arguments: &[&str]) -> Result<()> {
+/// A command that runs these tests, as many files at a time as there are processors.
+fn pytest(arguments: &[&str]) -> Result<Command> {
     let workers = thread::available_parallelism()?.to_string();
-    let by_file = ["--dist", "loadfile", "-n", &workers];
-    run(python::python_with_all()?.args(python::PYTEST).args(by_file).args(arguments))
+    let mut pytest = python::python_with_all()?;
+    pytest.args(python::PYTEST).args(["--dist", "loadfile", "-n", &workers]).args(arguments);
+    Ok(pytest)
 }
 
 #[cfg(test)]

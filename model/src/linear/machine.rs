@@ -24,6 +24,9 @@ pub(super) const DRIVES: [&str; 3] = ["drive", "motor", "imposed_speed"];
 /// Its first three rows are the acceleration.
 const GRAVITY: &str = "gravity";
 
+/// The effect that makes the transverse moments of inertia differ.
+const ASYMMETRY: &str = "asymmetry";
+
 /// Principal moments that differ by less than this are one \[1].
 const ROUNDING: f64 = 1e-12;
 
@@ -129,8 +132,12 @@ impl std::error::Error for Obstacle {}
 
 /// Switches off what drives the spin.
 pub(crate) fn stop_drives(parameters: &mut Parameters<All>) {
+    switch_off(&DRIVES, parameters);
+}
+
+fn switch_off(effects: &[&str], parameters: &mut Parameters<All>) {
     parameters.effects.for_each(|block| {
-        if DRIVES.contains(&block.kind().name) {
+        if effects.contains(&block.kind().name) {
             block.switch(false);
         }
     });
@@ -169,6 +176,19 @@ impl Machine {
         let [about_axis, across] = [body.spin + body.per_jt, body.per_jt].map(|per| 1.0 / per);
         let (mass, length) = (body.m, (across * body.per_m).sqrt());
         Ok(Self { parameters, about_axis, across, length, mass, centre, unbalance, gravity })
+    }
+
+    /// The same with the mean of both transverse moments of inertia, where the body is not symmetric: its modes are of the size of the body's.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of).
+    pub fn with_mean_inertia(parameters: &Parameters<All>) -> Result<Self, Obstacle> {
+        let mut parameters = parameters.clone();
+        if let Some(second) = parameters.shape().Jt2 {
+            parameters.setup.rotor.Jt = 0.5 * (parameters.setup.rotor.Jt + second);
+            switch_off(&[ASYMMETRY], &mut parameters);
+        }
+        Self::of(&parameters)
     }
 
     /// Where it runs steadily at `speed` [rad/s], sought from `near`, and its linear equations there.

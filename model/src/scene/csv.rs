@@ -51,6 +51,10 @@ impl Csv<'_> {
         let text = String::from_utf8_lossy(&bytes);
         // Spreadsheets begin with a mark of the order of bytes.
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        if let Some(separator) = other_separator(text) {
+            let right = "write a comma between a time and its value, and decimals behind a point";
+            return Err(whole(&format!("has {separator} between its columns"), right));
+        }
         let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).peekable();
         let mut columns = [&SECOND, variable.meta.unit].map(|unit| Column { unit, written: None });
         if let Some((number, line)) = lines.next_if(|(_, line)| names(line)) {
@@ -97,6 +101,18 @@ impl Csv<'_> {
 fn point(line: &str, columns: &[Column; 2]) -> Option<(f64, f64)> {
     let (time, value) = line.split_once(',')?;
     Some((columns[0].number(time)?, columns[1].number(value)?))
+}
+
+/// What a text has between its columns in place of commas.
+fn other_separator(text: &str) -> Option<&'static str> {
+    let line = text.lines().find(|line| !line.trim().is_empty())?.trim();
+    let is_pair = |line: &str| line.split_whitespace().count() == 2;
+    match line {
+        line if line.contains(';') => Some("semicolons"),
+        line if line.contains(',') => None,
+        line if line.contains('\t') => Some("tabs"),
+        line => is_pair(line.trim_start_matches('#')).then_some("blanks"),
+    }
 }
 
 /// Whether a line names columns: what begins as a number is meant to be one.

@@ -67,11 +67,9 @@ impl Reader<'_> {
                     let right = format!("write it without quotes, or with its unit: \"{text} {}\"", unit.name);
                     tell(self, impossible, right)
                 }
-                Err(Unreadable::Comma(right)) => tell(
-                    self,
-                    format!("{in_file} = {} has a decimal comma", self.given(value)),
-                    format!("write \"{right}\""),
-                ),
+                Err(Unreadable::Comma(comma, right)) => {
+                    tell(self, format!("{in_file} = {} {comma}", self.given(value)), format!("write \"{right}\""))
+                }
                 Err(Unreadable::Unit(what, right)) => {
                     tell(self, format!("{in_file}{}: `{what}` is no unit", brackets(unit)), right)
                 }

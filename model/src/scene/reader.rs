@@ -20,6 +20,18 @@ use toml::de::{DeTable, DeValue};
 /// Effects that had another name, and what they are called now: `shaft` since 0.2.0, for elastic shafts need the name.
 const RENAMED: &[(&str, &str)] = &[("shaft", "drive")];
 
+/// What others call a key of a section.
+const CALLED: &[(&str, &str, &str)] = &[
+    ("rotor", "mass", "m"),
+    ("rotor", "length", "l"),
+    ("rotor", "Jp", "Ja"),
+    ("rotor", "Ip", "Ja"),
+    ("rotor", "Jd", "Jt"),
+    ("rotor", "Id", "Jt"),
+    ("rotor", "It", "Jt"),
+    ("start", "speed", "omega"),
+];
+
 /// What a text says.
 pub(super) struct Found {
     pub title: Option<String>,
@@ -117,6 +129,7 @@ impl Reader<'_> {
         values.take_moments();
         self.nothing_missing(&values, &headings);
         self.problems.extend(values.columns.problems());
+        self.unknown_of_experiment(root.get("experiment"), &values);
         let unsure = values.unsure();
         let Values { mut starts, mut places, columns, .. } = values;
         let is_there = |variable: &Variable| columns.hold(variable);
@@ -222,8 +235,10 @@ impl Reader<'_> {
                 if value.get_ref().as_table().is_some() {
                     self.block(value, &name, &in_file, values);
                 } else {
-                    let keys = values.keys(&name);
-                    let right = format!("a table of {}, such as {{ {} = 0.1 }}", keys.join(", "), keys[0]);
+                    let (keys, given) = (values.keys(&name), value.get_ref());
+                    let is_one = given.is_str() || given.is_float() || given.is_integer();
+                    let one = if is_one { self.given(value) } else { "0.1".into() };
+                    let right = format!("a table of {}, such as {{ {} = {one} }}", keys.join(", "), keys[0]);
                     self.wrong_type(value, &in_file, &right)
                 }
             } else if is_unbalance(prefix) && key.get_ref() == moment::KEY {
@@ -241,12 +256,16 @@ impl Reader<'_> {
             [] => format!("{heading} has no keys"),
             known => format!("{heading} knows {}", known.join(", ")),
         };
-        if let [one] = similar(key, known.iter().copied())[..] {
+        let problem = Problem::unknown(place, "key", &format!("{section}.{key}"), &known, list);
+        let called = CALLED.iter().find(|(of, also, _)| (*of, *also) == (prefix, key)).map(|(.., name)| *name);
+        let meant = called.map_or_else(|| similar(key, known.iter().copied()), |name| vec![name]);
+        if let [one] = meant[..] {
             values.meant.push(format!("{prefix}.{one}"));
         }
-        let elsewhere = values.known_elsewhere(prefix, key);
-        let problem = Problem::unknown(place, "key", &format!("{section}.{key}"), &known, list);
-        self.problems.push(problem.or_right(elsewhere));
+        self.problems.push(match called {
+            Some(name) => Problem { right: format!("did you mean `{name}`?"), ..problem },
+            None => problem.or_right(values.known_elsewhere(prefix, key)),
+        });
     }
 
     /// Takes the moment of an unbalance, which stands for mass and radius.
@@ -259,6 +278,16 @@ impl Reader<'_> {
             number = None;
         }
         values.moments.push(Moment { block: block.to_owned(), value: number, place });
+    }
+
+    fn unknown_of_experiment(&mut self, value: Option<&Value>, values: &Values) {
+        let known = experiment::KEYS.map(|known| known.name);
+        let keys = value.and_then(|value| value.get_ref().as_table()).into_iter().flat_map(|table| table.keys());
+        for key in keys.filter(|key| !known.contains(&key.get_ref().as_ref())) {
+            let (name, list) = (key.get_ref().as_ref(), format!("[experiment] knows {}", known.join(", ")));
+            let problem = Problem::unknown(key.span(), "key", &format!("experiment.{name}"), &known, list);
+            self.problems.push(problem.or_right(values.known_elsewhere("experiment", name)));
+        }
     }
 
     fn experiment(
@@ -274,10 +303,6 @@ impl Reader<'_> {
                 let name = format!("experiment.{name}");
                 given[n] = self.real(value, experiment::KEYS[n].unit, &name).map(|number| (number, value));
                 places.push((name, self.place(value)));
-            } else {
-                let known = experiment::KEYS.map(|known| known.name);
-                let list = format!("[experiment] knows {}", known.join(", "));
-                self.problems.push(Problem::unknown(key.span(), "key", &format!("experiment.{name}"), &known, list));
             }
         }
         let (experiment, wrong) = Experiment::of(given.map(|given| given.map(|(number, _)| number)), tolerance);

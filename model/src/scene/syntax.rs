@@ -29,9 +29,9 @@ pub(super) fn problems(text: &str, errors: &[Error]) -> (Vec<Problem>, bool) {
         } else if is_below_open {
             rest_is_sound = false;
             Some(Problem::at(place.clone(), OPEN, "write `]` before this"))
-        } else if let Some(comma) = decimal_comma(text, &line) {
-            let (given, right) = (&text[comma.clone()], text[comma.clone()].replace(',', "."));
-            Some(Problem::at(comma, format!("{given} has a decimal comma"), format!("write {right}")))
+        } else if let Some((place, comma, right)) = comma(text, &line) {
+            let given = &text[place.clone()];
+            Some(Problem::at(place.clone(), format!("{given} {comma}"), format!("write {right}")))
         } else if *message == DUPLICATE {
             doubled(text, place, &line, &problems)
         } else if message.starts_with(UNQUOTED) && !place.is_empty() && line.end >= place.end {
@@ -61,14 +61,17 @@ pub(super) fn line_around(text: &str, at: usize) -> Range<usize> {
     start..text[at..].find('\n').map_or(text.len(), |length| at + length)
 }
 
-/// Where a line has a number with a decimal comma for a value.
-fn decimal_comma(text: &str, line: &Range<usize>) -> Option<Range<usize>> {
+/// Where a line has a number with a comma for a value, what that does, and how it is right.
+fn comma(text: &str, line: &Range<usize>) -> Option<(Range<usize>, &'static str, String)> {
     let values = text[line.clone()].match_indices('=').map(|(at, _)| line.start + at + 1);
     values.into_iter().find_map(|at| {
         let value = text[at..line.end].trim_start();
         let end = value.find(|c: char| c.is_whitespace() || "}]#".contains(c)).unwrap_or(value.len());
         let start = line.end - text[at..line.end].trim_start().len();
-        matches!(units::read(&value[..end]), Err(Unreadable::Comma(_))).then_some(start..start + end)
+        match units::read(&value[..end]) {
+            Err(Unreadable::Comma(comma, right)) => Some((start..start + end, comma, right)),
+            _ => None,
+        }
     })
 }
 

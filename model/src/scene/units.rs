@@ -133,8 +133,8 @@ pub(super) enum Unreadable<'t> {
     NoNumber,
     /// It is nothing but a number.
     NoUnit,
-    /// Its decimal point is a comma: how it is right.
-    Comma(String),
+    /// It has a comma: what that does, and how it is right.
+    Comma(&'static str, String),
     /// Its unit cannot be read: what of it, and what would be right.
     Unit(&'t str, String),
 }
@@ -144,8 +144,9 @@ pub(super) enum Unreadable<'t> {
 pub(super) fn read(text: &str) -> Result<Quantity<'_>, Unreadable<'_>> {
     let text = text.trim();
     let (mantissa, exponent, rest) = number(text).ok_or(Unreadable::NoNumber)?;
-    if let Some(decimals) = rest.strip_prefix(',').filter(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
-        return Err(Unreadable::Comma(format!("{}.{decimals}", &text[..text.len() - rest.len()])));
+    if rest.strip_prefix(',').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
+        let (comma, right) = with_a_point(text);
+        return Err(Unreadable::Comma(comma, right));
     }
     let unit = rest.trim_start();
     if unit.is_empty() {
@@ -260,6 +261,20 @@ fn named(name: &str) -> Option<(i32, &'static Written)> {
     find(name).map(|unit| (0, unit)).or_else(|| PREFIXES.iter().find_map(prefixed))
 }
 
+/// What a comma does in a number, and the number as TOML writes it: of several marks the last is the decimal one, unless it stands twice.
+fn with_a_point(text: &str) -> (&'static str, String) {
+    const MARKS: [char; 2] = [',', '.'];
+    let is_of_number = |c: char| c.is_ascii_digit() || "+-,.".contains(c);
+    let number = text.find(|c| !is_of_number(c)).unwrap_or(text.len());
+    let (number, rest) = text.split_at(number);
+    let mark = number.rfind(MARKS).unwrap_or(number.len());
+    let (whole, decimals) = number.split_at(mark);
+    let separates = whole.contains(&decimals[..decimals.len().min(1)]);
+    let point = if separates { "" } else { "." };
+    let comma = if whole.contains(MARKS) { "has a mark between thousands" } else { "has a decimal comma" };
+    (comma, format!("{}{point}{}{rest}", whole.replace(MARKS, ""), decimals.replace(MARKS, "")))
+}
+
 /// What is said of a name that is no unit.
 fn unknown(name: &str) -> String {
     if let Some((_, unit)) = ALSO.iter().find(|(also, _)| *also == name) {
@@ -272,7 +287,10 @@ fn unknown(name: &str) -> String {
     // Two units without a space between, such as Nm, are no third one.
     let parts = name.char_indices().skip(1).map(|(at, _)| name.split_at(at));
     let both = parts.filter(|(one, other)| named(one).is_some() && named(other).is_some());
-    let both = both.last().map(|(one, other)| format!("did you mean `{one} {other}`?"));
+    // One letter with an s is a product, as in Ns; more may be a plural, as in kgs.
+    let singular = name.strip_suffix('s').filter(|singular| singular.chars().count() > 1 && named(singular).is_some());
+    let singular = singular.map_or_else(String::new, |singular| format!("`{singular}` or "));
+    let both = both.last().map(|(one, other)| format!("did you mean {singular}`{one} {other}`?"));
     both.or_else(|| did_you_mean(name, names.iter().map(String::as_str))).unwrap_or_else(|| {
         let names: Vec<_> = UNITS.iter().map(|unit| unit.name).collect();
         format!("the units are {}", names.join(", "))
@@ -374,7 +392,15 @@ mod tests {
             assert_eq!(read(text), Err(Unreadable::NoNumber), "{text}");
         }
         assert_eq!(read(" 5 "), Err(Unreadable::NoUnit));
-        assert_eq!(read("5,25 kg"), Err(Unreadable::Comma("5.25 kg".into())));
+        for (written, comma, right) in [
+            ("5,25 kg", "has a decimal comma", "5.25 kg"),
+            ("-0,5", "has a decimal comma", "-0.5"),
+            ("2,000.5 N/m", "has a mark between thousands", "2000.5 N/m"),
+            ("2.000,5 N/m", "has a mark between thousands", "2000.5 N/m"),
+            ("2,000,000", "has a mark between thousands", "2000000"),
+        ] {
+            assert_eq!(read(written), Err(Unreadable::Comma(comma, right.into())));
+        }
         let unit = |text| match read(text) {
             Err(Unreadable::Unit(what, right)) => (what, right),
             other => panic!("{text}: {other:?}"),
@@ -384,6 +410,8 @@ mod tests {
         assert_eq!(unit("40 gmm").1, "did you mean `g mm`?");
         assert_eq!(unit("0.04 kgm2").1, "did you mean `kg m`?");
         assert_eq!(unit("5 sec").1, "did you mean `s`?");
+        assert_eq!(unit("12 kgs").1, "did you mean `kg` or `kg s`?");
+        assert_eq!(unit("2000 Ns/m").1, "did you mean `N s`?");
         assert_eq!(unit("3000 U/min"), ("U", "did you mean `rev`?".into()));
         assert_eq!(unit("5 N/m.s").0, "s");
         assert_eq!(unit("5 N/(m.s").1, "the bracket is not closed");

@@ -28,6 +28,8 @@ impl Display for Growth {
     /// What to warn of.
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Self { rate, t, speed } = self;
+        // To five digits, and no zeros behind them.
+        let t: f64 = format!("{t:.4e}").parse().unwrap_or(*t);
         write!(
             f,
             "the rotor is unstable: small motions about its state at t = {t:?} s, at {speed:.1} rad/s, grow by a factor of e every \

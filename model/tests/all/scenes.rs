@@ -216,8 +216,9 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         ("", "x.csv has no points"),
         ("time,tau\n", "x.csv has no points"),
         // What is no point is not taken for the names of columns, and names must be those that are meant.
-        ("0;30\n1,2\n", "line 1 of x.csv is no point"),
-        ("0 30\n1,2\n", "line 1 of x.csv is no point"),
+        ("0;30\n1;2,5\n", "x.csv has semicolons between its columns"),
+        ("0 30\n1 2\n", "x.csv has blanks between its columns"),
+        ("time\ttau\n0\t30\n", "x.csv has tabs between its columns"),
         ("0.0 s,30 N\n1,2\n", "line 1 of x.csv is no point"),
         ("-,-\n1,2\n", "line 1 of x.csv is no point"),
         ("O.0,3O.0\n1,2\n", columns),
@@ -239,7 +240,7 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         assert!(line.flatten().is_none_or(|line| error.to_string().contains(&format!("| {line}\n"))), "{error}");
     }
     // All lines at once, unless they are many.
-    std::fs::write(folder.join("x.csv"), "0;1\n1,1\n2;1\n3;1\n4;1\n5,a\n").expect("the folder can be written");
+    std::fs::write(folder.join("x.csv"), "0/1\n1,1\n2/1\n3/1\n4/1\n5,a\n").expect("the folder can be written");
     let error = parse("file = \"x.csv\"").expect_err("no points").to_string();
     for told in ["x.csv:1:1", "x.csv:3:1", "x.csv:4:1", "2 more lines of x.csv are wrong"] {
         assert!(error.contains(told), "{told}: {error}");

@@ -97,8 +97,9 @@ impl<'s> Turning<'s> {
                 self.missed
             );
         }
+        let [first, last] = [0, self.orbits.len() - 1].map(|n| self.orbits[n].speed);
         match self.orbits.iter().filter(|orbit| orbit.loss().is_some()).count() {
-            0 => text += "None grows at these speeds.\n",
+            0 => text += &format!("None grows from {} to {} rad/s.\n", rounded(first), rounded(last)),
             count if count == self.orbits.len() => text += "They grow at all these speeds.\n",
             _ => {}
         }
@@ -132,4 +133,27 @@ pub fn exponents(orbit: &Orbit) -> Vec<Complex<f64>> {
     let mut all: Vec<_> = orbit.exponents().into_iter().filter(|exponent| exponent.im >= 0.0).collect();
     all.sort_by(|a, b| b.re.total_cmp(&a.re));
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Turning;
+    use split_rotor_model::scene::Scene;
+    use std::path::Path;
+
+    /// Two equal bearings at ±0.1 m: in the frame of the body the stiffness against tilt, 2·10⁵ N·m/rad, is less than (Jt2 − Ja) Ω²
+    /// beyond the one speed, and less than (Jt − Ja) Ω² beyond the other; between them the axis leaves.
+    #[test]
+    fn exact_an_asymmetric_body_at_rest_is_looked_at_where_it_will_whirl() {
+        let bearing = |x: &str| format!("[[effects.bearing]]\nposition = {x}\nkyy = 1e7\nkzz = 1e7\n");
+        let rotor = "[rotor]\nm = 10.0\nJa = 0.05\nJt = 0.1\n[effects.asymmetry]\nJt2 = 0.13\n";
+        let text = format!("{rotor}{}{}", bearing("0.1"), bearing("-0.1"));
+        let scene = Scene::parse(Path::new("plate.toml"), &text).expect("a scene");
+        let turning = Turning::of(&scene, None, 41).expect("motions that repeat");
+        let exact = [(2e5_f64 / 0.08).sqrt(), (2e5_f64 / 0.05).sqrt()];
+        assert_eq!(turning.thresholds.len(), 2, "{:?}", turning.thresholds);
+        for (found, exact) in turning.thresholds.iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-5 * exact, "{found} {exact}");
+        }
+    }
 }

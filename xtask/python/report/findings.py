@@ -92,8 +92,10 @@ def _stability(result, view, touches=False):
         return None
     spin = np.abs(result.columns["omega_phi"])
     if view.floquet:
-        speed, rate = view.nearest_growth(spin[0])
-        what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet)"
+        speed, rate = view.fastest_growth(spin.min(), spin.max())
+        bounds = ", ".join(rpm(threshold) + _when(result, threshold) for threshold, _ in view.thresholds)
+        bounds = f"; begins or ceases at {bounds}" if bounds else ""
+        what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet){bounds}"
         return Finding("unstable", what, "bad") if speed in view.growing else Finding("nothing grows", what)
     # Nothing is said of speeds at which nobody looked.
     looked = [row["speed_rad_s"] for row in view.modes]

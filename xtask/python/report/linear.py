@@ -48,11 +48,13 @@ class Linear:
         rates = [max(row["growth_rate_1_s"] for row in self.modes if row["speed_rad_s"] == speed) for speed in speeds]
         return speeds, np.array(rates)
 
-    def nearest_growth(self, speed):
-        """Of the speed that is nearest to this one, itself and the fastest growth at it."""
+    def fastest_growth(self, low, high):
+        """The fastest growth at the speeds from `low` to `high` [rad/s], or at the one that is nearest to them, and that speed."""
         speeds, rates = self.growth()
-        nearest = np.abs(speeds - speed).argmin()
-        return speeds[nearest], rates[nearest]
+        away = np.maximum(np.maximum(low - speeds, speeds - high), 0.0)
+        near = np.flatnonzero(away == away.min())
+        fastest = near[rates[near].argmax()]
+        return speeds[fastest], rates[fastest]
 
 
 def read(file):

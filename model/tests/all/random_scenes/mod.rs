@@ -26,7 +26,7 @@ use std::time::{Instant, SystemTime};
 use trial::Trial;
 use truth::Truth;
 
-/// The seeds of every run, and how many scenes each draws.
+/// The seeds that are always drawn from, the first in every run, the others in the long ones; and how many scenes each draws.
 const SEEDS: [u64; 3] = [14, 2018, 31415];
 const OF_A_SEED: u64 = 250;
 
@@ -122,14 +122,25 @@ fn judge(numbers: impl Iterator<Item = u64>, method: Method) {
 #[test]
 fn exact_auto_keeps_its_tolerance() {
     let fixed = (0..fixed::all().len() as u64).map(|n| number(0, n));
-    let drawn = SEEDS.into_iter().flat_map(|seed| (0..OF_A_SEED).map(move |n| number(seed, n)));
-    judge(fixed.chain(drawn).chain(FOUND), Method::Auto);
+    // The table is of all.
+    let seeds = if report::is_to_write() { &SEEDS[..] } else { &SEEDS[..1] };
+    judge(fixed.chain(drawn(seeds)).chain(FOUND), Method::Auto);
+}
+
+#[test]
+#[ignore = "long"]
+fn exact_auto_keeps_its_tolerance_in_the_scenes_of_other_seeds() {
+    judge(drawn(&SEEDS[1..]), Method::Auto);
+}
+
+fn drawn(seeds: &[u64]) -> impl Iterator<Item = u64> {
+    seeds.iter().flat_map(|seed| (0..OF_A_SEED).map(move |n| number(*seed, n)))
 }
 
 #[test]
 fn exact_taylor_keeps_its_tolerance() {
     let fixed = (0..fixed::all().len() as u64).map(|n| number(0, n));
-    judge(fixed.chain((0..OF_A_SEED).map(|n| number(SEEDS[0], n))), Method::Taylor);
+    judge(fixed.chain(drawn(&SEEDS[..1])), Method::Taylor);
 }
 
 #[test]
