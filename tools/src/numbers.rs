@@ -23,7 +23,8 @@ pub fn rounded(value: f64) -> String {
     }
     let digits = libm::floor(libm::log10(value.abs()));
     let decimals = (5.0 - digits).clamp(0.0, 9.0) as usize;
-    format!("{value:.decimals$}")
+    let rounded = format!("{value:.decimals$}");
+    if rounded.contains(|c: char| ('1'..='9').contains(&c)) { rounded } else { "0".into() }
 }
 
 /// A length \[m] in µm.
