@@ -47,7 +47,12 @@ pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> 
             let libraries = kept.iter().map(|(platform, library)| Ok((*platform, filled(library)?)));
             let (libraries, fmu) = (libraries.collect::<Result<Vec<_>>>()?, fmu(scene));
             archive(&fmu, |add| fill(scene, &libraries, &origin, add))?;
-            progress.suspend(|| println!("{}", fmu.display()));
+            progress.suspend(|| {
+                for (platform, library) in &libraries {
+                    eprintln!("  {} {} kB", platform.name, library.len() / 1000);
+                }
+                println!("{}", fmu.display());
+            });
         }
     }
     drop(progress);
