@@ -18,10 +18,9 @@ use std::time::Instant;
 type Job = (&'static str, fn(long: bool) -> Result<()>);
 
 /// What always runs. Several run side by side, here and below, so what takes longest comes first.
-const SHORT: [Job; 4] = [
+const SHORT: [Job; 3] = [
     ("Rust's tests", |_| rust_tests()),
     ("packaged FMUs and hard cases", packaged_fmus),
-    ("call rules of a driven scene", |_| driven_tests()),
     ("documentation of the code", |_| documentation()),
 ];
 
@@ -33,7 +32,7 @@ const LONG: [Job; 16] = [
     ("fuzz", |_| fuzz::fuzz()),
     ("sanitizers", |_| sanitize::sanitizers()),
     ("bits of a plain build", |_| plain_build()),
-    ("random calls of a driven scene", |_| driven(&["random_calls"])),
+    ("call rules of a driven scene", |_| driven_tests()),
     ("the example of an effect", |_| copies::example_is_right()),
     ("Python package", |_| wheel::wheel().map(drop)),
     ("long runs", |_| long_runs()),
@@ -104,16 +103,12 @@ fn documentation() -> Result<()> {
     run(cargo().args(["doc", "--quiet", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings"))
 }
 
-/// The call rules once more with a scene that has an input.
+/// The call rules once more, and random calls, with a scene that has an input.
 fn driven_tests() -> Result<()> {
-    driven(&["abi", "arguments", "derivatives", "exchange", "inputs", "serialized", "state"])
-}
-
-/// These files of `tests/interface` with that scene.
-fn driven(files: &[&str]) -> Result<()> {
+    let files = ["abi", "arguments", "derivatives", "exchange", "inputs", "random_calls", "serialized", "state"];
     // Of all members, so that of what it stands on nothing is built anew.
     let test = ["test", "--quiet", "--features", "split-rotor/driven", "--test", "interface", "--"];
-    run(cargo().args(test).args(files.iter().map(|name| format!("{name}::"))))
+    run(cargo().args(test).args(files.map(|name| format!("{name}::"))))
 }
 
 /// The bits are the same where nothing is optimised; where all is, the packaged FMUs have them too.
