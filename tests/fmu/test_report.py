@@ -273,7 +273,7 @@ def test_exact_linear_view_leaves_out_what_no_unbalance_drives(report, xtask):
 def test_exact_growth_of_an_asymmetric_body_is_looked_for_at_all_speeds_of_a_run(report):
     rates = {100.0: -1.0, 1700.0: 3.0, 1800.0: 2.0, 2500.0: -2.0}
     modes = [{"speed_rad_s": speed, "mode": 1, "growth_rate_1_s": rate} for speed, rate in rates.items()]
-    view = report.linear.Linear(modes, [], [(1581.0, ""), (2000.0, "")], True, (1700.0, 1800.0))
+    view = report.linear.Linear(modes, [], [(1581.0, "", 0), (2000.0, "", 0)], True, (1700.0, 1800.0))
     assert view.fastest_growth(0.0, 2100.0) == (1700.0, 3.0)
     assert view.fastest_growth(1750.0, 1750.0) == (1700.0, 3.0), "both are as near"
     assert view.fastest_growth(0.0, 50.0) == (100.0, -1.0)

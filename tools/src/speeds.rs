@@ -44,10 +44,11 @@ fn grid(
         from.abs() <= HIGHEST && to.abs() <= HIGHEST && from < to,
         "speeds {from} {to}: the second must be more than the first, both within ±{HIGHEST:e} rad/s"
     );
-    let even = (0..steps).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1));
+    let even = (0..steps - 1).map(|n| from + (to - from) * f64::from(n) / f64::from(steps - 1));
     // Modes at ω and −ω are alike, the lines of the speed's multiples bend at 0, and coefficients bend at the nodes of their tables.
     let bends = nodes(scene).flat_map(|node| [node, -node]).chain([0.0]);
-    let mut speeds: Vec<_> = even.chain(bends.filter(|bend| (from..to).contains(bend))).collect();
+    // The last one to its last bit: no speed beyond 0 belongs to a rotor that runs the other way round.
+    let mut speeds: Vec<_> = even.chain([to]).chain(bends.filter(|bend| (from..to).contains(bend))).collect();
     speeds.sort_by(f64::total_cmp);
     // 0 and −0 are one speed.
     speeds.dedup_by(|a, b| a == b);
@@ -87,4 +88,20 @@ fn nodes(scene: &Scene) -> impl Iterator<Item = f64> {
     let nodes = scene.variables.iter().filter(|variable| variable.name.contains(".speed["));
     let value = scenes::values(scene);
     nodes.filter_map(move |node| value(&node.name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::grid;
+    use crate::scenes::find;
+
+    #[test]
+    fn exact_a_range_ends_where_it_is_asked_to() {
+        let scene = find("paper");
+        for speed in [-942.477_796_076_937_9, -942.5, -235.619_449_019_234_5] {
+            let speeds = grid(&scene, None, 201, || Ok(speed)).expect("speeds");
+            assert_eq!([speeds[0], speeds[speeds.len() - 1]], [1.5 * speed, 0.0]);
+            assert_eq!(speeds.len(), 201);
+        }
+    }
 }

@@ -128,6 +128,8 @@ impl<'s> Recorded<'s> {
     fn print(&mut self, title: &str) -> Result<bool> {
         let Some(t) = self.run.simulation.time() else { return Ok(false) };
         println!("{title}");
+        // Times add up to some last digits more or less.
+        let t: f64 = format!("{t:.11e}").parse()?;
         println!("  time       up to {t} s, {:.3} s of CPU time for it", self.solving.as_secs_f64());
         let method = self.run.method();
         let cost = self.run.simulation.read()?.cost;

@@ -1,17 +1,25 @@
 //! What a scene can be, but is hardly meant to be.
 
 use super::Scene;
+use super::input::Input;
 use crate::variable::{Place, Role};
 use crate::variables::Variable;
+use std::f64::consts::TAU;
 
 /// So many radii of gyration from c, a place on the axis is taken for a slip, of mm for m \[1].
 const FAR: f64 = 30.0;
+
+/// The effect that imposes a speed, its speed, and that of the start, which then does not count.
+const IMPOSED: &str = "imposed_speed";
+const IMPOSED_SPEED: &str = "imposed_speed.w";
+const START: &str = "start.omega.x";
 
 impl Scene {
     /// What its author may not have meant, in words.
     pub fn warnings(&self) -> Vec<String> {
         let places_and_masses = self.far_places().chain(self.heavy_unbalances());
-        places_and_masses.chain(self.idle_effects()).chain(self.idle_inputs()).collect()
+        let others = self.large_angles().chain(self.idle_spin());
+        places_and_masses.chain(others).chain(self.idle_effects()).chain(self.idle_inputs()).collect()
     }
 
     /// Names and values of the parameters whose names end so; of what is switched off too.
@@ -33,6 +41,21 @@ impl Scene {
         let m = self.parameters().setup.rotor.m;
         let masses = self.given(".mass").filter(move |(name, mass)| name.starts_with("unbalance") && *mass > m);
         masses.map(move |(name, mass)| format!("{name} = {mass:?} kg is more than rotor.m = {m:?} kg: are these g?"))
+    }
+
+    fn large_angles(&self) -> impl Iterator<Item = String> {
+        let large = self.given(".angle").filter(|(_, angle)| angle.abs() > TAU);
+        large.map(|(name, angle)| format!("{name} = {angle:?} rad is more than a turn: are these degrees?"))
+    }
+
+    /// A spin at the start, where another one is imposed.
+    fn idle_spin(&self) -> Option<String> {
+        let [own, given] = [START, IMPOSED_SPEED].map(|name| self.given(name).next().map_or(0.0, |(_, speed)| speed));
+        let is_it = |input: &&Input| input.name == IMPOSED_SPEED && input.time[0] <= self.experiment.start;
+        let imposed = self.inputs.iter().find(is_it).map_or(given, |input| input.value[0]);
+        let is_idle = own != 0.0 && (own - imposed).abs() > 1e-9 * imposed.abs();
+        (is_idle && self.acting().any(|(info, _)| info.name == IMPOSED))
+            .then(|| format!("{START} = {own:?} rad/s does not count: {IMPOSED_SPEED} begins with {imposed:?} rad/s"))
     }
 
     /// What acts has a mass, a stiffness or a damping, whose unit holds kg. What has an input is left to its host.

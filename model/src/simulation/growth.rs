@@ -29,12 +29,11 @@ impl Display for Growth {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Self { rate, t, speed } = self;
         // To five digits, and no zeros behind them.
-        let t: f64 = format!("{t:.4e}").parse().unwrap_or(*t);
+        let [t, time] = [*t, 1.0 / rate].map(|value| format!("{value:.4e}").parse().unwrap_or(value));
         write!(
             f,
             "the rotor is unstable: small motions about its state at t = {t:?} s, at {speed:.1} rad/s, grow by a factor of e every \
-             {:.3e} s",
-            1.0 / rate
+             {time:?} s"
         )
     }
 }
@@ -93,6 +92,9 @@ const MUCH: f64 = 0.05;
 const GROWS: f64 = 1e-6;
 const ROUNDING: f64 = 1e-7;
 
+/// A tilt that is no small motion [rad].
+const FAR: f64 = 0.1;
+
 /// At any tilt the equations hold for what grows by this part of its own rate, and so much faster than the axis moves \[1].
 const FAST: f64 = 0.01;
 const STILL: f64 = 3.0;
@@ -138,7 +140,9 @@ impl Watch {
         let holds = |seen: &Seen| seen.exceeds(&motion) && seen.by > torque * per_jt / seen.size;
         let rate = growing().filter(|seen| holds(seen) || self.found.is_some()).fold(Seen::default(), largest).by;
         let found = || Growth { rate, t, speed: motion.axial_rate() };
-        self.found = (rate > 0.0).then(|| self.found.unwrap_or_else(found));
+        // What has grown until the axis leans far is one growth, whatever is seen of it there.
+        let still = self.found.filter(|_| rate > 0.0 || motion.tilt.gamma().norm() > FAR);
+        self.found = still.or_else(|| (rate > 0.0).then(found));
     }
 
     /// The linear equations with velocities that count as much as places do: lengths in radii of gyration, and both beside the largest

@@ -265,6 +265,7 @@ fn what_is_hardly_meant_is_warned_of() {
     for odd in [
         (place("-120"), "probe[1].position = -120.0 m is 960 radii of gyration, 0.125 m, from c: are these mm?"),
         (unbalance("40 kg"), "unbalance[1].mass = 40.0 kg is more than rotor.m = 5.0 kg: are these g?"),
+        (unbalance("40 g") + "angle = 90\n", "unbalance[1].angle = 90.0 rad is more than a turn: are these degrees?"),
         (unbalance("0 kg"), "unbalance[1] does nothing: mass is 0"),
         ("[effects.drag]".into(), "drag does nothing: linear, quadratic are 0"),
         (
@@ -276,9 +277,16 @@ fn what_is_hardly_meant_is_warned_of() {
     ] {
         assert_eq!(warnings(&odd.0), [odd.1], "{}", odd.0);
     }
-    for ordinary in [place("3.7"), unbalance("40 g"), input("0, 2"), input("2.9, 9")] {
+    for ordinary in [place("3.7"), unbalance("40 g") + "angle = 3\n", input("0, 2"), input("2.9, 9")] {
         assert_eq!(warnings(&ordinary), [""; 0], "{ordinary}");
     }
+    let imposed = |speed: &str| {
+        let input = format!("[[input]]\nname = \"imposed_speed.w\"\ntime = [0, 1]\nvalue = [{speed}, 90]\n");
+        let text = format!("{ROTOR}[start]\nomega = {{ x = 50 }}\n[effects.imposed_speed]\n{input}");
+        Scene::parse(Path::new("odd.toml"), &text).expect("a scene").warnings()
+    };
+    assert_eq!(imposed("90"), ["start.omega.x = 50.0 rad/s does not count: imposed_speed.w begins with 90.0 rad/s"]);
+    assert_eq!(imposed("50"), [""; 0]);
     for name in crate::harness::named::names() {
         let scene = Named::new(&name, split_rotor_model::simulation::Integrator::Method).scene;
         assert_eq!(scene.warnings(), [""; 0], "{name}");

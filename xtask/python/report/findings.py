@@ -14,6 +14,9 @@ MOST = 5
 SHARP = 2.5
 """From this amplification factor on a resonance counts as a critical speed (API Std 617 and RP 684); below it is critically damped."""
 
+LEANS = 10.0
+"""A rotor whose axis leans by more of itself [°] is hardly as it was meant to be."""
+
 CIRCLE_BACKWARD = -1.0 + 1e-6
 """Up to this sense, the area of orbits over that of circles, a mode whirls backward in circles."""
 
@@ -30,7 +33,7 @@ class Finding:
 def findings(result, view):
     """All that this run and its linear view have."""
     contact = _contact(result)
-    found = [_critical(view), *_passed(result, view), _stability(result, view, contact is not None), *_motion(result), contact]
+    found = [_critical(view), *_passed(result, view), _stability(result, view, contact is not None), _rest(result), *_motion(result), contact]
     found += [_load(result), _time(result), _energy(result)]
     return [finding for finding in found if finding]
 
@@ -48,7 +51,7 @@ def _critical(view):
 
 
 def _passed(result, view):
-    """Critical speeds among the speeds of this run, or nearer to them than half their width at 0.707 of their peak, with little damping."""
+    """Critical speeds with little damping among the speeds of this run, or nearer to them than API 617 allows."""
     if view is None or view.floquet:
         return
     spin = np.abs(result.columns["omega_phi"])
@@ -56,10 +59,11 @@ def _passed(result, view):
     for crossing in view.critical:
         speed, ratio = crossing["speed_rad_s"], crossing["damping_ratio"]
         away = max(spin.min() - speed, speed - spin.max())
+        allowed = _margin(ratio, spin, speed)
         # An unbalance goes round forward: it does not drive a mode whose orbits are circles backward, as those of a round machine are.
         is_driven = crossing["sense"] > CIRCLE_BACKWARD
-        if away <= max(ratio, linear.NEITHER) * speed and is_driven and 2.0 * ratio * SHARP <= 1.0:
-            where, how = "within" if away <= 0.0 else "next to", None
+        if allowed is not None and away <= allowed and is_driven:
+            where, how = "within" if away <= 0.0 else "nearer than API 617 allows to", None
             if ratio <= linear.NEITHER:
                 how = "its mode grows by itself" if ratio < -linear.NEITHER else "without damping"
             alike.setdefault((where, how), []).append(crossing)
@@ -70,6 +74,15 @@ def _passed(result, view):
             how = f"amplification factor{several} {factors} (from {SHARP} on it counts as critical, API 617)"
         what = f"critical speed{several} that an unbalance drives, {where} the speeds of this run, {_range(spin)}; {how}"
         yield Finding(_in_rpm(_numbers(crossings)), what, "bad")
+
+
+def _margin(ratio, spin, speed):
+    """How near to the speeds of a run a critical speed must not lie [rad/s]: API 617 and RP 684; None where it is damped too well to count."""
+    factor = 0.5 / max(ratio, linear.NEITHER)
+    if factor < SHARP:
+        return None
+    margin = min(0.16, 0.17 * (1.0 - 1.0 / (factor - 1.5)))
+    return margin * spin.min() if speed < spin.min() else (0.1 + margin) * spin.max()
 
 
 def _numbers(crossings):
@@ -93,7 +106,7 @@ def _stability(result, view, touches=False):
     spin = np.abs(result.columns["omega_phi"])
     if view.floquet:
         speed, rate = view.fastest_growth(spin.min(), spin.max())
-        bounds = ", ".join(rpm(threshold) + _when(result, threshold) for threshold, _ in view.thresholds)
+        bounds = ", ".join(rpm(threshold) + _when(result, threshold) for threshold, *_ in view.thresholds)
         bounds = f"; begins or ceases at {bounds}" if bounds else ""
         what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet){bounds}"
         return Finding("unstable", what, "bad") if speed in view.growing else Finding("nothing grows", what)
@@ -109,8 +122,8 @@ def _stability(result, view, touches=False):
     how = f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
     if ratio < 0.0:
         bounds = "".join(
-            f"; it grows {grows} {rpm(speed)}{_when(result, speed)}" if grows else f"; threshold {rpm(speed)}"
-            for speed, grows in view.thresholds
+            f"; {'it' if mode == row['mode'] else 'another'} grows {grows} {rpm(speed)}{_when(result, speed)}"
+            for speed, grows, mode in view.thresholds
         )
         in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
         grows = f"grows by e in {in_}" if in_ else "grows"
@@ -124,6 +137,15 @@ def _when(result, threshold):
     spin = np.abs(result.columns["omega_phi"])
     above = np.flatnonzero(spin > threshold)
     return f", passed at {number(result.columns['time'][above[0]], 3)}\u00a0s" if len(above) and above[0] else ""
+
+
+def _rest(result):
+    """A rotor at rest whose axis leans far: what should hold it was hardly meant to be left out."""
+    at_rest = result.scene.parameters.get("start.at_rest")
+    lean = np.degrees(np.arccos(np.clip(result.columns["axis.x"][0], -1.0, 1.0)))
+    if at_rest is None or at_rest.value != "true" or lean < LEANS:
+        return None
+    return Finding(f"{number(lean, 3)}°", "tilt where loads balance at the start; is a bearing, or its kt, missing?", "bad")
 
 
 def _contact(result):

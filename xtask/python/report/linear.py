@@ -18,8 +18,8 @@ class Linear:
     """A row a mode and speed, as in campbell.csv."""
     critical: list[dict]
     """Where a mode's frequency is the speed itself, ascending; modes along the axis left out, which no unbalance drives."""
-    thresholds: list[tuple[float, str]]
-    """Speeds [rad/s], and on which side of them motions grow, "above" or "below"; "" where that is not told."""
+    thresholds: list[tuple[float, str, int]]
+    """Speeds [rad/s], on which side of them motions grow, "above" or "below", and the mode; "" and 0 where that is not told."""
     floquet: bool
     """Of a body that is not symmetric: exponents of its revolutions in place of modes."""
     growing: tuple[float, ...] = ()
@@ -61,7 +61,8 @@ def read(file):
     """The linear view in a campbell.json."""
     found = json.loads(file.read_text(encoding="utf-8"))
     crossed = [speed for line in found.get("critical_speeds", []) if line["order"] == 1.0 for speed in line["speeds"]]
-    thresholds = [(t, "") if isinstance(t, float) else (t["speed_rad_s"], t["grows"]) for t in found["thresholds"]]
+    told = [t if isinstance(t, dict) else {"speed_rad_s": t, "grows": "", "mode": 0} for t in found["thresholds"]]
+    thresholds = [(t["speed_rad_s"], t["grows"], t["mode"]) for t in told]
     # A motion that neither swings nor grows has no damping ratio.
     modes = [row | {"damping_ratio": row["damping_ratio"] or 0.0} for row in found["modes"]]
     critical = [crossing for crossing in crossed if crossing["direction"] != AXIAL]
@@ -72,7 +73,7 @@ def read(file):
         critical = [crossing | {"speed_rad_s": -crossing["speed_rad_s"]} for crossing in reversed(critical)]
         growing = [-speed for speed in growing]
         other = {"above": "below", "below": "above", "": ""}
-        thresholds = [(-speed, other[grows]) for speed, grows in reversed(thresholds)]
+        thresholds = [(-speed, other[grows], mode) for speed, grows, mode in reversed(thresholds)]
     return Linear(
         modes=modes,
         critical=critical,
