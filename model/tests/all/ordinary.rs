@@ -229,17 +229,18 @@ fn regress_slow_growth_is_told_when_the_tilt_has_died_out() {
 fn regress_what_has_burst_is_told_once() {
     let bearing = |x: f64| {
         format!(
-            "[[effects.bearing]]\nposition = {x:?}\nspeed = [0.0, 200.0, 400.0, 800.0]\nkyy = 3e8\nkzz = 4e8\nkyz = [0, 2e7, 9e7, 3e8]\n\
+            "[[effects.bearing]]\nposition = {x:?}\nspeed = [0.0, 209.44, 418.88, 837.76]\nkyy = 3e8\nkzz = 4e8\nkyz = [0, 2e7, 9e7, 3e8]\n\
              kzy = [0, -2e7, -9e7, -3e8]\ncyy = 3e5\nczz = 3e5\nkxx = 1e8\ncxx = 1e5\n"
         )
     };
     let unbalance = "[[effects.unbalance]]\nmass = 0.06\nradius = 0.1\nposition = 0.1\n";
-    let rotor = "[rotor]\nm = 1200.0\nJa = 60.0\nJt = 320.0\n[start]\nomega = { x = 600.0 }\n[effects.drive]\n";
+    let rotor =
+        "[rotor]\nm = 1200.0\nJa = 60.0\nJt = 320.0\n[start]\nat_rest = true\n[effects.gravity]\n[effects.drive]\n";
     let mut named = Named::started(&format!("{rotor}{}{}{unbalance}", bearing(-0.8), bearing(0.8)));
     named.set("drive.tau", 5000.0);
     let (mut told, mut known, mut t) = (0, false, 0.0);
-    while t < 4.0 && named.simulation.advance(t + 0.002).is_ok() {
-        t += 0.002;
+    while t < 10.5 && named.simulation.advance(t + 5e-4).is_ok() {
+        t += 5e-4;
         let grows = named.simulation.growth().is_some();
         told += u32::from(grows && !known);
         known = grows;
