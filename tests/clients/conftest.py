@@ -60,11 +60,7 @@ def packaged(recorder, tmp_path_factory):
 
     @functools.cache
     def find(scene):
-        if scene not in project.PACKAGED:
-            pytest.skip(f"{scene}.fmu: `cargo xtask test packaged --long` tests it")
-        fmu = project.PACKAGES / f"{scene}.fmu"
-        if not fmu.is_file():
-            pytest.fail(f"not packaged: run `cargo xtask package {scene}`", pytrace=False)
+        fmu = project.packaged(scene)
         folder = tmp_path_factory.mktemp(scene)
         copy = folder / fmu.name
         recorded.record_fmu(fmu, recorder, copy)

@@ -16,12 +16,7 @@ def fmus(tmp_path_factory):
 
     class Fmus(dict):
         def __missing__(self, scene):
-            if scene not in project.PACKAGED:
-                pytest.skip(f"{scene}.fmu: `cargo xtask test packaged --long` tests it")
-            path = project.PACKAGES / f"{scene}.fmu"
-            if not path.is_file():
-                pytest.fail(f"not packaged: run `cargo xtask package {scene}`", pytrace=False)
-            return self.setdefault(scene, unpack(path, folder / scene))
+            return self.setdefault(scene, unpack(project.packaged(scene), folder / scene))
 
     return Fmus()
 

@@ -6,9 +6,11 @@ import re
 import subprocess
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
-# Those whose FMUs are tested, all unless this says which.
+# Those whose FMUs are tested: all, or what the environment names.
 PACKAGED = os.environ.get("SPLIT_ROTOR_PACKAGED", " ".join(SCENES)).split()
 # Those that name no adaptive method are too stiff, too fast or too long for most methods and for differences; so are the machines that
 # inputs over time drive.
@@ -20,6 +22,16 @@ GENERAL = [scene for scene in SCENES if "\ngeneral = true" in "\n" + (ROOT / "sc
 PACKAGES = ROOT / "target" / "fmu"
 BUILDERS = ROOT / "target" / "package"
 KEPT = BUILDERS / "lists"
+
+
+def packaged(scene):
+    """A scene's FMU as it was packaged. The test is skipped where other scenes are tested, and fails where it is not there."""
+    if scene not in PACKAGED:
+        pytest.skip(f"{scene}.fmu: `cargo xtask test packaged --long` tests it")
+    path = PACKAGES / f"{scene}.fmu"
+    if not path.is_file():
+        pytest.fail(f"not packaged: run `cargo xtask package {scene}`", pytrace=False)
+    return path
 
 
 def effects(scene):

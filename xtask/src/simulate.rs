@@ -128,7 +128,7 @@ impl<'s> Recorded<'s> {
     fn print(&mut self, title: &str) -> Result<bool> {
         let Some(t) = self.run.simulation.time() else { return Ok(false) };
         println!("{title}");
-        // Times add up to some last digits more or less.
+        // Steps add up to a time with rounding in its last digits.
         let t: f64 = format!("{t:.11e}").parse()?;
         println!("  time       up to {t} s, {:.3} s of CPU time for it", self.solving.as_secs_f64());
         let method = self.run.method();

@@ -106,12 +106,11 @@ fn point(line: &str, columns: &[Column; 2]) -> Option<(f64, f64)> {
 /// What a text has between its columns in place of commas.
 fn other_separator(text: &str) -> Option<&'static str> {
     let line = text.lines().find(|line| !line.trim().is_empty())?.trim();
-    let is_pair = |line: &str| line.split_whitespace().count() == 2;
     match line {
         line if line.contains(';') => Some("semicolons"),
         line if line.contains(',') => None,
         line if line.contains('\t') => Some("tabs"),
-        line => is_pair(line.trim_start_matches('#')).then_some("blanks"),
+        line => (line.trim_start_matches('#').split_whitespace().count() == 2).then_some("blanks"),
     }
 }
 

@@ -129,17 +129,16 @@ impl Reader<'_> {
         values.take_moments();
         self.nothing_missing(&values, &headings);
         self.problems.extend(values.columns.problems());
-        self.unknown_of_experiment(root.get("experiment"), &values);
+        let tolerance = values.find("solver.relative_tolerance");
+        let tolerance = tolerance.map_or(0.0, |variable| values.starts[&variable.place.value_reference()]);
+        let experiment = self.experiment(root.get("experiment"), tolerance, &mut values);
         let unsure = values.unsure();
-        let Values { mut starts, mut places, columns, .. } = values;
+        let Values { mut starts, places, columns, .. } = values;
         let is_there = |variable: &Variable| columns.hold(variable);
         variables.iter().filter(|variable| !is_there(variable)).for_each(|variable| {
             starts.remove(&variable.place.value_reference());
         });
         variables.retain(is_there);
-        let tolerance = variables.iter().find(|variable| variable.name == "solver.relative_tolerance");
-        let tolerance = tolerance.map_or(0.0, |variable| starts[&variable.place.value_reference()]);
-        let experiment = self.experiment(root.get("experiment"), tolerance, &mut places);
         let inputs = self.inputs(root, &variables);
         Found { title, general, effects, variables, starts, experiment, inputs, places, unsure }
     }
@@ -244,19 +243,26 @@ impl Reader<'_> {
             } else if is_unbalance(prefix) && key.get_ref() == moment::KEY {
                 self.moment(table, value, prefix, &in_file, values);
             } else {
-                self.unknown_key(key, prefix, section, values);
+                self.unknown_key(key, prefix, section, &values.keys(prefix), values);
             }
         }
     }
 
-    fn unknown_key(&mut self, key: &Spanned<impl AsRef<str>>, prefix: &str, section: &str, values: &mut Values) {
-        let (key, place) = (key.get_ref().as_ref(), key.span());
-        let (known, heading) = (values.keys(prefix), heading(section));
-        let list = match &known[..] {
+    /// A key that is none of those that the section knows.
+    fn unknown_key(
+        &mut self,
+        key: &Spanned<impl AsRef<str>>,
+        prefix: &str,
+        section: &str,
+        known: &[&str],
+        values: &mut Values,
+    ) {
+        let (key, place, heading) = (key.get_ref().as_ref(), key.span(), heading(section));
+        let list = match known {
             [] => format!("{heading} has no keys"),
             known => format!("{heading} knows {}", known.join(", ")),
         };
-        let problem = Problem::unknown(place, "key", &format!("{section}.{key}"), &known, list);
+        let problem = Problem::unknown(place, "key", &format!("{section}.{key}"), known, list);
         let called = CALLED.iter().find(|(of, also, _)| (*of, *also) == (prefix, key)).map(|(.., name)| *name);
         let meant = called.map_or_else(|| similar(key, known.iter().copied()), |name| vec![name]);
         if let [one] = meant[..] {
@@ -280,29 +286,17 @@ impl Reader<'_> {
         values.moments.push(Moment { block: block.to_owned(), value: number, place });
     }
 
-    fn unknown_of_experiment(&mut self, value: Option<&Value>, values: &Values) {
-        let known = experiment::KEYS.map(|known| known.name);
-        let keys = value.and_then(|value| value.get_ref().as_table()).into_iter().flat_map(|table| table.keys());
-        for key in keys.filter(|key| !known.contains(&key.get_ref().as_ref())) {
-            let (name, list) = (key.get_ref().as_ref(), format!("[experiment] knows {}", known.join(", ")));
-            let problem = Problem::unknown(key.span(), "key", &format!("experiment.{name}"), &known, list);
-            self.problems.push(problem.or_right(values.known_elsewhere("experiment", name)));
-        }
-    }
-
-    fn experiment(
-        &mut self,
-        value: Option<&Value>,
-        tolerance: f64,
-        places: &mut Vec<(String, Range<usize>)>,
-    ) -> Experiment {
+    fn experiment(&mut self, value: Option<&Value>, tolerance: f64, values: &mut Values) -> Experiment {
         let mut given = [const { None }; experiment::KEYS.len()];
         for (key, value) in value.and_then(|value| self.table(value, "experiment")).into_iter().flatten() {
             let name = key.get_ref().as_ref();
             if let Some(n) = experiment::KEYS.iter().position(|known| known.name == name) {
                 let name = format!("experiment.{name}");
                 given[n] = self.real(value, experiment::KEYS[n].unit, &name).map(|number| (number, value));
-                places.push((name, self.place(value)));
+                values.places.push((name, self.place(value)));
+            } else {
+                let known = experiment::KEYS.map(|known| known.name);
+                self.unknown_key(key, "experiment", "experiment", &known, values);
             }
         }
         let (experiment, wrong) = Experiment::of(given.map(|given| given.map(|(number, _)| number)), tolerance);

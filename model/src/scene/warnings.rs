@@ -51,8 +51,9 @@ impl Scene {
     /// A spin at the start, where another one is imposed.
     fn idle_spin(&self) -> Option<String> {
         let [own, given] = [START, IMPOSED_SPEED].map(|name| self.given(name).next().map_or(0.0, |(_, speed)| speed));
-        let is_it = |input: &&Input| input.name == IMPOSED_SPEED && input.time[0] <= self.experiment.start;
-        let imposed = self.inputs.iter().find(is_it).map_or(given, |input| input.value[0]);
+        let imposes = |input: &&Input| input.name == IMPOSED_SPEED && input.time[0] <= self.experiment.start;
+        let imposed = self.inputs.iter().find(imposes).map_or(given, |input| input.value[0]);
+        // The same speed may be written in two units.
         let is_idle = own != 0.0 && (own - imposed).abs() > 1e-9 * imposed.abs();
         (is_idle && self.acting().any(|(info, _)| info.name == IMPOSED))
             .then(|| format!("{START} = {own:?} rad/s does not count: {IMPOSED_SPEED} begins with {imposed:?} rad/s"))

@@ -15,7 +15,7 @@ SHARP = 2.5
 """From this amplification factor on a resonance counts as a critical speed (API Std 617 and RP 684); below it is critically damped."""
 
 LEANS = 10.0
-"""A rotor whose axis leans by more of itself [°] is hardly as it was meant to be."""
+"""A rotor at rest that leans by more [°] was hardly meant to."""
 
 CIRCLE_BACKWARD = -1.0 + 1e-6
 """Up to this sense, the area of orbits over that of circles, a mode whirls backward in circles."""
@@ -140,7 +140,7 @@ def _when(result, threshold):
 
 
 def _rest(result):
-    """A rotor at rest whose axis leans far: what should hold it was hardly meant to be left out."""
+    """A rotor whose axis leans far where loads balance at the start: it may lack what should hold it."""
     at_rest = result.scene.parameters.get("start.at_rest")
     lean = np.degrees(np.arccos(np.clip(result.columns["axis.x"][0], -1.0, 1.0)))
     if at_rest is None or at_rest.value != "true" or lean < LEANS:
