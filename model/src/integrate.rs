@@ -52,18 +52,17 @@ pub trait System<const N: usize> {
         true
     }
 
-    /// f(t, y); where not `ALL` is solved, of the first [`System::ALWAYS`] components, and zeros of the others. `USUAL`: the caller
-    /// knows that the system [is](System::is_usual).
+    /// f(t, y); where not all are solved, of the first [`System::ALWAYS`] components, and zeros of the others. `USUAL`: the caller
+    /// knows that the system [is](System::is_usual), and by `ALL`, whether it solves all.
     fn rates<const ALL: bool, const USUAL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N];
 
     /// f(t, y) of what is solved.
     #[inline]
     fn rates_of_all(&self, t: f64, y: &[f64; N]) -> [f64; N] {
-        match (self.solves_all(), self.is_usual()) {
+        match (self.is_usual(), self.solves_all()) {
             (true, true) => self.rates::<true, true>(t, y),
-            (true, false) => self.rates::<true, false>(t, y),
-            (false, true) => self.rates::<false, true>(t, y),
-            (false, false) => self.rates::<false, false>(t, y),
+            (true, false) => self.rates::<false, true>(t, y),
+            (false, _) => self.rates::<true, false>(t, y),
         }
     }
 

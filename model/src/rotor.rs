@@ -269,11 +269,13 @@ impl<'e, E: Effects> Rotor<'e, E> {
 
     /// The same in any form, called: beside it in every stage, the usual one would wait for registers.
     #[inline(never)]
-    fn rates_called<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
+    fn rates_called<const N: usize>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         // Once for each chart, so that neither asks again which one it is.
-        match self.frame.chart {
-            Chart::FromE => self.rates_in::<f64, N, ALL>(Chart::FromE, t, y),
-            Chart::FromMinusE => self.rates_in::<f64, N, ALL>(Chart::FromMinusE, t, y),
+        match (self.frame.chart, System::<N>::solves_all(self)) {
+            (Chart::FromE, true) => self.rates_in::<f64, N, true>(Chart::FromE, t, y),
+            (Chart::FromE, false) => self.rates_in::<f64, N, false>(Chart::FromE, t, y),
+            (Chart::FromMinusE, true) => self.rates_in::<f64, N, true>(Chart::FromMinusE, t, y),
+            (Chart::FromMinusE, false) => self.rates_in::<f64, N, false>(Chart::FromMinusE, t, y),
         }
     }
 
@@ -340,7 +342,7 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
         match (USUAL, E::FACTS.switched) {
             (true, false) => self.rates_in::<f64, N, ALL>(Chart::FromE, t, y),
             (true, true) => self.rates_of_switched::<N, ALL>(t, y),
-            (false, _) => self.rates_called::<N, ALL>(t, y),
+            (false, _) => self.rates_called::<N>(t, y),
         }
     }
 

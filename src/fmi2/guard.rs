@@ -11,11 +11,12 @@ use split_rotor_model::log::Category;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Runs `body` on the instance behind `component`, if `call` is legal now.
+/// Runs `body` on the instance behind `component`, if `call` is legal now. One function for all calls: written into each of them, it was a
+/// twentieth of the library.
 ///
 /// # Safety
 /// `component` is null or came from fmi2Instantiate and was not freed, and no other thread uses it during the call.
-pub unsafe fn enter(component: Component, call: &Call, body: impl FnOnce(&mut Instance) -> Reply) -> Status {
+pub unsafe fn enter(component: Component, call: &Call, body: &mut dyn FnMut(&mut Instance) -> Reply) -> Status {
     // SAFETY: see above.
     let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return Status::Error };
     let (state, integrator) = (instance.memory.state, instance.memory.integrator());
@@ -98,7 +99,7 @@ mod tests {
             instance.memory.state = State::Instantiated;
             // SAFETY: the instance lives, and only this thread uses it.
             let status = unsafe {
-                enter(component, &call::fmi2GetReal, |_| {
+                enter(component, &call::fmi2GetReal, &mut |_| {
                     panic();
                     Ok(())
                 })
@@ -107,7 +108,7 @@ mod tests {
             let line = "fmi2GetReal: internal failure: 100%% unexpected; free the instance".to_owned();
             assert_eq!(std::mem::take(&mut *lines.lock().unwrap()), [(Status::Fatal, line)]);
             // SAFETY: as above. Nothing but fmi2FreeInstance is legal any more, fmi2Reset neither, and nobody is told again.
-            let status = unsafe { enter(component, &call::fmi2Reset, |instance| instance.reset()) };
+            let status = unsafe { enter(component, &call::fmi2Reset, &mut |instance| instance.reset()) };
             assert_eq!((status, instance.memory.state), (Status::Fatal, State::Lost));
             assert!(lines.lock().unwrap().is_empty());
         }

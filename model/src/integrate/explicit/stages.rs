@@ -9,19 +9,18 @@ use crate::integrate::tableau::{Combination, Dop853, Dopri5, ErrorRule, Pair, St
 impl<const N: usize> Explicit<N> {
     /// All stages of a step of size h from (t, y), and the error where it is asked for.
     pub(super) fn attempt<const ERROR: bool>(&mut self, system: &impl System<N>) -> Attempt<N> {
-        if system.is_usual() {
-            self.attempt_in::<_, ERROR, true>(system)
+        if self.tableau == Dop853::TABLEAU {
+            self.attempt_by::<Dop853, _, ERROR>(system)
         } else {
-            self.attempt_in::<_, ERROR, false>(system)
+            self.attempt_by::<Dopri5, _, ERROR>(system)
         }
     }
 
-    fn attempt_in<F: System<N>, const ERROR: bool, const USUAL: bool>(&mut self, system: &F) -> Attempt<N> {
-        match (self.tableau == Dop853::TABLEAU, system.solves_all()) {
-            (true, true) => self.attempt_with::<Dop853, _, ERROR, true, USUAL>(system),
-            (true, false) => self.attempt_with::<Dop853, _, ERROR, false, USUAL>(system),
-            (false, true) => self.attempt_with::<Dopri5, _, ERROR, true, USUAL>(system),
-            (false, false) => self.attempt_with::<Dopri5, _, ERROR, false, USUAL>(system),
+    fn attempt_by<P: Pair, F: System<N>, const ERROR: bool>(&mut self, system: &F) -> Attempt<N> {
+        match (system.is_usual(), system.solves_all()) {
+            (true, true) => self.attempt_with::<P, _, ERROR, true, true>(system),
+            (true, false) => self.attempt_with::<P, _, ERROR, false, true>(system),
+            (false, _) => self.attempt_with::<P, _, ERROR, true, false>(system),
         }
     }
 
