@@ -14,7 +14,7 @@ macro_rules! export {
         pub unsafe extern "C" fn $name(component: Component $(, $argument: $type)*) -> Status {
             // SAFETY: the host keeps the contract of the standard, which is that of the door and of what reads and writes
             // its arguments. A saved state that is not null came from fmi2GetFMUstate or fmi2DeSerializeFMUstate.
-            unsafe { crate::fmi2::guard::enter(component, &crate::fmi2::calls::call::$name, &mut |$instance| $body) }
+            unsafe { crate::fmi2::guard::enter(component, &crate::fmi2::calls::call::$name, |$instance| $body) }
         }
     )*};
 }

@@ -11,24 +11,37 @@ use split_rotor_model::log::Category;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Runs `body` on the instance behind `component`, if `call` is legal now. One function for all calls: written into each of them, it was a
-/// twentieth of the library.
+/// Runs `body` on the instance behind `component`, if `call` is legal now.
 ///
 /// # Safety
 /// `component` is null or came from fmi2Instantiate and was not freed, and no other thread uses it during the call.
-pub unsafe fn enter(component: Component, call: &Call, body: &mut dyn FnMut(&mut Instance) -> Reply) -> Status {
+pub unsafe fn enter(component: Component, call: &Call, body: impl FnOnce(&mut Instance) -> Reply) -> Status {
     // SAFETY: see above.
     let Some(instance) = (unsafe { component.cast::<Instance>().as_mut() }) else { return Status::Error };
-    let (state, integrator) = (instance.memory.state, instance.memory.integrator());
-    if state == State::Lost {
-        return Status::Fatal;
+    if !call.is_legal(instance.memory.state, instance.memory.integrator()) {
+        return refused(instance, call);
     }
-    let reply = if call.is_legal(state, integrator) {
-        caught(|| body(instance))
-    } else {
-        Ok(Err(Failure::Error(call.refusal(state, integrator))))
-    };
-    let (severity, category, message) = match reply {
+    match caught(|| body(instance)) {
+        Ok(Ok(())) => Status::Ok,
+        failed => told(instance, call, failed),
+    }
+}
+
+/// Not written into every call, as [`told`]: they were a twentieth of the library.
+#[cold]
+#[inline(never)]
+fn refused(instance: &mut Instance, call: &Call) -> Status {
+    match (instance.memory.state, instance.memory.integrator()) {
+        (State::Lost, _) => Status::Fatal,
+        (state, integrator) => told(instance, call, Ok(Err(Failure::Error(call.refusal(state, integrator))))),
+    }
+}
+
+/// The status of what failed, once the host's logger knows.
+#[cold]
+#[inline(never)]
+fn told(instance: &mut Instance, call: &Call, failed: Result<Reply, String>) -> Status {
+    let (severity, category, message) = match failed {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(Failure::Error(message))) => (Severity::Error, Category::Error, message),
         Ok(Err(Failure::Discard(message))) => (Severity::Discard, Category::Discard, message),
@@ -45,10 +58,13 @@ pub unsafe fn enter(component: Component, call: &Call, body: &mut dyn FnMut(&mut
 /// What `body` returns, or the message of its panic.
 pub fn caught<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     silence();
-    catch_unwind(AssertUnwindSafe(body)).map_err(|panic: Box<dyn Any + Send>| {
-        let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
-        text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic".into())
-    })
+    catch_unwind(AssertUnwindSafe(body)).map_err(message)
+}
+
+#[cold]
+fn message(panic: Box<dyn Any + Send>) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "a panic".into())
 }
 
 /// A caught panic would still print: in a host's process that is nobody's business. Builds for development keep the
@@ -99,7 +115,7 @@ mod tests {
             instance.memory.state = State::Instantiated;
             // SAFETY: the instance lives, and only this thread uses it.
             let status = unsafe {
-                enter(component, &call::fmi2GetReal, &mut |_| {
+                enter(component, &call::fmi2GetReal, |_| {
                     panic();
                     Ok(())
                 })
@@ -108,7 +124,7 @@ mod tests {
             let line = "fmi2GetReal: internal failure: 100%% unexpected; free the instance".to_owned();
             assert_eq!(std::mem::take(&mut *lines.lock().unwrap()), [(Status::Fatal, line)]);
             // SAFETY: as above. Nothing but fmi2FreeInstance is legal any more, fmi2Reset neither, and nobody is told again.
-            let status = unsafe { enter(component, &call::fmi2Reset, &mut |instance| instance.reset()) };
+            let status = unsafe { enter(component, &call::fmi2Reset, |instance| instance.reset()) };
             assert_eq!((status, instance.memory.state), (Status::Fatal, State::Lost));
             assert!(lines.lock().unwrap().is_empty());
         }
