@@ -1,6 +1,7 @@
 //! What is tried on a copy of the project: that effects which a scene does not call for leave no trace in its machine code,
 //! and that an effect is added as `docs/adding-an-effect.md` says.
 
+use crate::platforms::Toolchain;
 use crate::run::{cargo, output, run};
 use crate::{c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
@@ -37,7 +38,7 @@ fn copied(name: &str) -> Result<PathBuf> {
 /// The machine code of a scene's library, built in this copy.
 fn text(copy: &Path, scene: &Scene) -> Result<Vec<u8>> {
     let target = paths::target().join("copies/target");
-    let library = library::build_in(copy, scene, &target)?;
+    let library = library::build(&Toolchain::own()?, copy, scene, &target)?;
     let section = target.join("text");
     run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).arg(library).arg(&section))?;
     Ok(fs::read(section)?)

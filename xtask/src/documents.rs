@@ -64,7 +64,7 @@ fn complaint_of_command(words: &[&str]) -> Option<String> {
         |file: PathBuf| (!paths::root().join(&file).exists()).then(|| format!("{} is not there", file.display()));
     let after = |option: &str| words.iter().skip_while(|word| **word != option).nth(1).copied();
     match words {
-        [] | ["cargo", "fmt" | "clippy", ..] | ["rustfmt" | "clang-format" | "pip", ..] => None,
+        [] | ["cargo", "fmt" | "clippy", ..] | ["rustfmt" | "clang-format" | "pip" | "gdb" | "addr2line", ..] => None,
         ["cargo", "xtask", rest @ ..] => complaint_of_xtask(rest),
         ["cargo", "test", ..] => {
             let test = after("--test")?;

@@ -1,6 +1,7 @@
 //! The library of a list of effects: built where what it is made of has changed, kept for all scenes of that list, and a copy of it with
 //! the values of a scene.
 
+use crate::debug::{self, Objcopy};
 use crate::paths;
 use crate::platforms::Toolchain;
 use crate::progress::Progress;
@@ -25,16 +26,25 @@ pub fn by_list(scenes: &[Scene]) -> Vec<Vec<&Scene>> {
     lists
 }
 
-/// The library of the scene's list for a platform, without values: as it was kept, or built by this builder.
-pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progress) -> Result<Vec<u8>> {
+/// A library without values, and the file of its debug information, where that is kept.
+pub struct Kept {
+    pub library: Vec<u8>,
+    pub debug: Option<PathBuf>,
+}
+
+/// The library of the scene's list for a platform: as it was kept, or built by this builder.
+pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progress) -> Result<Kept> {
     let folder = paths::target().join("package");
     let (list, builder) = (scene.list(), folder.join(toolchain.folder(builder)));
     let mut name = DefaultHasher::new();
     (&list, scene.room(), toolchain.key()).hash(&mut name);
     let kept = folder.join("lists").join(format!("{:016x}{}", name.finish(), toolchain.platform.suffix));
     let stamp = kept.with_extension("stamp");
-    if let Some(library) = fs::read(&kept).ok().filter(|_| is_fresh(&stamp, toolchain)) {
-        return Ok(library);
+    let objcopy = Objcopy::of(toolchain);
+    let debug = objcopy.is_some().then(|| debug::beside(&kept));
+    let is_here = debug.as_ref().is_none_or(|debug| debug.is_file());
+    if let Some(library) = fs::read(&kept).ok().filter(|_| is_here && is_fresh(&stamp, toolchain)) {
+        return Ok(Kept { library, debug });
     }
     fs::create_dir_all(&builder)?;
     fs::create_dir_all(folder.join("lists"))?;
@@ -44,17 +54,25 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
     let (name, platform) = (&scene.name, toolchain.platform.name);
     progress.tell(&format!("compiling the library for the effects of {name}, {platform}: half a minute to two"));
     let began = SystemTime::now();
-    let built = build_with(toolchain, paths::root(), scene, &builder)?;
-    let library = fs::read(&built)?;
+    if objcopy.is_none() && toolchain.has_debug_within() {
+        progress.suspend(|| eprintln!("  {platform}: no debug information is kept, which takes LLVM's objcopy"));
+    }
+    let built = build(toolchain, paths::root(), scene, &builder)?;
+    let library = objcopy.map_or_else(|| Ok(fs::read(&built)?), |objcopy| objcopy.split(&built))?;
     toolchain.check(&library)?;
     // Without its stamp a library is not taken, so one that is cut is none.
     let _ = fs::remove_file(&stamp);
     fs::write(&kept, &library)?;
+    if let Some(debug) = &debug {
+        // What has been published of the last one is that file.
+        let _ = fs::remove_file(debug);
+        fs::copy(debug::beside(&built), debug)?;
+    }
     let sources = sources(&fs::read_to_string(built.with_extension("d"))?);
     if sources.iter().all(|file| is_older(file, began)) {
         fs::write(&stamp, format!("{}\n{}", fingerprint(&sources, toolchain)?, sources.join("\n")))?;
     }
-    Ok(library)
+    Ok(Kept { library, debug })
 }
 
 /// This library with the values of a scene of its list.
@@ -81,13 +99,10 @@ pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
     command.env("SPLIT_ROTOR_LIST", scene.list()).env("SPLIT_ROTOR_ROOM", scene.room().to_string())
 }
 
-/// Builds the library of the scene's list, of the project in the folder `root`, for this machine.
-pub fn build_in(root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
-    build_with(&Toolchain::own()?, root, scene, target)
-}
-
-fn build_with(toolchain: &Toolchain, root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
-    let flags = [&[flags(root)?.as_str()], toolchain.flags()].concat().join("\x1f");
+/// Builds the library of the scene's list, of the project in the folder `root`.
+pub fn build(toolchain: &Toolchain, root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
+    let within = Objcopy::of(toolchain).map_or(&[][..], |_| &debug::WITHIN);
+    let flags = [&[flags(root)?.as_str()], toolchain.flags(), within].concat().join("\x1f");
     run(of_list(&mut toolchain.cargo()?, scene)
         .current_dir(root)
         .args(["--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib", "--target-dir"])

@@ -8,6 +8,7 @@ mod c_host;
 mod campbell;
 mod chart;
 mod copies;
+mod debug;
 mod demo;
 mod describe;
 mod docs;

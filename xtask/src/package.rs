@@ -1,9 +1,11 @@
 //! `package`: each scene as an FMU, with the library of its effects.
 
+use crate::debug;
+use crate::library::{self, Kept};
 use crate::platforms::{HERE, Toolchain};
 use crate::progress::Progress;
 use crate::run::side_by_side;
-use crate::{library, licences, paths, scenes};
+use crate::{licences, paths, scenes};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_tools::archive::{archive, fill};
@@ -40,13 +42,19 @@ pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> 
     let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
     for scenes in lists {
         let kept = |toolchain| library::of(scenes[0], toolchain, 0, &progress);
-        let kept = toolchains.iter().map(|toolchain| Ok((toolchain.platform, kept(toolchain)?)));
+        let kept = toolchains.iter().map(|toolchain| Ok((toolchain, kept(toolchain)?)));
         let kept = kept.collect::<Result<Vec<_>>>()?;
         for scene in scenes {
-            let filled = |library: &Vec<u8>| library::signed(library::filled(library.clone(), scene)?);
-            let libraries = kept.iter().map(|(platform, library)| Ok((*platform, filled(library)?)));
+            let filled = |kept: &Kept| library::signed(library::filled(kept.library.clone(), scene)?);
+            let libraries = kept.iter().map(|(toolchain, kept)| Ok((toolchain.platform, filled(kept)?)));
             let (libraries, fmu) = (libraries.collect::<Result<Vec<_>>>()?, fmu(scene));
             archive(&fmu, |add| fill(scene, &libraries, &origin, add))?;
+            let folder = fmu.with_extension("debug");
+            // What an earlier build left would be that of another library.
+            let _ = fs::remove_dir_all(&folder);
+            for (toolchain, kept) in &kept {
+                debug::publish(kept, toolchain, &folder)?;
+            }
             progress.suspend(|| {
                 for (platform, library) in &libraries {
                     eprintln!("  {} {} kB", platform.name, library.len() / 1000);

@@ -187,6 +187,17 @@ impl Toolchain {
         }
     }
 
+    /// Whether a linker leaves debug information in its libraries: not where Apple's or Microsoft's links.
+    pub fn has_debug_within(&self) -> bool {
+        self.portable.is_some() || cfg!(target_os = "linux")
+    }
+
+    /// Whether that is the same wherever the project lies: zig's own runtime names the folder in which it was first compiled, and for
+    /// Windows symbols are named after temporary folders.
+    pub fn has_same_debug(&self) -> bool {
+        self.portable.is_none()
+    }
+
     /// Refuses a portable library that needs a newer glibc.
     pub fn check(&self, library: &[u8]) -> Result<()> {
         if self.portable.is_some()
@@ -225,7 +236,7 @@ impl Compiler {
 }
 
 /// The compiler that cargo would take.
-fn default_rustc() -> PathBuf {
+pub fn default_rustc() -> PathBuf {
     std::env::var_os("RUSTC").map_or_else(|| "rustc".into(), PathBuf::from)
 }
 

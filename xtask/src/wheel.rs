@@ -57,7 +57,7 @@ fn fill(data: &Path) -> Result<()> {
         fs::copy(paths::scenes().join(&file), data.join("scenes").join(&file))?;
     }
     let toolchains = Toolchain::named(&[LINUX64.name])?;
-    let library = library::of(&scenes::find(GENERAL)?, &toolchains[0], 0, &Progress::of(1))?;
+    let library = library::of(&scenes::find(GENERAL)?, &toolchains[0], 0, &Progress::of(1))?.library;
     fs::write(data.join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")), library)?;
     let origin = licences::of("split-rotor", &toolchains)?;
     fs::write(data.join("third-party.txt"), origin.licences)?;
