@@ -1,12 +1,15 @@
-//! What is tried on a copy of the project: that effects which a scene does not call for leave no trace in its machine code,
-//! and that an effect is added as `docs/adding-an-effect.md` says.
+//! What is tried on a copy of the project: that effects which a scene does not call for leave no trace in its machine code, nor the
+//! place where the project lies in its library, and that an effect is added as `docs/adding-an-effect.md` says.
 
+use crate::debug::Objcopy;
 use crate::platforms::Toolchain;
+use crate::progress::Progress;
 use crate::run::{cargo, output, run};
 use crate::{c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::scene::Scene;
+use split_rotor_tools::platform::WIN64;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -22,7 +25,10 @@ fn alone() -> Result<File> {
 
 /// A fresh copy of what git knows, as it stands here, in target/copies/`name`.
 fn copied(name: &str) -> Result<PathBuf> {
-    let copy = paths::target().join("copies").join(name);
+    copied_to(paths::target().join("copies").join(name))
+}
+
+fn copied_to(copy: PathBuf) -> Result<PathBuf> {
     if copy.exists() {
         fs::remove_dir_all(&copy)?;
     }
@@ -65,6 +71,24 @@ pub fn absence_is_free() -> Result<()> {
     println!("machine code of {}: {} bytes with every effect, {} with its own alone", scene.name, all.len(), few.len());
     ensure!(!all.is_empty() && all == few, "effects that {} does not call for changed its machine code", scene.name);
     Ok(())
+}
+
+/// The libraries of `paper` for this machine and for Windows are the same to the byte, and what their debug information is told by,
+/// where the project lies elsewhere: behind the system's libraries in the order of names, by which a linker may sort, or before them.
+pub fn place_leaves_no_trace() -> Result<()> {
+    let _alone = alone()?;
+    let scene = scenes::find("paper")?;
+    let parent = if paths::root() < Path::new("/usr") { "/var/tmp" } else { "/tmp" };
+    let copy = copied_to(Path::new(parent).join(format!("split-rotor elsewhere {}", std::process::id())))?;
+    for toolchain in [Toolchain::own()?].into_iter().chain(Toolchain::named(&[WIN64.name])?) {
+        let here = library::of(&scene, &toolchain, 0, &Progress::of(1))?.library;
+        let objcopy = Objcopy::of(&toolchain).context("debug information is kept apart by LLVM's objcopy")?;
+        let there = objcopy.split(&library::build(&toolchain, &copy, &scene, &copy.join("target"))?)?;
+        let platform = toolchain.platform.name;
+        ensure!(here == there, "the library of {platform} is another in {}", copy.display());
+        println!("{platform}: {} bytes, the same in {}", here.len(), copy.display());
+    }
+    Ok(fs::remove_dir_all(copy)?)
 }
 
 /// Adds the effect of the page, runs the test that holds every effect to its power, and packages the page's scene.

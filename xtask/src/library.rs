@@ -101,6 +101,7 @@ pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
 
 /// Builds the library of the scene's list, of the project in the folder `root`.
 pub fn build(toolchain: &Toolchain, root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
+    toolchain.prepare(root)?;
     let within = Objcopy::of(toolchain).map_or(&[][..], |_| &debug::WITHIN);
     let flags = [&[flags(root)?.as_str()], toolchain.flags(), within].concat().join("\x1f");
     run(of_list(&mut toolchain.cargo()?, scene)

@@ -2,8 +2,8 @@
 
 use crate::c::is_installed;
 use crate::python;
-use crate::run::{cargo, output};
-use anyhow::{Result, anyhow, bail, ensure};
+use crate::run::{cargo, output, run};
+use anyhow::{Context, Result, anyhow, bail, ensure};
 use split_rotor_tools::platform::{AARCH64_LINUX, LINUX64, Platform, WIN64};
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
@@ -43,7 +43,7 @@ const PORTABLE: [Target; 3] = [
         prefix: "",
         linker: Linker::Installed("x86_64-w64-mingw32-gcc", "gcc-mingw-w64-x86-64"),
         // A time within would make every build another.
-        flags: &["-Clink-arg=-Wl,--no-insert-timestamp"],
+        flags: &["-Clink-arg=-Wl,--no-insert-timestamp", IMPORTS.1],
     },
     Target {
         platform: AARCH64_LINUX,
@@ -54,6 +54,10 @@ const PORTABLE: [Target; 3] = [
         flags: &["-Clink-arg=-Wl,-z,common-page-size=65536"],
     },
 ];
+
+/// MinGW's libraries once more, in the project's folder, where the linker is started. It sorts imports by the paths of what they come
+/// from: beside those of the project a whole one would come sooner or later as the project lies, a relative one comes last anywhere.
+const IMPORTS: (&str, &str) = ("target/mingw", "-Clink-arg=-Ltarget/mingw");
 
 /// The oldest glibc with which a portable library for Linux runs.
 const GLIBC: [u32; 2] = [2, 17];
@@ -174,6 +178,20 @@ impl Toolchain {
     /// What the compiler must be told for it.
     pub fn flags(&self) -> &'static [&'static str] {
         self.portable.as_ref().map_or(&[], |(target, _)| target.flags)
+    }
+
+    /// What the linker must find in the folder of the project that is built.
+    pub fn prepare(&self, root: &Path) -> Result<()> {
+        if cfg!(unix)
+            && let Some((Target { linker: Linker::Installed(program, _), .. }, _)) = &self.portable
+        {
+            let library = output(Command::new(program).arg("-print-file-name=libkernel32.a"))?;
+            let folder = Path::new(library.trim()).parent().context("a file lies in a folder")?;
+            let link = root.join(IMPORTS.0);
+            fs::create_dir_all(link.parent().context("it lies in target")?)?;
+            run(Command::new("ln").arg("-sfn").args([folder, &link]))?;
+        }
+        Ok(())
     }
 
     /// Where [`Self::cargo`] leaves the library.

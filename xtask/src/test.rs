@@ -25,7 +25,7 @@ const SHORT: [Job; 3] = [
 ];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 16] = [
+const LONG: [Job; 17] = [
     ("bits of every platform", |_| abroad::bits_of_every_platform()),
     ("counts that must hold", |_| bench::must_hold()),
     ("third-party clients", |_| clients()),
@@ -39,6 +39,7 @@ const LONG: [Job; 16] = [
     ("memcheck", |_| memcheck::valgrind()),
     ("hard cases in full", |_| whole_gallery()),
     ("absence is free", |_| copies::absence_is_free()),
+    ("bytes elsewhere", |_| copies::place_leaves_no_trace()),
     ("bits of wide builds", |_| wide_builds()),
     ("peers", |_| peers()),
     ("against ROSS", |_| ross::ross()),
