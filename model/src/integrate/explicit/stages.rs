@@ -20,6 +20,7 @@ impl<const N: usize> Explicit<N> {
         match (system.is_usual(), system.solves_all()) {
             (true, true) => self.attempt_with::<P, _, ERROR, true, true>(system),
             (true, false) => self.attempt_with::<P, _, ERROR, false, true>(system),
+            // Its rates are called, and zero of what is not solved: it is compiled once.
             (false, _) => self.attempt_with::<P, _, ERROR, true, false>(system),
         }
     }
