@@ -289,8 +289,8 @@ def arguments(words=None):
     parser.add_argument("--processes", type=int, metavar="N", help="of the cluster on this machine (one a core)")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="of a cluster of dask; its workers see the same folders")
     options = parser.parse_args(words)
-    if min(options.runs, options.chunk) < 1:
-        parser.error("--runs and --chunk must be at least 1")
+    if min(options.runs, options.chunk, 1 if options.processes is None else options.processes) < 1:
+        parser.error("--runs, --chunk and --processes must be at least 1")
     options.outputs = list(dict.fromkeys(options.outputs))
     names = [name for name, *_ in options.vary or ()]
     if len(set(names)) < len(names):

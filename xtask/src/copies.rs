@@ -9,7 +9,7 @@ use crate::{c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::scene::Scene;
-use split_rotor_tools::platform::WIN64;
+use split_rotor_tools::platform::{LINUX64, WIN64};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -73,14 +73,13 @@ pub fn absence_is_free() -> Result<()> {
     Ok(())
 }
 
-/// The libraries of `paper` for this machine and for Windows are the same to the byte, and what their debug information is told by,
-/// where the project lies elsewhere: behind the system's libraries in the order of names, by which a linker may sort, or before them.
+/// The libraries of `paper` for this machine, for any Linux and for Windows are the same to the byte where the project lies elsewhere: behind the system's libraries in the order of names, by which a linker may sort, or before them.
 pub fn place_leaves_no_trace() -> Result<()> {
     let _alone = alone()?;
     let scene = scenes::find("paper")?;
     let parent = if paths::root() < Path::new("/usr") { "/var/tmp" } else { "/tmp" };
     let copy = copied_to(Path::new(parent).join(format!("split-rotor elsewhere {}", std::process::id())))?;
-    for toolchain in [Toolchain::own()?].into_iter().chain(Toolchain::named(&[WIN64.name])?) {
+    for toolchain in [Toolchain::own()?].into_iter().chain(Toolchain::named(&[LINUX64.name, WIN64.name])?) {
         let here = library::of(&scene, &toolchain, 0, &Progress::of(1))?.library;
         let objcopy = Objcopy::of(&toolchain).context("debug information is kept apart by LLVM's objcopy")?;
         let there = objcopy.split(&library::build(&toolchain, &copy, &scene, &copy.join("target"))?)?;

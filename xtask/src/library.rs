@@ -55,7 +55,11 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
     progress.tell(&format!("compiling the library for the effects of {name}, {platform}: half a minute to two"));
     let began = SystemTime::now();
     if objcopy.is_none() && toolchain.has_debug_within() {
-        progress.suspend(|| eprintln!("  {platform}: no debug information is kept, which takes LLVM's objcopy"));
+        progress.suspend(|| {
+            eprintln!(
+                "  {platform}: no debug information is kept, which takes LLVM's objcopy (Debian: apt-get install llvm)"
+            )
+        });
     }
     let built = build(toolchain, paths::root(), scene, &builder)?;
     let library = objcopy.map_or_else(|| Ok(fs::read(&built)?), |objcopy| objcopy.split(&built))?;

@@ -18,9 +18,18 @@ struct Crate {
 
 /// What is linked into the library of this package, in the order of names, and what these toolchains add.
 pub fn of(package: &str, toolchains: &[Toolchain]) -> Result<Origin> {
-    let crates = crates(package)?;
-    Ok(Origin { licences: third_party(&crates)?, bill: bill(package, &crates, toolchains)? })
+    let (crates, mut runtimes) = (crates(package)?, Vec::new());
+    for runtime in toolchains.iter().map(Toolchain::runtime).collect::<Result<Vec<_>>>()?.concat() {
+        // Those of several platforms have mostly the same.
+        if !runtimes.contains(&runtime) {
+            runtimes.push(runtime);
+        }
+    }
+    Ok(Origin { licences: third_party(&crates, &runtimes)?, bill: bill(package, &crates, &runtimes)? })
 }
+
+/// What a compiler or linker adds: name, version and licence.
+type Runtime = (&'static str, String, &'static str);
 
 fn crates(package: &str) -> Result<Vec<Crate>> {
     let tree = ["tree", "--package", package, "--edges", "normal,no-proc-macro", "--prefix", "none"];
@@ -48,8 +57,11 @@ fn crates(package: &str) -> Result<Vec<Crate>> {
     crates.collect()
 }
 
-fn third_party(crates: &[Crate]) -> Result<String> {
-    let mut text = "Rust's standard library, and the crates within it, are licensed under the MIT licence or the Apache licence 2.0.\n".to_owned();
+fn third_party(crates: &[Crate], runtimes: &[Runtime]) -> Result<String> {
+    let mut text = "What compilers and linkers add, each with what is within it:\n".to_owned();
+    for (name, version, licence) in runtimes {
+        text += &format!("{}: {licence}\n", format!("{name} {version}").trim_end());
+    }
     for Crate { name, version, licence, folder } in crates {
         text += &format!("\n{0}\n{name} {version}: {licence}\n{0}\n{1}", "=".repeat(80), texts(folder)?);
     }
@@ -57,7 +69,7 @@ fn third_party(crates: &[Crate]) -> Result<String> {
 }
 
 /// The bill of materials, as CycloneDX 1.6 writes it in JSON.
-fn bill(package: &str, crates: &[Crate], toolchains: &[Toolchain]) -> Result<String> {
+fn bill(package: &str, crates: &[Crate], runtimes: &[Runtime]) -> Result<String> {
     let library = |name: &str, version: &str, licence: &str| json!({ "type": "library", "name": name, "version": version, "licenses": [{ "expression": licence }] });
     let own = "MIT OR Apache-2.0";
     let components = crates.iter().map(|Crate { name, version, licence, .. }| {
@@ -65,14 +77,8 @@ fn bill(package: &str, crates: &[Crate], toolchains: &[Toolchain]) -> Result<Str
         component["purl"] = format!("pkg:cargo/{name}@{version}").into();
         component
     });
-    let mut components: Vec<_> = components.collect();
-    for (name, version, licence) in toolchains.iter().map(Toolchain::runtime).collect::<Result<Vec<_>>>()?.concat() {
-        let component = library(name, &version, licence);
-        // Those of several platforms have mostly the same.
-        if !components.contains(&component) {
-            components.push(component);
-        }
-    }
+    let added = runtimes.iter().map(|(name, version, licence)| library(name, version, licence));
+    let components: Vec<_> = components.chain(added).collect();
     let bill = json!({
         "bomFormat": "CycloneDX",
         "specVersion": "1.6",

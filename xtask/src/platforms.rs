@@ -136,13 +136,22 @@ impl Toolchain {
         if self.portable.is_some() { self.platform.name.into() } else { builder.to_string() }
     }
 
-    /// What is in its libraries beside crates, and whose licence that has.
+    /// What is in its libraries beside crates: name, version and licence.
     pub fn runtime(&self) -> Result<Vec<(&'static str, String, &'static str)>> {
         let compiler = self.compiler()?;
         let release = compiler.lines().find_map(|line| line.strip_prefix("release: ")).unwrap_or_default();
         let mut runtime = vec![("Rust standard library", release.to_owned(), "MIT OR Apache-2.0")];
-        if self.platform == WIN64 && self.portable.is_some() {
-            runtime.push(("MinGW-w64 runtime", String::new(), "ZPL-2.1"));
+        match &self.portable {
+            None => (),
+            Some((Target { linker: Linker::Zig, .. }, _)) => {
+                let licence = "MIT AND Apache-2.0 WITH LLVM-exception";
+                runtime.push(("zig compiler-rt and LLVM libunwind", python::zig_version()?, licence));
+            }
+            Some((Target { linker: Linker::Installed(program, _), .. }, _)) => {
+                let version = output(Command::new(program).arg("-dumpversion"))?.trim().to_owned();
+                runtime.push(("GCC runtime library", version, "GPL-3.0-or-later WITH GCC-exception-3.1"));
+                runtime.push(("MinGW-w64 runtime", String::new(), "ZPL-2.1"));
+            }
         }
         Ok(runtime)
     }

@@ -2,7 +2,7 @@
 
 use crate::paths;
 use crate::progress::stage;
-use crate::run::run;
+use crate::run::{output, run};
 use anyhow::{Context, Result, bail};
 use std::fs;
 use std::ops::RangeInclusive;
@@ -72,6 +72,11 @@ pub fn zig_cc(target: &str) -> Result<Command> {
     let mut zig = BUILDER.python()?;
     zig.args(["-m", "ziglang", "cc", "-target", target]);
     Ok(zig)
+}
+
+/// The version of zig.
+pub fn zig_version() -> Result<String> {
+    Ok(output(BUILDER.python()?.args(["-m", "ziglang", "version"]))?.trim().to_owned())
 }
 
 /// Whether its programs are here already.

@@ -149,6 +149,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(unix)] // It asks a shell, as the next.
     fn a_program_is_asked_line_by_line() {
         let script = r#"read task; echo "$task 1"; echo "$task 2"; echo; while read n; do echo $((n * n)); done"#;
         let mut program = Conversation::with(Command::new("sh").args(["-c", script])).unwrap();
@@ -159,6 +160,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg(unix)]
     fn a_program_that_fails_is_an_error_with_its_last_words() {
         let mut program =
             Conversation::with(Command::new("sh").args(["-c", "echo one; echo why >&2; exit 3"])).unwrap();
