@@ -73,13 +73,14 @@ pub fn absence_is_free() -> Result<()> {
     Ok(())
 }
 
-/// The libraries of `paper` for this machine, for any Linux and for Windows are the same to the byte where the project lies elsewhere: behind the system's libraries in the order of names, by which a linker may sort, or before them.
+/// The libraries of `paper` that travel, for any Linux and for Windows, are the same to the byte where the project lies elsewhere: behind
+/// the system's libraries in the order of names, by which a linker may sort, or before them.
 pub fn place_leaves_no_trace() -> Result<()> {
     let _alone = alone()?;
     let scene = scenes::find("paper")?;
     let parent = if paths::root() < Path::new("/usr") { "/var/tmp" } else { "/tmp" };
     let copy = copied_to(Path::new(parent).join(format!("split-rotor elsewhere {}", std::process::id())))?;
-    for toolchain in [Toolchain::own()?].into_iter().chain(Toolchain::named(&[LINUX64.name, WIN64.name])?) {
+    for toolchain in Toolchain::named(&[LINUX64.name, WIN64.name])? {
         let here = library::of(&scene, &toolchain, 0, &Progress::of(1))?.library;
         let objcopy = Objcopy::of(&toolchain).context("debug information is kept apart by LLVM's objcopy")?;
         let there = objcopy.split(&library::build(&toolchain, &copy, &scene, &copy.join("target"))?)?;
