@@ -23,7 +23,8 @@ pub unsafe fn enter(component: Component, call: &Call, body: impl FnOnce(&mut In
     }
     match caught(|| body(instance)) {
         Ok(Ok(())) => Status::Ok,
-        failed => told(instance, call, failed),
+        Ok(Err(failure)) => told(instance, call, Ok(failure)),
+        Err(panic) => told(instance, call, Err(panic)),
     }
 }
 
@@ -33,18 +34,17 @@ pub unsafe fn enter(component: Component, call: &Call, body: impl FnOnce(&mut In
 fn refused(instance: &mut Instance, call: &Call) -> Status {
     match (instance.memory.state, instance.memory.integrator()) {
         (State::Lost, _) => Status::Fatal,
-        (state, integrator) => told(instance, call, Ok(Err(Failure::Error(call.refusal(state, integrator))))),
+        (state, integrator) => told(instance, call, Ok(Failure::Error(call.refusal(state, integrator)))),
     }
 }
 
-/// The status of what failed, once the host's logger knows.
+/// The status of what failed, or panicked with a message, once the host's logger knows.
 #[cold]
 #[inline(never)]
-fn told(instance: &mut Instance, call: &Call, failed: Result<Reply, String>) -> Status {
+fn told(instance: &mut Instance, call: &Call, failed: Result<Failure, String>) -> Status {
     let (severity, category, message) = match failed {
-        Ok(Ok(())) => return Status::Ok,
-        Ok(Err(Failure::Error(message))) => (Severity::Error, Category::Error, message),
-        Ok(Err(Failure::Discard(message))) => (Severity::Discard, Category::Discard, message),
+        Ok(Failure::Error(message)) => (Severity::Error, Category::Error, message),
+        Ok(Failure::Discard(message)) => (Severity::Discard, Category::Discard, message),
         Err(panic) => {
             instance.memory.state = State::Lost;
             (Severity::Fatal, Category::Error, format!("internal failure: {panic}; free the instance"))

@@ -44,7 +44,7 @@ fn copied_to(copy: PathBuf) -> Result<PathBuf> {
 /// The machine code of a scene's library, built in this copy.
 fn text(copy: &Path, scene: &Scene) -> Result<Vec<u8>> {
     let target = paths::target().join("copies/target");
-    let library = library::build(&Toolchain::own()?, copy, scene, &target)?;
+    let library = library::build(&Toolchain::own()?, None, copy, scene, &target)?;
     let section = target.join("text");
     run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).arg(library).arg(&section))?;
     Ok(fs::read(section)?)
@@ -83,7 +83,8 @@ pub fn place_leaves_no_trace() -> Result<()> {
     for toolchain in Toolchain::named(&[LINUX64.name, WIN64.name])? {
         let here = library::of(&scene, &toolchain, 0, &Progress::of(1))?.library;
         let objcopy = Objcopy::of(&toolchain).context("debug information is kept apart by LLVM's objcopy")?;
-        let there = objcopy.split(&library::build(&toolchain, &copy, &scene, &copy.join("target"))?)?;
+        let built = library::build(&toolchain, Some(&objcopy), &copy, &scene, &copy.join("target"))?;
+        let there = objcopy.split(&built)?;
         let platform = toolchain.platform.name;
         ensure!(here == there, "the library of {platform} is another in {}", copy.display());
         println!("{platform}: {} bytes, the same in {}", here.len(), copy.display());

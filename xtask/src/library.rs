@@ -61,7 +61,7 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
             )
         });
     }
-    let built = build(toolchain, paths::root(), scene, &builder)?;
+    let built = build(toolchain, objcopy.as_ref(), paths::root(), scene, &builder)?;
     let library = objcopy.map_or_else(|| Ok(fs::read(&built)?), |objcopy| objcopy.split(&built))?;
     toolchain.check(&library)?;
     // Without its stamp a library is not taken, so one that is cut is none.
@@ -103,10 +103,16 @@ pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
     command.env("SPLIT_ROTOR_LIST", scene.list()).env("SPLIT_ROTOR_ROOM", scene.room().to_string())
 }
 
-/// Builds the library of the scene's list, of the project in the folder `root`.
-pub fn build(toolchain: &Toolchain, root: &Path, scene: &Scene, target: &Path) -> Result<PathBuf> {
+/// Builds the library of the scene's list, of the project in the folder `root`: with its debug information within, if something will split it.
+pub fn build(
+    toolchain: &Toolchain,
+    objcopy: Option<&Objcopy>,
+    root: &Path,
+    scene: &Scene,
+    target: &Path,
+) -> Result<PathBuf> {
     toolchain.prepare(root)?;
-    let within = Objcopy::of(toolchain).map_or(&[][..], |_| &debug::WITHIN);
+    let within = objcopy.map_or(&[][..], |_| &debug::WITHIN);
     let flags = [&[flags(root)?.as_str()], toolchain.flags(), within].concat().join("\x1f");
     run(of_list(&mut toolchain.cargo()?, scene)
         .current_dir(root)

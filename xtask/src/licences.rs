@@ -1,6 +1,6 @@
 //! What others made of a library: their licences, and a bill of materials.
 
-use crate::platforms::Toolchain;
+use crate::platforms::{Runtime, Toolchain};
 use crate::run::{cargo, output};
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
@@ -27,9 +27,6 @@ pub fn of(package: &str, toolchains: &[Toolchain]) -> Result<Origin> {
     }
     Ok(Origin { licences: third_party(&crates, &runtimes)?, bill: bill(package, &crates, &runtimes)? })
 }
-
-/// What a compiler or linker adds: name, version and licence.
-type Runtime = (&'static str, String, &'static str);
 
 fn crates(package: &str) -> Result<Vec<Crate>> {
     let tree = ["tree", "--package", package, "--edges", "normal,no-proc-macro", "--prefix", "none"];

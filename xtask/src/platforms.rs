@@ -62,6 +62,9 @@ const IMPORTS: (&str, &str) = ("target/mingw", "-Clink-arg=-Ltarget/mingw");
 /// The oldest glibc with which a portable library for Linux runs.
 const GLIBC: [u32; 2] = [2, 17];
 
+/// What a compiler or linker adds to a library: name, version and licence.
+pub type Runtime = (&'static str, String, &'static str);
+
 /// What builds the library of a platform.
 pub struct Toolchain {
     /// For which.
@@ -136,8 +139,8 @@ impl Toolchain {
         if self.portable.is_some() { self.platform.name.into() } else { builder.to_string() }
     }
 
-    /// What is in its libraries beside crates: name, version and licence.
-    pub fn runtime(&self) -> Result<Vec<(&'static str, String, &'static str)>> {
+    /// What is in its libraries beside crates.
+    pub fn runtime(&self) -> Result<Vec<Runtime>> {
         let compiler = self.compiler()?;
         let release = compiler.lines().find_map(|line| line.strip_prefix("release: ")).unwrap_or_default();
         let mut runtime = vec![("Rust standard library", release.to_owned(), "MIT OR Apache-2.0")];
