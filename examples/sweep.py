@@ -47,21 +47,31 @@ def parameters(options, scene):
     table = from_csv(options.table) if options.table else hypercube(options.vary, options.runs, options.seed)
     if len(set(table.column_names)) < table.num_columns or not table.num_rows:
         raise ValueError("the table of parameters has a name twice, or no rows")
-    causality = {name: variable["causality"] for name, variable in scene.variables.items()}
-    for name in table.column_names:
-        if causality.get(name) == "input":
-            raise ValueError(f"{name} is an input, not a parameter: give it in the scene")
-        if causality.get(name) != "parameter":
-            # A column of a table, `unbalance[1].moment`, `solver.order`, or an error.
-            scene.with_values({name: value for value in table[name].drop_null().to_pylist()[:1]})
-    for name in options.outputs:
-        if causality.get(name) != "output":
-            raise ValueError(f"{scene.name} has no output `{name}`")
     if options.fmu:
         from fmu_runs import check
 
         check(options.fmu, scene, table.column_names)
+    causality = {name: variable["causality"] for name, variable in scene.variables.items()}
+    for name in table.column_names:
+        if causality.get(name) == "input":
+            raise ValueError(f"{name} is an input, not a parameter: give it in the scene")
+        check_column(scene, name, table[name].drop_null())
+    for name in options.outputs:
+        if causality.get(name) != "output":
+            raise ValueError(f"{scene.name} has no output `{name}`")
     return table
+
+
+def check_column(scene, name, cells):
+    """Refuses a column neither of whose ends can stand in the scene: its name is unknown, or nothing in it is of the right kind."""
+    failures = []
+    for cell in [*cells[:1].to_pylist(), *cells[-1:].to_pylist()]:
+        try:
+            scene.with_values({name: value_of(cell)})
+        except sr.SceneError as failure:
+            failures.append(failure)
+    if len(failures) == 2:
+        raise failures[0]
 
 
 def from_csv(path):
@@ -195,6 +205,8 @@ def prepare(options):
         table = parameters(options, scene)
         write(file.with_name("parameters.parquet"), lambda path: pa.parquet.write_table(table, path))
         write(file, lambda path: path.write_text(text, encoding="utf-8"))
+    elif not file.with_name("parameters.parquet").exists():
+        raise ValueError(f"{options.out} has lost its parameters.parquet; take another --out")
     elif (there := json.loads(file.read_text(encoding="utf-8"))) != settings:
         lines = [line for name in there | settings for line in difference(name, there.get(name), settings.get(name))]
         raise ValueError("\n".join([f"{file} has other settings (-) than these (+); take another --out", *lines]))
@@ -223,20 +235,31 @@ def difference(name, there, here):
     return [f"  {name}", *(f"    {line}" for line in lines if not line.startswith("@@"))] if lines else []
 
 
+def statuses(file):
+    """Those of the runs of a chunk; none where it is not there, or lost its end with the machine's power."""
+    try:
+        return pa.parquet.read_table(file, columns=["status"])["status"].to_pylist()
+    except (FileNotFoundError, pa.ArrowInvalid):
+        return []
+
+
 def run_all(options, stamp):
     """Runs the chunks that are not there, and tells how it goes; returns the exit code, 1 where every run of the sweep failed."""
+    began = perf_counter()
+    folder, size = options.out, options.chunk
+    runs = pa.parquet.read_metadata(folder / "parameters.parquet").num_rows
+    before = {n: statuses(file_of(folder, n)) for n in range(math.ceil(runs / size))}
+    missing, there = [n for n, told in before.items() if not told], sum(map(len, before.values()))
+    done, failed, cpu, cores = 0, sum(status != "ok" for told in before.values() for status in told), 0.0, 1
+    if not missing:
+        print(f"all {runs} runs were there, {failed} failed")
+        return 1 if failed == runs else 0
     import dask
     from distributed import Client, LocalCluster, as_completed
     from tqdm import tqdm
 
-    began = perf_counter()
-    folder, size = options.out, options.chunk
-    runs = pa.parquet.read_metadata(folder / "parameters.parquet").num_rows
-    missing = [n for n in range(math.ceil(runs / size)) if not file_of(folder, n).exists()]
-    there = runs - sum(min(size, runs - n * size) for n in missing)
-    files = [file_of(folder, n) for n in sorted(set(range(math.ceil(runs / size))) - set(missing))]
-    before = sum(status != "ok" for file in files for status in pa.parquet.read_table(file, columns=["status"])["status"].to_pylist())
-    done, failed, cpu, cores = 0, before, 0.0, 1
+    if options.scheduler:
+        print(f"waiting for {options.scheduler} and its workers", flush=True)
     # Dask's profiler would take a fiftieth of the time, and nobody looks at it.
     dask.config.set({"distributed.scheduler.allowed-failures": KILLS, "distributed.worker.profile.enabled": False})
     here = nullcontext(options.scheduler) if options.scheduler else LocalCluster(options.processes, threads_per_worker=1, dashboard_address=None)

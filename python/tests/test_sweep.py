@@ -3,6 +3,7 @@
 import json
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -134,12 +135,25 @@ def test_a_sweep_that_was_killed_goes_on(scene, undisturbed, tmp_path):
     process.communicate()
     before = chunks(tmp_path)
     assert 3 <= len(before) < 40
+    # As where the machine lost its power, too.
+    lost = min(before)
+    (tmp_path / "runs" / lost).write_bytes(b"")
+    del before[lost]
     process = start(scene, tmp_path)
     told, errors = process.communicate(timeout=PATIENCE)
     done = 10 * len(before)
     assert process.returncode == 0 and told.splitlines()[-1].startswith(f"{400 - done} runs ({done} were there), 0 failed, "), errors
     assert before.items() <= chunks(tmp_path).items(), "what was there is not run again"
     assert rows(tmp_path) == rows(undisturbed)
+
+
+def test_a_finished_sweep_tells_so_at_once_and_one_without_parameters_is_refused(scene, undisturbed, tmp_path, monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "tqdm", None)  # nothing is begun
+    assert sweep.main(words(scene, undisturbed, HYPERCUBE)) == 0
+    assert capsys.readouterr().out == "all 400 runs were there, 0 failed\n"
+    shutil.copy(undisturbed / "sweep.json", tmp_path)
+    assert sweep.main(words(scene, tmp_path, HYPERCUBE)) == 1
+    assert "has lost its parameters.parquet; take another --out" in capsys.readouterr().err
 
 
 def test_other_settings_are_refused_and_told(scene, undisturbed, tmp_path, capsys):
@@ -212,6 +226,8 @@ def test_inputs_over_time_are_the_scenes_under_an_fmu_too(scene, tmp_path):
     ("more", "told"),
     [
         (["--vary", "rotor.q", "1", "2"], "unknown key `rotor.q`"),
+        (["--vary", "solver.method_number", "0.2", "0.4"], "solver.method"),
+        (["--vary", "rotor.m", "-2", "-1"], "it must be a finite number > 0"),
         (["--vary", "rotor.m", "2", "1"], "FROM must be below TO"),
         (["--vary", "rotor.m", "2", "inf"], "both finite"),
         (["--vary", "drive.tau", "2", "3"], "drive.tau is an input, not a parameter"),

@@ -52,7 +52,10 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
     let lock = File::create(builder.join("lock"))?;
     lock.lock()?;
     let (name, platform) = (&scene.name, toolchain.platform.name);
-    progress.tell(&format!("compiling the library for the effects of {name}, {platform}: half a minute to two"));
+    let before =
+        if toolchain.begins_with_std(&builder) { ", and as long for Rust's standard library before it" } else { "" };
+    progress
+        .tell(&format!("compiling the library for the effects of {name}, {platform}: half a minute to two{before}"));
     let began = SystemTime::now();
     if objcopy.is_none() && toolchain.has_debug_within() {
         progress.suspend(|| {

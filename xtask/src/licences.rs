@@ -18,14 +18,23 @@ struct Crate {
 
 /// What is linked into the library of this package, in the order of names, and what these toolchains add.
 pub fn of(package: &str, toolchains: &[Toolchain]) -> Result<Origin> {
-    let (crates, mut runtimes) = (crates(package)?, Vec::new());
-    for runtime in toolchains.iter().map(Toolchain::runtime).collect::<Result<Vec<_>>>()?.concat() {
-        // Those of several platforms have mostly the same.
-        if !runtimes.contains(&runtime) {
-            runtimes.push(runtime);
+    let (crates, runtimes) = (crates(package)?, runtimes(toolchains)?);
+    Ok(Origin { licences: third_party(&crates, &runtimes)?, bill: bill(package, &crates, &runtimes)? })
+}
+
+/// What compilers and linkers add, and to the libraries of which platforms: several have mostly the same.
+fn runtimes(toolchains: &[Toolchain]) -> Result<Vec<(Runtime, String)>> {
+    let mut runtimes = Vec::<(Runtime, String)>::new();
+    for toolchain in toolchains {
+        let platform = toolchain.platform.name;
+        for runtime in toolchain.runtime()? {
+            match runtimes.iter_mut().find(|(known, _)| *known == runtime) {
+                Some((_, platforms)) => *platforms += &format!(", {platform}"),
+                None => runtimes.push((runtime, platform.to_owned())),
+            }
         }
     }
-    Ok(Origin { licences: third_party(&crates, &runtimes)?, bill: bill(package, &crates, &runtimes)? })
+    Ok(runtimes)
 }
 
 fn crates(package: &str) -> Result<Vec<Crate>> {
@@ -54,10 +63,10 @@ fn crates(package: &str) -> Result<Vec<Crate>> {
     crates.collect()
 }
 
-fn third_party(crates: &[Crate], runtimes: &[Runtime]) -> Result<String> {
+fn third_party(crates: &[Crate], runtimes: &[(Runtime, String)]) -> Result<String> {
     let mut text = "What compilers and linkers add, each with what is within it:\n".to_owned();
-    for (name, version, licence) in runtimes {
-        text += &format!("{}: {licence}\n", format!("{name} {version}").trim_end());
+    for ((name, version, licence), platforms) in runtimes {
+        text += &format!("{name} {version} ({platforms}): {licence}\n");
     }
     for Crate { name, version, licence, folder } in crates {
         text += &format!("\n{0}\n{name} {version}: {licence}\n{0}\n{1}", "=".repeat(80), texts(folder)?);
@@ -66,7 +75,7 @@ fn third_party(crates: &[Crate], runtimes: &[Runtime]) -> Result<String> {
 }
 
 /// The bill of materials, as CycloneDX 1.6 writes it in JSON.
-fn bill(package: &str, crates: &[Crate], runtimes: &[Runtime]) -> Result<String> {
+fn bill(package: &str, crates: &[Crate], runtimes: &[(Runtime, String)]) -> Result<String> {
     let library = |name: &str, version: &str, licence: &str| json!({ "type": "library", "name": name, "version": version, "licenses": [{ "expression": licence }] });
     let own = "MIT OR Apache-2.0";
     let components = crates.iter().map(|Crate { name, version, licence, .. }| {
@@ -74,7 +83,11 @@ fn bill(package: &str, crates: &[Crate], runtimes: &[Runtime]) -> Result<String>
         component["purl"] = format!("pkg:cargo/{name}@{version}").into();
         component
     });
-    let added = runtimes.iter().map(|(name, version, licence)| library(name, version, licence));
+    let added = runtimes.iter().map(|((name, version, licence), platforms)| {
+        let mut component = library(name, version, licence);
+        component["description"] = format!("In the libraries for {platforms}").into();
+        component
+    });
     let components: Vec<_> = components.chain(added).collect();
     let bill = json!({
         "bomFormat": "CycloneDX",

@@ -8,7 +8,7 @@ use split_rotor_tools::platform::{AARCH64_LINUX, LINUX64, Platform, WIN64};
 use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// What can be asked for: this machine and its like, which is the quickest, or any machine of a platform.
 pub const NAMES: [&str; 4] = [HERE, LINUX64.name, WIN64.name, AARCH64_LINUX.name];
@@ -134,6 +134,12 @@ impl Toolchain {
         self.portable.as_ref().map(key).unwrap_or_default()
     }
 
+    /// Whether Rust's standard library must be compiled first, for the first library in this folder.
+    pub fn begins_with_std(&self, folder: &Path) -> bool {
+        let from_source = self.portable.as_ref().is_some_and(|(_, compiler)| compiler.from_source);
+        from_source && !self.built(folder).exists()
+    }
+
     /// In which folder a builder compiles: one a platform, where the standard library may have to be compiled first.
     pub fn folder(&self, builder: usize) -> String {
         if self.portable.is_some() { self.platform.name.into() } else { builder.to_string() }
@@ -153,7 +159,7 @@ impl Toolchain {
             Some((Target { linker: Linker::Installed(program, _), .. }, _)) => {
                 let version = output(Command::new(program).arg("-dumpversion"))?.trim().to_owned();
                 runtime.push(("GCC runtime library", version, "GPL-3.0-or-later WITH GCC-exception-3.1"));
-                runtime.push(("MinGW-w64 runtime", String::new(), "ZPL-2.1"));
+                runtime.push(("MinGW-w64 runtime", mingw_version(program)?, "ZPL-2.1"));
             }
         }
         Ok(runtime)
@@ -238,6 +244,17 @@ impl Toolchain {
         }
         Ok(())
     }
+}
+
+/// That of the headers and libraries with which this compiler of C links.
+fn mingw_version(gcc: &str) -> Result<String> {
+    let header = ["-dM", "-E", "-include", "_mingw.h", "-x", "c", "-"];
+    let macros = output(Command::new(gcc).args(header).stdin(Stdio::null()))?;
+    let number = |part| {
+        let value = macros.lines().find_map(|line| line.strip_prefix(&format!("#define __MINGW64_VERSION_{part} ")));
+        value.with_context(|| format!("{gcc} is not that of MinGW-w64"))
+    };
+    Ok([number("MAJOR")?, number("MINOR")?, number("BUGFIX")?].join("."))
 }
 
 /// A compiler of Rust.
