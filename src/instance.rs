@@ -49,7 +49,6 @@ pub struct Instance {
 
 /// All that a saved FMU state holds and brings back: what follows is then equal to the last bit, because the solver's own
 /// history is in it.
-#[derive(Clone)]
 pub struct Memory {
     /// Where the instance is in its life.
     pub state: State,
@@ -69,6 +68,20 @@ struct Experiment {
     tolerance: Option<f64>,
     /// The host set solver.relative_tolerance: it wins over the experiment's tolerance.
     host_set_tolerance: bool,
+}
+
+impl Clone for Memory {
+    fn clone(&self) -> Self {
+        let &Self { state, ref simulation, experiment, step_failed, warned } = self;
+        Self { state, simulation: simulation.clone(), experiment, step_failed, warned }
+    }
+
+    /// In place, as that of a simulation.
+    fn clone_from(&mut self, source: &Self) {
+        let Self { state, simulation, experiment, step_failed, warned } = source;
+        self.simulation.clone_from(simulation);
+        (self.state, self.experiment, self.step_failed, self.warned) = (*state, *experiment, *step_failed, *warned);
+    }
 }
 
 impl Memory {

@@ -77,7 +77,7 @@ impl<S: System<N>, const N: usize> At<S, N> {
     pub fn before_a_step(self, tableau: &'static Tableau) -> Stepping<S, N> {
         let mut method = Explicit::start(tableau, self.tolerance, &self.system, self.t, self.y);
         loop {
-            let before = method.clone();
+            let before = method;
             method.step(&self.system, f64::INFINITY, f64::INFINITY).expect("a possible motion");
             // The first steps find their size.
             if before.cost().steps > 10.0 && method.cost().rejected == before.cost().rejected {
@@ -122,7 +122,7 @@ impl Expanding {
     pub fn at(relative: f64) -> Self {
         let At { system, t, y, tolerance } = rotor::<12>();
         let method = Taylor::start(Tolerance { relative, ..tolerance }, &system, t, y);
-        let mut expanding = Self { method, scratch: Scratch::BLANK, system };
+        let mut expanding = Self { method, scratch: Scratch::default(), system };
         (0..10).for_each(|_| expanding.step());
         expanding
     }

@@ -27,6 +27,7 @@ pub use tangents::Tangents;
 use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
+use crate::integrate::taylor::Scratch;
 use crate::integrate::{Fault, Refusal};
 use crate::rotor;
 use crate::signal::Signal;
@@ -50,17 +51,32 @@ pub enum Integrator {
 
 /// A rotor of the scene `E`, from its parameters to its motion, whose state has N numbers: [`WITH_WORK`] and the own states of
 /// its effects. The effects live in the parameters, and everything that runs reads them there.
-#[derive(Clone, Default)]
+#[derive(Default)]
 pub struct Simulation<E, const N: usize = WITH_WORK> {
     integrator: Integrator,
     parameters: Parameters<E>,
     run: Option<Run<N>>,
     /// What the communication point shows, once somebody asked.
     instant: Option<Instant<N>>,
+    scratch: Scratch,
+}
+
+impl<E: Clone, const N: usize> Clone for Simulation<E, N> {
+    fn clone(&self) -> Self {
+        let &Self { integrator, ref parameters, run, instant, scratch: _ } = self;
+        Self { integrator, parameters: parameters.clone(), run, instant, scratch: Scratch::default() }
+    }
+
+    /// In place: by far the most of it is a run, which is else copied three times on its way.
+    fn clone_from(&mut self, source: &Self) {
+        let Self { integrator, parameters, run, instant, scratch: _ } = source;
+        self.parameters.clone_from(parameters);
+        (self.integrator, self.run, self.instant) = (*integrator, *run, *instant);
+    }
 }
 
 /// A motion under way.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 #[allow(clippy::large_enum_variant, reason = "a run is kept in place, so that it needs no allocation")]
 enum Run<const N: usize> {
     Method(Integration<N>),
@@ -241,7 +257,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             panic!("no run of a method was started");
         };
         if !integration.advance_within_step(t) {
-            integration.advance(&mut self.parameters.effects, t)?;
+            integration.advance(&mut self.parameters.effects, &mut self.scratch, t)?;
         }
         if E::FACTS.imposes && self.parameters.effects.imposed::<f64>(t).is_some() {
             self.tell_of_step();
@@ -561,7 +577,7 @@ impl<E: Effects, const N: usize> Hosted<'_, E, N> {
 
 impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { integrator, parameters, run, instant } = self;
+        let Self { integrator, parameters, run, instant, scratch: _ } = self;
         choice(integrator, &[Integrator::Method, Integrator::Host], walk)?;
         parameters.walk(walk)?;
         // What it shows follows from the rest.

@@ -127,7 +127,7 @@ impl PartialEq for Composition {
 const ALL: [&Composition; 4] = [&STRANG, &SUZUKI, &SOFRONIOU, &KAHAN];
 
 /// A composition at work: where it stands, where its last step began, and what it spent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Composed<const N: usize> {
     composition: &'static Composition,
     /// What its steps must keep; None where every step is exact.

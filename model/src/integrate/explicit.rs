@@ -16,7 +16,7 @@ use crate::stored::stored;
 use std::ops::Range;
 
 /// A method at work: where it stands, its last step as a polynomial, and what it spent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Explicit<const N: usize> {
     tableau: &'static Tableau,
     tolerance: Tolerance<N>,

@@ -6,7 +6,7 @@ use super::tableau::MOST_DENSE;
 use crate::stored::stored;
 
 /// The last step.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Segment<const N: usize> {
     /// Where it began \[s].
     pub t: f64,

@@ -25,7 +25,7 @@ pub trait Differentiable<const N: usize>: System<N> {
 }
 
 /// The method at work: where it stands, its last step, and what it spent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Stiff<const N: usize> {
     /// Of the error estimate, which is of order 3.
     tolerance: Tolerance<N>,

@@ -6,7 +6,7 @@ use super::power::power;
 use super::sizes::{Sizes, Squares};
 use super::{Cost, Fault, LEAST_FIRST, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::{Scalar, ulp};
-use crate::stored::{Damaged, Stored, Walk, stored};
+use crate::stored::stored;
 use std::ops::Range;
 use wide::f64x2;
 
@@ -27,8 +27,8 @@ pub type Powers = [f64x2; POWERS];
 pub type Seed = [f64; 7];
 
 /// What a series of an axis and of θ/sin θ is made of. It is written before it is read, and so no part of
-/// what is stored, nor of the method, which is copied before steps.
-#[derive(Clone, Debug)]
+/// the method, nor of anything else that is copied or stored.
+#[derive(Debug)]
 pub struct Scratch {
     /// See the rotor's expansion for what stands where.
     pub axis: [Powers; 12],
@@ -36,16 +36,11 @@ pub struct Scratch {
     pub lean: [Powers; 7],
 }
 
-impl Scratch {
-    const NONE: Powers = [f64x2::ZERO; POWERS];
-
+impl Default for Scratch {
     /// Nothing yet.
-    pub const BLANK: Self = Self { axis: [Self::NONE; 12], lean: [Self::NONE; 7] };
-}
-
-impl Stored for Scratch {
-    fn walk(&mut self, _walk: &mut impl Walk) -> Result<(), Damaged> {
-        Ok(())
+    fn default() -> Self {
+        const NONE: Powers = [f64x2::ZERO; POWERS];
+        Self { axis: [NONE; 12], lean: [NONE; 7] }
     }
 }
 
@@ -93,7 +88,7 @@ pub struct Room {
 stored!(Room { rows, levels, horizon });
 
 /// The method at work: where it stands, its last step as a polynomial, and what it spent.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Taylor<const N: usize> {
     tolerance: Tolerance<N>,
     sizes: Sizes<N>,

@@ -16,7 +16,7 @@ use crate::variables::{Instant, LARGEST_PHI, Parameters};
 use nalgebra::Vector2;
 
 /// A rotor whose state a host sets.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub struct Exchange<const N: usize> {
     frame: Frame,
     /// \[s]

@@ -22,13 +22,11 @@ use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
 /// A rotor with N equations, its method, and how far its answers are wanted.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 pub(super) struct Integration<const N: usize> {
     /// The chart and the whole turns of the time that the method has reached.
     frame: Frame,
     method: Method<N>,
-    /// Of its series.
-    scratch: Scratch,
     /// Where it is that of `auto` or `taylor`.
     auto: Option<Auto>,
     /// Where it goes by series as often as the motion has one.
@@ -51,7 +49,7 @@ pub(super) struct Integration<const N: usize> {
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, scratch, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
+    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -184,7 +182,6 @@ impl<const N: usize> Integration<N> {
         Self {
             frame: Frame::default(),
             method: Method::blank(),
-            scratch: Scratch::BLANK,
             auto: None,
             series: None,
             tolerance: Tolerance::default(),
@@ -252,7 +249,7 @@ impl<const N: usize> Integration<N> {
 
     /// Moves the communication point to time `t` \[s], where the solver may not have been. On a fault it stands at the last time reached.
     #[inline(never)]
-    pub(super) fn advance<E: Effects>(&mut self, effects: &mut E, t: f64) -> Result<(), Fault> {
+    pub(super) fn advance<E: Effects>(&mut self, effects: &mut E, scratch: &mut Scratch, t: f64) -> Result<(), Fault> {
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
         let until = if self.held.is_some() { t } else { self.stop.max(t) };
         self.go_back(effects)?;
@@ -260,10 +257,10 @@ impl<const N: usize> Integration<N> {
             return self.show_at(effects, t);
         }
         if !matches!(self.method, Method::Composed(_)) {
-            return self.run_to(effects, t, until);
+            return self.run_to(effects, scratch, t, until);
         }
-        let before = (self.t, self.method.clone(), self.last, self.frame, self.events);
-        let outcome = self.run_to(effects, t, until);
+        let before = (self.t, self.method, self.last, self.frame, self.events);
+        let outcome = self.run_to(effects, scratch, t, until);
         // Where the motion is lost, what stands in its way has another cause.
         if self.keeps_energy(effects) {
             return outcome.and_then(|()| self.show_at(effects, t));
@@ -335,7 +332,7 @@ impl<const N: usize> Integration<N> {
 
     /// Steps up to time `t` \[s] or past it, but not past `until` \[s]; the communication point is then there, or where steps
     /// came to.
-    fn run_to<E: Effects>(&mut self, effects: &mut E, t: f64, until: f64) -> Result<(), Fault> {
+    fn run_to<E: Effects>(&mut self, effects: &mut E, scratch: &mut Scratch, t: f64, until: f64) -> Result<(), Fault> {
         let most = self.method.cost().evaluations + self.most;
         let ahead = if self.method.is_free() { EXACT_AHEAD } else { AHEAD };
         self.method.limit_step(ahead * (t - self.t));
@@ -364,9 +361,9 @@ impl<const N: usize> Integration<N> {
             let before = self.method.time();
             // Laws that switch to and fro in one place must still go on.
             let outcome = if switched < MOST_SWITCHES {
-                self.step_to_event(effects, most, until)
+                self.step_to_event(effects, scratch, most, until)
             } else {
-                self.step(effects, most, until)
+                self.step(effects, scratch, most, until)
             };
             if let Some(series) = &mut self.series
                 && !self.method.is_stiff()
@@ -480,9 +477,17 @@ impl<const N: usize> Integration<N> {
     }
 
     /// A step, or the part of it up to the first event.
-    fn step_to_event<E: Effects>(&mut self, effects: &E, most: f64, until: f64) -> Result<(), Fault> {
-        let before = (E::FACTS.indicators > 0 && self.frame.has_events()).then(|| (self.method.clone(), self.last));
-        self.step(effects, most, until)?;
+    fn step_to_event<E: Effects>(
+        &mut self,
+        effects: &E,
+        scratch: &mut Scratch,
+        most: f64,
+        until: f64,
+    ) -> Result<(), Fault> {
+        // Not `then_some`: so much is copied only where it is needed, here and below.
+        let looks = E::FACTS.indicators > 0 && self.frame.has_events();
+        let before = if looks { Some((self.method, self.last)) } else { None };
+        self.step(effects, scratch, most, until)?;
         let Some((method, last)) = before else { return Ok(()) };
         let rotor = self.frame.under(effects);
         // Each place of a step that is too long for its polynomial would be a motion of its own.
@@ -491,10 +496,10 @@ impl<const N: usize> Integration<N> {
                 break;
             }
             let h = 0.5 * (self.method.time() - self.method.start_time());
-            self.method.take_back(method.clone());
+            self.method.take_back(method);
             self.last = last;
             self.method.limit_step(h);
-            self.step(effects, most, until)?;
+            self.step(effects, scratch, most, until)?;
         }
         let (from, to) = (self.method.start_time(), self.method.time());
         let (method_now, frame) = (&mut self.method, &self.frame);
@@ -510,7 +515,7 @@ impl<const N: usize> Integration<N> {
             self.last = last;
             // A law that has just switched may have to switch back.
             if self.method.time() + 0.1 * (t - self.method.time()) > self.method.time() {
-                self.step(effects, most, t)?;
+                self.step(effects, scratch, most, t)?;
             }
         }
         if self.method.time() >= t || self.method.time() == from {
@@ -519,16 +524,16 @@ impl<const N: usize> Integration<N> {
         Ok(())
     }
 
-    fn step<E: Effects>(&mut self, effects: &E, most: f64, until: f64) -> Result<(), Fault> {
+    fn step<E: Effects>(&mut self, effects: &E, scratch: &mut Scratch, most: f64, until: f64) -> Result<(), Fault> {
         self.limit_step(effects);
         let rotor = self.frame.under(effects);
         // Near −e a step can pass where it may not end; then it is taken back.
         let counts_turns = self.method.counts_turns();
-        let before = (self.frame.chart == Chart::FromMinusE && effects.needs_gamma() && !counts_turns)
-            .then(|| (self.method.clone(), self.last));
+        let may_pass = self.frame.chart == Chart::FromMinusE && effects.needs_gamma() && !counts_turns;
+        let before = if may_pass { Some((self.method, self.last)) } else { None };
         let mut limit = f64::INFINITY;
         loop {
-            self.method.step(&rotor, &mut self.scratch, most, until)?;
+            self.method.step(&rotor, scratch, most, until)?;
             let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
             self.last = LastStep { chart: self.frame.chart, turns: self.frame.turns, gamma: from, closest: None };
             let near = before.is_some() && from.norm().min(to.norm()) < NEAR;
@@ -539,7 +544,7 @@ impl<const N: usize> Integration<N> {
             match (&before, self.last.closest) {
                 (Some((method, last)), Some((_, closest))) if closest.norm() < rotor::FORBIDDEN => {
                     limit = 0.5 * limit.min(self.method.time() - method.time());
-                    self.method.take_back(method.clone());
+                    self.method.take_back(*method);
                     self.last = *last;
                     self.method.limit_step(limit);
                 }

@@ -17,7 +17,7 @@ use std::ops::Range;
 const PLACES: u32 = 16;
 
 /// A method at work.
-#[derive(Clone)]
+#[derive(Clone, Copy)]
 #[allow(clippy::large_enum_variant, reason = "a method is kept in place, so that it needs no allocation")]
 pub(super) enum Method<const N: usize> {
     Explicit(Explicit<N>),

@@ -19,7 +19,7 @@ fn exact_what_is_left_out_begins_with_the_next_power() {
     let (rotor, y) = driven(20.0, 0.5);
     for (relative, order, sizes) in ORDERS {
         let errors = dense_errors(&rotor, &[(0.0, y)], &sizes, |t, y, h| {
-            let (mut method, mut scratch) = (Taylor::start(tolerance(relative), &rotor, t, y), Scratch::BLANK);
+            let (mut method, mut scratch) = (Taylor::start(tolerance(relative), &rotor, t, y), Scratch::default());
             method.limit_step(h);
             assert_eq!(method.step(&rotor, &mut scratch, f64::INFINITY, f64::INFINITY), Ok(true));
             let rotor = &rotor;
