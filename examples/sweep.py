@@ -35,6 +35,8 @@ KEPT = {"last": lambda values: values[-1], "least": np.min, "largest": np.max}
 """What is kept of each output, by the end of its column's name."""
 KILLS = 10
 """A chunk whose worker died so often is taken to kill it, and ends the sweep."""
+LOOKED_AT = 100
+"""So many rows of a table are looked at before anything runs, if need be."""
 ONE_AT_A_TIME = Lock()
 """Of the threads of a worker: they share the instance of an FMU, and what Python does with warnings."""
 
@@ -55,23 +57,26 @@ def parameters(options, scene):
     for name in table.column_names:
         if causality.get(name) == "input":
             raise ValueError(f"{name} is an input, not a parameter: give it in the scene")
-        check_column(scene, name, table[name].drop_null())
+        # A column of a table, `unbalance[1].moment`, `solver.order`, or an error.
+        if causality.get(name) != "parameter" and table[name].null_count == table.num_rows:
+            raise ValueError(f"the column `{name}` is empty, and no parameter")
     for name in options.outputs:
         if causality.get(name) != "output":
             raise ValueError(f"{scene.name} has no output `{name}`")
+    check_rows(scene, table)
     return table
 
 
-def check_column(scene, name, cells):
-    """Refuses a column neither of whose ends can stand in the scene: its name is unknown, or nothing in it is of the right kind."""
+def check_rows(scene, table):
+    """Refuses a table of which no row that is looked at gives a scene; the others fail by themselves."""
     failures = []
-    for cell in [*cells[:1].to_pylist(), *cells[-1:].to_pylist()]:
+    for row in table.take(np.unique(np.linspace(0, table.num_rows - 1, LOOKED_AT).astype(int))).to_pylist():
         try:
-            scene.with_values({name: value_of(cell)})
+            scene.with_values(values_of(row))
+            return
         except sr.SceneError as failure:
             failures.append(failure)
-    if len(failures) == 2:
-        raise failures[0]
+    raise failures[0]
 
 
 def from_csv(path):
@@ -94,11 +99,19 @@ def hypercube(bounds, runs, seed):
 
 
 def value_of(cell):
-    """What a cell of a table says: in a column with a text, numbers are texts, too."""
-    for kind in (int, float) if isinstance(cell, str) else ():
-        with suppress(ValueError):
-            return kind(cell)
-    return cell
+    """What a cell of a table says: in a column with a text, numbers and truths are texts, too; a date is never else."""
+    if isinstance(cell, int | float):
+        return cell
+    text = str(cell)
+    for kind in (int, float, {"true": True, "false": False}.__getitem__):
+        with suppress(ValueError, KeyError):
+            return kind(text)
+    return text
+
+
+def values_of(row):
+    """What is told of the scene by a row, which leaves the scene's own value where a cell is empty."""
+    return {name: value_of(cell) for name, cell in row.items() if cell is not None}
 
 
 class InProcess:
@@ -150,7 +163,7 @@ class Sweep:
         """What is told of a run."""
         row = {"run": number, **values, "status": "ok"}
         try:
-            outputs, row["steps"] = self.way({name: value_of(cell) for name, cell in values.items() if cell is not None})
+            outputs, row["steps"] = self.way(values_of(values))
             for name, output in zip(self.settings["outputs"], outputs, strict=True):
                 row |= {f"{name}.{end}": float(keep(output)) for end, keep in KEPT.items()}
         except (sr.SceneError, RuntimeError) as failure:
@@ -202,12 +215,14 @@ def prepare(options):
     text = json.dumps(settings, indent=1, ensure_ascii=False)
     file = options.out / "sweep.json"
     if not file.exists():
+        if any(options.out.glob("runs/chunk-*")):
+            raise ValueError(f"{options.out} has runs, and no sweep.json that says of what; take another --out")
         table = parameters(options, scene)
         write(file.with_name("parameters.parquet"), lambda path: pa.parquet.write_table(table, path))
         write(file, lambda path: path.write_text(text, encoding="utf-8"))
-    elif not file.with_name("parameters.parquet").exists():
-        raise ValueError(f"{options.out} has lost its parameters.parquet; take another --out")
-    elif (there := json.loads(file.read_text(encoding="utf-8"))) != settings:
+    elif (there := settings_in(file)) is None or whole_table(file.with_name("parameters.parquet")) is None:
+        raise ValueError(f"{options.out}: sweep.json or parameters.parquet is lost or damaged; take another --out")
+    elif there != settings:
         lines = [line for name in there | settings for line in difference(name, there.get(name), settings.get(name))]
         raise ValueError("\n".join([f"{file} has other settings (-) than these (+); take another --out", *lines]))
     return sha256(text.encode()).hexdigest()
@@ -223,6 +238,12 @@ def settings_of(options, scene):
     return {"version": version("split-rotor"), "scene": scene.toml, "by": by, **of_runs, "outputs": options.outputs, "chunk": options.chunk}
 
 
+def settings_in(file):
+    """Those that were written down; None where the file is damaged."""
+    with suppress(ValueError):
+        return json.loads(file.read_text(encoding="utf-8"))
+
+
 def digest(path):
     """The SHA-256 of a file."""
     return sha256(path.read_bytes()).hexdigest()
@@ -235,12 +256,16 @@ def difference(name, there, here):
     return [f"  {name}", *(f"    {line}" for line in lines if not line.startswith("@@"))] if lines else []
 
 
-def statuses(file):
-    """Those of the runs of a chunk; none where it is not there, or lost its end with the machine's power."""
-    try:
-        return pa.parquet.read_table(file, columns=["status"])["status"].to_pylist()
-    except (FileNotFoundError, pa.ArrowInvalid):
-        return []
+def whole_table(file):
+    """The table in a file; None where it is not there or damaged, as by a loss of power."""
+    with suppress(OSError, pa.ArrowException):
+        return pa.parquet.read_table(file)
+
+
+def statuses(file, count):
+    """Those of the runs of a chunk; none where so many are not there."""
+    table = whole_table(file)
+    return [] if table is None or table.num_rows != count else table["status"].to_pylist()
 
 
 def run_all(options, stamp):
@@ -248,7 +273,7 @@ def run_all(options, stamp):
     began = perf_counter()
     folder, size = options.out, options.chunk
     runs = pa.parquet.read_metadata(folder / "parameters.parquet").num_rows
-    before = {n: statuses(file_of(folder, n)) for n in range(math.ceil(runs / size))}
+    before = {n: statuses(file_of(folder, n), min(size, runs - n * size)) for n in range(math.ceil(runs / size))}
     missing, there = [n for n, told in before.items() if not told], sum(map(len, before.values()))
     done, failed, cpu, cores = 0, sum(status != "ok" for told in before.values() for status in told), 0.0, 1
     if not missing:
@@ -262,7 +287,9 @@ def run_all(options, stamp):
         print(f"waiting for {options.scheduler} and its workers", flush=True)
     # Dask's profiler would take a fiftieth of the time, and nobody looks at it.
     dask.config.set({"distributed.scheduler.allowed-failures": KILLS, "distributed.worker.profile.enabled": False})
-    here = nullcontext(options.scheduler) if options.scheduler else LocalCluster(options.processes, threads_per_worker=1, dashboard_address=None)
+    here = nullcontext(options.scheduler) if options.scheduler else LocalCluster(
+        n_workers=options.processes, threads_per_worker=1, dashboard_address=None
+    )
     with here as cluster, Client(cluster) as client, tqdm(total=runs, initial=there, unit=" runs", disable=None) as bar:
         for module in ["fmu_runs.py", "sweep.py"] if options.fmu else ["sweep.py"]:
             client.upload_file(str(Path(__file__).with_name(module)))

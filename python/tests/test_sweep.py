@@ -38,9 +38,9 @@ def words(scene, out, of_runs, *more):
     return [str(scene), "--outputs", *OUTPUTS, "--out", str(out), "--stop", "0.5", "--step", "1e-3", *of_runs, *more]
 
 
-def start(scene, out, *more):
+def start(scene, out, *more, processes=2):
     """The command with HYPERCUBE, begun in a process group of its own."""
-    command = [sys.executable, str(ROOT / "examples" / "sweep.py"), *words(scene, out, HYPERCUBE, "--processes", "2", *more)]
+    command = [sys.executable, str(ROOT / "examples" / "sweep.py"), *words(scene, out, HYPERCUBE, "--processes", str(processes), *more)]
     return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
@@ -135,12 +135,15 @@ def test_a_sweep_that_was_killed_goes_on(scene, undisturbed, tmp_path):
     process.communicate()
     before = chunks(tmp_path)
     assert 3 <= len(before) < 40
-    # As where the machine lost its power, too.
-    lost = min(before)
-    (tmp_path / "runs" / lost).write_bytes(b"")
-    del before[lost]
-    process = start(scene, tmp_path)
+    # As where the machine lost its power, too: one is empty, and one has the end of a file only.
+    for lost, keeps in zip(sorted(before)[:2], [0, 1000], strict=True):
+        path = tmp_path / "runs" / lost
+        whole = path.read_bytes()
+        path.write_bytes(bytes(len(whole) - keeps if keeps else 0) + whole[len(whole) - keeps :])
+        del before[lost]
+    process = start(scene, tmp_path, processes=1)
     told, errors = process.communicate(timeout=PATIENCE)
+    assert told.splitlines()[-1].endswith(" of 1 cores"), told
     done = 10 * len(before)
     assert process.returncode == 0 and told.splitlines()[-1].startswith(f"{400 - done} runs ({done} were there), 0 failed, "), errors
     assert before.items() <= chunks(tmp_path).items(), "what was there is not run again"
@@ -153,7 +156,11 @@ def test_a_finished_sweep_tells_so_at_once_and_one_without_parameters_is_refused
     assert capsys.readouterr().out == "all 400 runs were there, 0 failed\n"
     shutil.copy(undisturbed / "sweep.json", tmp_path)
     assert sweep.main(words(scene, tmp_path, HYPERCUBE)) == 1
-    assert "has lost its parameters.parquet; take another --out" in capsys.readouterr().err
+    assert "sweep.json or parameters.parquet is lost or damaged; take another --out" in capsys.readouterr().err
+    (tmp_path / "sweep.json").unlink()
+    shutil.copytree(undisturbed / "runs", tmp_path / "runs")
+    assert sweep.main(words(scene, tmp_path, HYPERCUBE)) == 1
+    assert "has runs, and no sweep.json that says of what" in capsys.readouterr().err
 
 
 def test_other_settings_are_refused_and_told(scene, undisturbed, tmp_path, capsys):
@@ -180,8 +187,16 @@ def test_a_table_and_a_run_that_fails(scene, tmp_path):
 
 def test_truths_whole_numbers_and_names_are_cells_too(scene, tmp_path):
     table = tmp_path / "parameters.csv"
-    table.write_text("solver.order,start.at_rest,solver.method\n4,true,dop853\n8,false,stiff\n", encoding="utf-8")
-    assert [row["status"] for row in run_here(scene, tmp_path / "out", ["--table", str(table)])] == ["ok", "ok"]
+    table.write_text("solver.order,start.at_rest,solver.method\n4,true,dop853\n8,flase,stiff\n8,false,stiff\n", encoding="utf-8")
+    first, slip, last = run_here(scene, tmp_path / "out", ["--table", str(table)])
+    assert (first["status"], last["status"]) == ("ok", "ok") and 'start.at_rest = "flase"' in slip["status"]
+
+
+def test_parameters_may_be_possible_only_together(scene, tmp_path):
+    table = tmp_path / "parameters.csv"
+    table.write_text("rotor.Ja,rotor.Jt\n0.5,0.1\n0.5,0.5\n0.5,0.1\n", encoding="utf-8")
+    first, together, last = run_here(scene, tmp_path / "out", ["--table", str(table)])
+    assert together["status"] == "ok" and first["status"] == last["status"] and "rotor.Ja" in first["status"]
 
 
 @pytest.mark.parametrize("by_fmu", [False, True])
@@ -234,6 +249,8 @@ def test_inputs_over_time_are_the_scenes_under_an_fmu_too(scene, tmp_path):
         (["--vary", "rotor.m", "2", "3", "--fmu", "nosuch.fmu"], "nosuch.fmu"),
         (["--vary", "rotor.m", "1", "2", "--outputs", "rotor.m"], "turbo has no output `rotor.m`"),
         (["--table", "nosuch.csv"], "nosuch.csv"),
+        (["--table", "empty.csv"], "the column `rotor.q` is empty, and no parameter"),
+        (["--table", "dates.csv"], 'm = "2026-01-01"'),
         (["--vary", "rotor.Ja", "0.04", "0.05", "--fmu", "paper.fmu"], "paper.fmu is of another scene: rotor.m = 5.0, not 12.0"),
         (["--vary", "experiment.stop", "1", "2", "--fmu", "turbo.fmu"], "experiment.stop cannot vary under an FMU"),
         (["--vary", "solver.method_number", "2", "3", "--fmu", "turbo.fmu"], "solver.method_number cannot vary under an FMU"),
@@ -242,6 +259,8 @@ def test_inputs_over_time_are_the_scenes_under_an_fmu_too(scene, tmp_path):
 )
 def test_what_cannot_be_swept_is_told_at_the_start(scene, tmp_path, monkeypatch, capsys, more, told):
     monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty.csv").write_text("rotor.m,rotor.q\n11,\n12,\n", encoding="utf-8")
+    (tmp_path / "dates.csv").write_text("rotor.m\n2026-01-01\n", encoding="utf-8")
     for name in {"paper.fmu", "turbo.fmu"}.intersection(more):
         sr.package(sr.Scene.named(name.removesuffix(".fmu")), tmp_path / name)
     if "other.fmu" in more:

@@ -65,8 +65,11 @@ fn crates(package: &str) -> Result<Vec<Crate>> {
 
 fn third_party(crates: &[Crate], runtimes: &[(Runtime, String)]) -> Result<String> {
     let mut text = "What compilers and linkers add, each with what is within it:\n".to_owned();
-    for ((name, version, licence), platforms) in runtimes {
+    for ((name, version, licence, _), platforms) in runtimes {
         text += &format!("{name} {version} ({platforms}): {licence}\n");
+    }
+    for ((name, _, _, notice), _) in runtimes.iter().filter(|((.., notice), _)| !notice.is_empty()) {
+        text += &format!("\n{name}:\n{notice}");
     }
     for Crate { name, version, licence, folder } in crates {
         text += &format!("\n{0}\n{name} {version}: {licence}\n{0}\n{1}", "=".repeat(80), texts(folder)?);
@@ -83,7 +86,7 @@ fn bill(package: &str, crates: &[Crate], runtimes: &[(Runtime, String)]) -> Resu
         component["purl"] = format!("pkg:cargo/{name}@{version}").into();
         component
     });
-    let added = runtimes.iter().map(|((name, version, licence), platforms)| {
+    let added = runtimes.iter().map(|((name, version, licence, _), platforms)| {
         let mut component = library(name, version, licence);
         component["description"] = format!("In the libraries for {platforms}").into();
         component

@@ -62,8 +62,11 @@ const IMPORTS: (&str, &str) = ("target/mingw", "-Clink-arg=-Ltarget/mingw");
 /// The oldest glibc with which a portable library for Linux runs.
 const GLIBC: [u32; 2] = [2, 17];
 
-/// What a compiler or linker adds to a library: name, version and licence.
-pub type Runtime = (&'static str, String, &'static str);
+/// What a compiler or linker adds to a library: name, version, licence, and the notice that must travel with it.
+pub type Runtime = (&'static str, String, &'static str, &'static str);
+
+/// Of the licences of what is added, only this one wants to be shown with a library.
+const NOTICE_OF_MINGW: &str = include_str!("../../modelDescription/licenses/mingw-w64.txt");
 
 /// What builds the library of a platform.
 pub struct Toolchain {
@@ -149,17 +152,17 @@ impl Toolchain {
     pub fn runtime(&self) -> Result<Vec<Runtime>> {
         let compiler = self.compiler()?;
         let release = compiler.lines().find_map(|line| line.strip_prefix("release: ")).unwrap_or_default();
-        let mut runtime = vec![("Rust standard library", release.to_owned(), "MIT OR Apache-2.0")];
+        let mut runtime = vec![("Rust standard library", release.to_owned(), "MIT OR Apache-2.0", "")];
         match &self.portable {
             None => (),
             Some((Target { linker: Linker::Zig, .. }, _)) => {
                 let licence = "MIT AND Apache-2.0 WITH LLVM-exception";
-                runtime.push(("zig compiler-rt and LLVM libunwind", python::zig_version()?, licence));
+                runtime.push(("zig compiler-rt and LLVM libunwind", python::zig_version()?, licence, ""));
             }
             Some((Target { linker: Linker::Installed(program, _), .. }, _)) => {
                 let version = output(Command::new(program).arg("-dumpversion"))?.trim().to_owned();
-                runtime.push(("GCC runtime library", version, "GPL-3.0-or-later WITH GCC-exception-3.1"));
-                runtime.push(("MinGW-w64 runtime", mingw_version(program)?, "ZPL-2.1"));
+                runtime.push(("GCC runtime library", version, "GPL-3.0-or-later WITH GCC-exception-3.1", ""));
+                runtime.push(("MinGW-w64 runtime", mingw_version(program)?, "ZPL-2.1", NOTICE_OF_MINGW));
             }
         }
         Ok(runtime)
