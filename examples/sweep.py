@@ -99,10 +99,10 @@ def hypercube(bounds, runs, seed):
 
 
 def value_of(cell):
-    """What a cell of a table says: in a column with a text, numbers and truths are texts, too; a date is never else."""
+    """What a cell of a table says: in a column with a text, numbers and truths are texts, too."""
     if isinstance(cell, int | float):
         return cell
-    text = str(cell)
+    text = str(cell)  # a date, too, which the scene then refuses
     for kind in (int, float, {"true": True, "false": False}.__getitem__):
         with suppress(ValueError, KeyError):
             return kind(text)
