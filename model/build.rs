@@ -8,11 +8,14 @@ use std::path::Path;
 const EFFECTS: &str = "src/effects";
 
 fn main() {
-    println!("cargo::rerun-if-env-changed=SPLIT_ROTOR_LIST");
     println!("cargo::rerun-if-changed={EFFECTS}");
-    // Who reads scenes must know all.
-    let reads_scenes = std::env::var_os("CARGO_FEATURE_SCENES").is_some();
-    let wanted = std::env::var("SPLIT_ROTOR_LIST").ok().filter(|_| !reads_scenes);
+    // A copy of the model that reads scenes must have all effects: no list may rebuild it.
+    let wanted = if std::env::var_os("CARGO_FEATURE_SCENES").is_some() {
+        None
+    } else {
+        println!("cargo::rerun-if-env-changed=SPLIT_ROTOR_LIST");
+        std::env::var("SPLIT_ROTOR_LIST").ok()
+    };
     for entry in std::fs::read_dir(Path::new(EFFECTS)).expect("the effects stand there") {
         let path = entry.expect("a folder can be read").path();
         let name = path.file_stem().expect("a file has a name").to_string_lossy().into_owned();
