@@ -59,9 +59,10 @@ impl<E: Effects> Rotor<'_, E> {
         // eq. 84: |K| along K, Jt |dγ/dt| across it
         let across = rate.gamma.norm_squared() * (jt * jt);
         let (k, tilt) = (at.k.norm_squared(), (at.gamma - origin.gamma).norm_squared());
-        let kinetic = 0.5
-            * (self.frame.body.m * at.v.norm_squared()
-                + k * (self.frame.body.per_jt + larger(self.frame.body.spin, 0.0)));
+        let per_j = self.frame.body.per_jt + larger(self.frame.body.spin, 0.0);
+        // Where a speed is imposed, K lacks what the imposing torque gave: ω_φ has it.
+        let driven = if E::FACTS.imposes && self.effects.imposed(0.0).is_some() { rate.phi * rate.phi / (self.frame.body.per_jt + self.frame.body.spin) } else { 0.0 };
+        let kinetic = 0.5 * (self.frame.body.m * at.v.norm_squared() + k * per_j + driven);
         squares(y, [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic])
     }
 

@@ -137,22 +137,35 @@ impl<const N: usize> Explicit<N> {
     fn error_norm<P: Pair, F: System<N>, const ALL: bool>(&self, system: &F, seen: &Squares<N>) -> f64 {
         // Laws as stiff as the longest step of late allows round a shorter one by less.
         let weights = self.weights(system, self.h.max(self.longest), seen);
-        let estimate = match const { &P::TABLEAU.error } {
-            ErrorRule::Single(e) => self.error_square::<F, ALL>(system, e, &weights).sqrt(),
-            ErrorRule::Blend { fine, coarse } => {
-                let fine = self.error_square::<F, ALL>(system, fine, &weights);
-                let coarse = self.error_square::<F, ALL>(system, coarse, &weights);
-                if fine == 0.0 { 0.0 } else { fine / (fine + 0.01 * coarse).sqrt() }
-            }
+        let parts = match const { &P::TABLEAU.error } {
+            ErrorRule::Single(e) => self.error_parts::<F, ALL>(system, e),
+            ErrorRule::Blend { fine, coarse } => blended(
+                system,
+                self.error_parts::<F, ALL>(system, fine),
+                self.error_parts::<F, ALL>(system, coarse),
+            ),
         };
-        self.h * P::TABLEAU.calibration * estimate
+        self.h * P::TABLEAU.calibration * largest_square(system, &parts, &weights).sqrt()
     }
 
-    /// The square of the norm of Σ e_j k_j. Inlined, so that these sums are written out too.
+    /// The parts of Σ e_j k_j, squared. Inlined, so that these sums are written out too.
     #[inline(always)]
-    fn error_square<F: System<N>, const ALL: bool>(&self, system: &F, e: Combination, weights: &Squares<N>) -> f64 {
-        largest_square(system, &system.parts(&self.y, &self.combined::<F, ALL>(e)), weights)
+    fn error_parts<F: System<N>, const ALL: bool>(&self, system: &F, e: Combination) -> Squares<N> {
+        system.parts(&self.y, &self.combined::<F, ALL>(e))
     }
+}
+
+/// f⁴/(f² + 0.01 c²), of a fine estimate f and a coarse one c, group by group: a group whose motion is a polynomial has no fine
+/// estimate, and says nothing of the others.
+#[inline(always)]
+fn blended<F: System<N>, const N: usize>(_system: &F, fine: Squares<N>, coarse: Squares<N>) -> Squares<N> {
+    let mut blended = [0.0; N];
+    for p in 0..pairs(F::GROUPS) {
+        let (fine, coarse) = (pair(&fine, p), pair(&coarse, p));
+        // Where both are 0, so is the error.
+        put(&mut blended, p, fine * (fine / (both(0.01) * coarse + fine + both(f64::MIN_POSITIVE))));
+    }
+    blended
 }
 
 /// How many components are solved.
