@@ -45,7 +45,7 @@ pub struct At<S, const N: usize> {
     pub system: S,
     pub t: f64,
     pub y: [f64; N],
-    tolerance: Tolerance<N>,
+    tolerance: Tolerance,
 }
 
 /// The rotor under way: with 12 equations without the work integrals, with 14 with them.

@@ -6,6 +6,7 @@
 
 mod act;
 mod list;
+pub mod load;
 mod motion;
 pub mod series;
 pub mod table;
@@ -14,6 +15,7 @@ mod wrench;
 
 pub use act::Act;
 pub use list::{Block, Called, Effects, Switched, follows_all_inputs};
+pub use load::{Change, MOST_LOADS, Pose};
 pub use motion::Motion;
 pub use terminal::Terminal;
 pub use wrench::Wrench;
@@ -48,6 +50,9 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// How many states of its own it has, at most [`MOST_OWN`]: numbers that are integrated with the motion.
     const OWN: usize = 0;
+
+    /// How many of its outputs are loads whose errors count, each a vector, at most [`MOST_LOADS`].
+    const LOADS: usize = 0;
 
     /// How many [indicators](Effect::indicator) it has; one that has any keeps its branch in its [memory](Effect::memory).
     const INDICATORS: usize = 0;
@@ -101,6 +106,18 @@ pub trait Effect: Clone + Default + Send + 'static {
     #[inline(always)]
     fn act<S: Scalar>(&self, _motion: &Motion<S>) -> Act<S> {
         Act::none()
+    }
+
+    /// By how much each of its loads changes with a small change of the motion, squared [N²] or [(N·m)²].
+    fn load_changes(&self, _at: &Pose, _change: &Change) -> [f64; MOST_LOADS] {
+        [0.0; MOST_LOADS]
+    }
+
+    /// How large each of its loads is after this change of the motion from where excursions are counted from, squared [N²] or
+    /// [(N·m)²].
+    #[inline(always)]
+    fn load_sizes(&self, at: &Pose, excursion: &Change) -> [f64; MOST_LOADS] {
+        self.load_changes(at, excursion)
     }
 
     /// The ω_φ that it imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²]; None where it imposes none.
@@ -323,6 +340,7 @@ macro_rules! catalogue {
                 type Largest = catalogue!(@largest $module $type $($nodes)?);
                 assert!(Largest::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
                 assert!(Largest::OWN <= MOST_OWN, "an effect has at most MOST_OWN states of its own");
+                assert!(Largest::LOADS <= MOST_LOADS, "an effect has at most MOST_LOADS loads");
             };
         )*
 

@@ -13,7 +13,7 @@ pub mod tableau;
 pub mod taylor;
 
 use crate::stored::{Damaged, Stored, Walk, count};
-use sizes::Squares;
+use sizes::{MOST_GROUPS, Squares};
 
 pub use sizes::Tolerance;
 
@@ -28,7 +28,7 @@ pub trait System<const N: usize> {
     /// The components after the first so many are solved only where somebody [wants](System::solves_all) them.
     const ALWAYS: usize = N;
 
-    /// So many groups of components are measured, each by a norm of its own: at most N.
+    /// So many groups of components are measured, each by a norm of its own: at most [`MOST_GROUPS`].
     const GROUPS: usize = 1;
 
     /// Whether all components are solved, not only the first [`System::ALWAYS`].
@@ -70,24 +70,24 @@ pub trait System<const N: usize> {
     fn admits(&self, t: f64, y: &[f64; N]) -> Result<(), Refusal>;
 
     /// How large the motion is at `y`, where its rate is `rate`, if excursions are counted from `origin`: group by group, squared.
-    fn sizes(&self, y: &[f64; N], _rate: &[f64; N], _origin: &[f64; N]) -> Squares<N> {
+    fn sizes(&self, y: &[f64; N], _rate: &[f64; N], _origin: &[f64; N]) -> Squares {
         in_one_group(y)
     }
 
-    /// The parts of a small change of the state at `y`, in the same groups, squared.
-    fn parts(&self, _y: &[f64; N], change: &[f64; N]) -> Squares<N> {
+    /// The parts of a small change of the state at `y` at time `t` \[s], in the same groups, squared.
+    fn parts(&self, _t: f64, _y: &[f64; N], change: &[f64; N]) -> Squares {
         in_one_group(change)
     }
 
     /// How large the numbers are that a step of size `h` \[s] from `y` adds up, in the same groups, squared.
-    fn roundings(&self, y: &[f64; N], _h: f64) -> Squares<N> {
+    fn roundings(&self, y: &[f64; N], _h: f64) -> Squares {
         in_one_group(y)
     }
 }
 
 /// All numbers as one group.
-fn in_one_group<const N: usize>(y: &[f64; N]) -> Squares<N> {
-    let mut squares = [0.0; N];
+fn in_one_group<const N: usize>(y: &[f64; N]) -> Squares {
+    let mut squares = [0.0; MOST_GROUPS];
     squares[0] = y.iter().map(|y| y * y).sum();
     squares
 }

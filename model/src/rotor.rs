@@ -2,6 +2,7 @@
 
 mod expansion;
 pub mod groups;
+mod loads;
 
 use crate::body::Inertia;
 use crate::dual::Dual;
@@ -310,7 +311,7 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
 
     const ALWAYS: usize = own(N) + COORDINATES;
 
-    const GROUPS: usize = own(N) + groups::RIGID;
+    const GROUPS: usize = own(N) + groups::RIGID + E::FACTS.loads;
 
     fn depended_on(&self) -> usize {
         own(N) + if E::FACTS.follows_phi && self.frame.follows_phi { COORDINATES } else { PHI }
@@ -351,17 +352,17 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     }
 
     #[inline(always)]
-    fn sizes(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares<N> {
+    fn sizes(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
         self.sizes_of(y, rate, origin)
     }
 
     #[inline(always)]
-    fn parts(&self, y: &[f64; N], change: &[f64; N]) -> Squares<N> {
-        self.parts_of(y, change)
+    fn parts(&self, t: f64, y: &[f64; N], change: &[f64; N]) -> Squares {
+        self.parts_of(t, y, change)
     }
 
     #[inline(always)]
-    fn roundings(&self, y: &[f64; N], h: f64) -> Squares<N> {
+    fn roundings(&self, y: &[f64; N], h: f64) -> Squares {
         self.roundings_of(y, h)
     }
 }

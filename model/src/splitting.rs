@@ -116,7 +116,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
         !self.frame.has_events()
     }
 
-    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
+    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
         let mut squares = self.roundings(y, h);
         // A drift turns the rotor anew, and directions and angles are known to so many radians: an asymmetric body goes about K by an
         // azimuth of up to half a turn, and back.
@@ -127,13 +127,17 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
     }
 
     /// Across K, where the nutation is not resolved, a change is a turn of K, which the axis follows: it counts beside γ.
-    fn parts_of_ends(&self, y: &[f64; N], apart: &[f64; N], h: f64) -> Squares<N> {
-        let (mut parts, at) = (self.parts(y, apart), Coordinates::from_slice(rigid(y)));
+    fn parts_of_ends(&self, t: f64, y: &[f64; N], apart: &[f64; N], h: f64) -> Squares {
+        let (mut parts, at) = (self.parts_of_motion(y, apart), Coordinates::from_slice(rigid(y)));
+        let mut by = Coordinates::from_slice(rigid(apart));
         if self.spreads(&at, h) {
             let [across, gamma] = [groups::ACROSS, groups::GAMMA].map(|group| own(N) + group);
             parts[gamma] += parts[across] / at.k.norm_squared();
             parts[across] = 0.0;
+            // Nor are dampers told how fast the axis goes round.
+            by.k.fill(0.0);
         }
+        self.part_loads(t, y, &by, &mut parts);
         parts
     }
 

@@ -9,6 +9,7 @@
 mod inputs;
 pub mod known;
 mod laws;
+mod outputs;
 mod rub;
 mod run;
 mod settings;
@@ -16,6 +17,7 @@ mod switches;
 mod tabled;
 
 pub use inputs::Input;
+pub use outputs::Beside;
 pub use run::{Pace, Run, Shown};
 
 use nalgebra::{Vector2, Vector3};

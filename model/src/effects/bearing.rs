@@ -1,7 +1,7 @@
 //! `bearing`: linear springs and dampers at a station, with cross coupling; against the speed where a table is given.
 
 use super::table::Table;
-use super::{Act, Effect, Motion, Row, Wrench};
+use super::{Act, Change, Effect, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{
@@ -288,6 +288,20 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
     const INDICATORS: usize = (NODES > 0) as usize;
 
     const ANALYTIC: bool = NODES == 0;
+
+    const LOADS: usize = 1;
+
+    #[inline(always)]
+    fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
+        let (q, rate) = (change.station(self.position), change.station_velocity(self.position));
+        let mut force = self.springs(q) + self.dampers(rate);
+        if NODES > 0
+            && let Some(table) = self.table.at(at.speed.abs())
+        {
+            force += times(0.0, matrix(&table[..4]), q) + times(0.0, matrix(&table[4..]), rate);
+        }
+        [force.norm_squared(), 0.0]
+    }
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {

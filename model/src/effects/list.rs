@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Effect, InputSet, MOST_OWN, Motion, SWITCH, Wrench};
+use super::{Act, Change, Effect, InputSet, MOST_OWN, Motion, Pose, SWITCH, Wrench};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
@@ -32,6 +32,8 @@ pub struct Facts {
     pub count: usize,
     /// How many states they have of their own.
     pub own: usize,
+    /// How many of their outputs are loads whose errors count.
+    pub loads: usize,
     /// How many indicators of events they have.
     pub indicators: usize,
     /// Whether any of them has a switch.
@@ -68,6 +70,10 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
 
     /// Their indicators, in their order, which those that are switched off leave as they are.
     fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]);
+
+    /// By how much their loads change with a small change of the motion, squared, or with `SIZES` how large they are after an excursion;
+    /// those of effects that are switched off are left as they are.
+    fn loads<const SIZES: bool>(&self, at: &Pose, change: &Change, squares: &mut [f64]);
 
     /// The ω_φ that one of them imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²].
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
@@ -304,6 +310,7 @@ impl Effects for () {
     const FACTS: Facts = Facts {
         count: 0,
         own: 0,
+        loads: 0,
         indicators: 0,
         switched: false,
         could_work: false,
@@ -330,6 +337,9 @@ impl Effects for () {
 
     #[inline(always)]
     fn indicators(&self, _motion: &Kinematics<f64>, _own: &[f64], _all: &mut [f64]) {}
+
+    #[inline(always)]
+    fn loads<const SIZES: bool>(&self, _at: &Pose, _change: &Change, _squares: &mut [f64]) {}
 
     #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
@@ -372,6 +382,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         Facts {
             count: 1 + rest.count,
             own: H::Effect::OWN + rest.own,
+            loads: H::Effect::LOADS + rest.loads,
             indicators: H::Effect::INDICATORS + rest.indicators,
             switched: H::SWITCHED || rest.switched,
             could_work: H::Effect::COULD_WORK || rest.could_work,
@@ -432,6 +443,18 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             (0..).zip(to).for_each(|(n, to)| *to = effect.indicator(n, &seen));
         }
         self.1.indicators(motion, others, other_indicators);
+    }
+
+    #[inline(always)]
+    fn loads<const SIZES: bool>(&self, at: &Pose, change: &Change, squares: &mut [f64]) {
+        let (to, others) = squares.split_at_mut(H::Effect::LOADS);
+        if H::Effect::LOADS > 0
+            && let Some(effect) = self.0.active()
+        {
+            let loads = if SIZES { effect.load_sizes(at, change) } else { effect.load_changes(at, change) };
+            to.copy_from_slice(&loads[..H::Effect::LOADS]);
+        }
+        self.1.loads::<SIZES>(at, change, others);
     }
 
     #[inline(always)]

@@ -1,11 +1,11 @@
 //! `rub`: contact of a station with a ring around it, with Coulomb friction.
 
-use super::{Act, Effect, Motion, Row, Wrench};
+use super::{Act, Change, Effect, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE};
 use crate::variable::{Bound, output, parameter};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 /// A ring on the stator line, which the shaft touches where it is as far off the line as the gap.
 #[derive(Clone, Debug, Default)]
@@ -74,6 +74,14 @@ impl Rub {
         depth * S::constant(self.stiffness) + rate * S::constant(self.damping)
     }
 
+    /// How far the station is off the stator line \[m] while the ring presses on it, else 0, and which way \[1].
+    #[inline(always)]
+    fn pressed(&self, at: &Pose) -> (f64, Vector2<f64>) {
+        let q = at.station(self.position).yz();
+        let distance = q.norm_squared().max(self.least_square()).sqrt();
+        (if self.branch[0] > 0.0 { distance } else { 0.0 }, q * (1.0 / distance))
+    }
+
     #[inline(always)]
     fn contact<S: Scalar>(&self, motion: &Motion<S>) -> Contact<S> {
         let (outward, depth, rate) = self.approach(motion);
@@ -124,6 +132,24 @@ impl Effect for Rub {
 
     // It touches, or it does not.
     const ANALYTIC: bool = false;
+
+    const LOADS: usize = 1;
+
+    #[inline(always)]
+    fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
+        let (distance, outward) = self.pressed(at);
+        let [depth, rate] = [change.station(self.position), change.station_velocity(self.position)].map(|v| outward.dot(&v.yz()));
+        let normal = self.pressure(depth, rate);
+        [if distance > 0.0 { normal * normal } else { 0.0 }, 0.0]
+    }
+
+    #[inline(always)]
+    fn load_sizes(&self, at: &Pose, excursion: &Change) -> [f64; MOST_LOADS] {
+        let (distance, outward) = self.pressed(at);
+        let rate = outward.dot(&excursion.station_velocity(self.position).yz());
+        let normal = self.pressure(distance - self.gap, rate);
+        [if distance > 0.0 { normal * normal } else { 0.0 }, 0.0]
+    }
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {

@@ -1,6 +1,6 @@
 //! `support`: the paper's spring block at the rod's end a, with damping of our own.
 
-use super::{Act, Effect, Motion, Row, Wrench};
+use super::{Act, Change, Effect, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::scalar::Scalar;
 use crate::variable::units::{
     NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
@@ -64,6 +64,15 @@ impl Effect for Support {
         output!("M.y", &NEWTON_METRE, "moment against tilt on the rotor about y", |s, m| s.moment(m).y),
         output!("M.z", &NEWTON_METRE, "moment against tilt on the rotor about z", |s, m| s.moment(m).z),
     ];
+
+    const LOADS: usize = 2;
+
+    #[inline(always)]
+    fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
+        let force = change.station(-at.l) * self.c1 + change.station_velocity(-at.l) * self.d1;
+        let moment = change.axis * self.c2 + change.axis_rate * self.d2;
+        [force.norm_squared(), moment.norm_squared()]
+    }
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {

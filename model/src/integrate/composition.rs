@@ -9,7 +9,7 @@ pub use coefficients::{BLANES_AND_MOAN, KAHAN, SOFRONIOU, STRANG, SUZUKI};
 
 use super::answer::Answer;
 use super::power::power;
-use super::sizes::{Sizes, Squares, larger_of, largest_square, noise};
+use super::sizes::{MOST_GROUPS, Sizes, Squares, larger_of, largest_square, noise};
 use super::{Cost, Fault, LEAST_FIRST, Refusal, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::{Damaged, Stored, Walk, choice, stored};
@@ -55,13 +55,13 @@ pub trait Splitting<const N: usize>: System<N> {
     }
 
     /// [`System::roundings`] of one part of a step of size `h` \[s] from `y`.
-    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares<N> {
+    fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
         self.roundings(y, h)
     }
 
-    /// [`System::parts`] of a difference between two ends of a step of size `h` \[s] to `y`.
-    fn parts_of_ends(&self, y: &[f64; N], apart: &[f64; N], _h: f64) -> Squares<N> {
-        self.parts(y, apart)
+    /// [`System::parts`] of a difference between two ends of a step of size `h` \[s] from `y` at time `t` \[s].
+    fn parts_of_ends(&self, t: f64, y: &[f64; N], apart: &[f64; N], _h: f64) -> Squares {
+        self.parts(t, y, apart)
     }
 
     /// How far apart two ends of the same step are.
@@ -131,7 +131,7 @@ const ALL: [&Composition; 4] = [&STRANG, &SUZUKI, &SOFRONIOU, &KAHAN];
 pub struct Composed<const N: usize> {
     composition: &'static Composition,
     /// What its steps must keep; None where every step is exact.
-    tolerance: Option<Tolerance<N>>,
+    tolerance: Option<Tolerance>,
     sizes: Sizes<N>,
     /// No step is longer \[s]: infinite where the size is not given.
     longest: f64,
@@ -146,7 +146,7 @@ pub struct Composed<const N: usize> {
     /// Error of the last that was, over the tolerance of the run \[1].
     estimate: f64,
     /// How far compared steps went, group by group, those of long ago less.
-    reach: Squares<N>,
+    reach: Squares,
     cost: Cost,
     /// The time reached \[s], and the state there.
     t: f64,
@@ -211,7 +211,7 @@ impl<const N: usize> Composed<N> {
             unchecked: 0,
             every: 0,
             estimate: 0.0,
-            reach: [0.0; N],
+            reach: [0.0; MOST_GROUPS],
             cost: Cost::default(),
             t,
             y,
@@ -231,7 +231,7 @@ impl<const N: usize> Composed<N> {
     pub fn start_within(
         composition: &'static Composition,
         longest: Option<f64>,
-        tolerance: Tolerance<N>,
+        tolerance: Tolerance,
         system: &impl System<N>,
         t: f64,
         y: [f64; N],
@@ -242,7 +242,7 @@ impl<const N: usize> Composed<N> {
         let size = longest.unwrap_or_else(|| {
             let rounded = system.roundings(&y, f64::INFINITY);
             let weights = sizes.weights(system, &tolerance, &rounded, &sizes.seen(system, &y, &rate));
-            let speed = largest_square(system, &system.parts(&y, &rate), &weights).sqrt();
+            let speed = largest_square(system, &system.parts(t, &y, &rate), &weights).sqrt();
             // In which some size changes by a hundredth; what is too long is rejected.
             (0.01 / (tolerance.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t))
         });
@@ -405,9 +405,9 @@ impl<const N: usize> Composed<N> {
     /// otherwise. None where that is not asked now.
     fn checked(&mut self, system: &impl Splitting<N>, y: &[f64; N], h: f64) -> Option<f64> {
         let tolerance = self.tolerance?;
-        let (from, way) = (self.y, system.parts(&self.y, &system.apart(y, &self.y)));
+        let (from, way) = (self.y, system.parts(self.t, &self.y, &system.apart(y, &self.y)));
         let farther = |group: usize| way[group] > FARTHER * self.reach[group];
-        if self.unchecked < self.every && system.is_steady() && !(0..N).any(farther) {
+        if self.unchecked < self.every && system.is_steady() && !(0..MOST_GROUPS).any(farther) {
             return None;
         }
         let part = PART * h;
@@ -424,13 +424,13 @@ impl<const N: usize> Composed<N> {
         let noise = noise(&rounded.map(|square| 4.0 * square));
         let rounded = rounded.map(|square| square * SUMS * SUMS);
         let weights = |tolerance| self.sizes.weights(system, tolerance, &rounded, &seen);
-        let speed = largest_square(system, &system.parts(y, &rate), &weights(&tolerance)).sqrt();
+        let speed = largest_square(system, &system.parts(end, y, &rate), &weights(&tolerance)).sqrt();
         // eq. 45: b = min(1, max(0.01, ν h)), since errors of short steps add up as those of long ones do
         let budget = (tolerance.relative * speed * h).clamp(LEAST, 1.0);
         let weights = weights(&tolerance.times(budget));
         // eq. 45
         let apart = system.apart(y, &in_parts);
-        let parts = system.parts_of_ends(&self.y, &apart, h);
+        let parts = system.parts_of_ends(self.t, &self.y, &apart, h);
         let error = largest_square(system, &parts, &weights).sqrt();
         if !error.is_finite() {
             return Some(0.5);

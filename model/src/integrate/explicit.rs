@@ -19,7 +19,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug)]
 pub struct Explicit<const N: usize> {
     tableau: &'static Tableau,
-    tolerance: Tolerance<N>,
+    tolerance: Tolerance,
     sizes: Sizes<N>,
     controller: Controller,
     cost: Cost,
@@ -49,7 +49,7 @@ impl<const N: usize> Explicit<N> {
     /// Starts at time `t` \[s] and state `y`.
     pub fn start(
         tableau: &'static Tableau,
-        tolerance: Tolerance<N>,
+        tolerance: Tolerance,
         system: &impl System<N>,
         t: f64,
         y: [f64; N],
@@ -155,7 +155,7 @@ impl<const N: usize> Explicit<N> {
     }
 
     /// How small the error of a step must be.
-    pub fn tolerance(&self) -> Tolerance<N> {
+    pub fn tolerance(&self) -> Tolerance {
         self.tolerance
     }
 
@@ -243,7 +243,7 @@ impl<const N: usize> Explicit<N> {
         system.rates_of_all(t, y)
     }
 
-    fn accept(&mut self, system: &impl System<N>, end: f64, y: [f64; N], error: f64, seen: &Squares<N>, share: f64) {
+    fn accept(&mut self, system: &impl System<N>, end: f64, y: [f64; N], error: f64, seen: &Squares, share: f64) {
         let segment = &mut self.segment;
         (segment.t, segment.h, segment.y, segment.dense) = (self.t, self.h, self.y, false);
         segment.sizes.copy(system, &self.sizes);
@@ -266,7 +266,7 @@ impl<const N: usize> Explicit<N> {
     fn first_step(&mut self, system: &impl System<N>) -> f64 {
         let (t, y, rate) = (self.t, self.y, self.k[self.tableau.last]);
         let weights = self.weights(system, f64::INFINITY, &self.sizes.seen(system, &y, &rate));
-        let norm = |v: &[f64; N]| largest_square(system, &system.parts(&y, v), &weights).sqrt();
+        let norm = |v: &[f64; N]| largest_square(system, &system.parts(t, &y, v), &weights).sqrt();
         let speed = norm(&rate);
         // In which time some size changes by a hundredth.
         let trial = (0.01 / (self.tolerance.relative * speed)).min(LONGEST_TRIAL);
@@ -280,7 +280,7 @@ impl<const N: usize> Explicit<N> {
 
     /// What each group's error counts in a step of size `h` \[s] that ends where the sizes are `seen`.
     #[inline(always)]
-    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares<N>) -> Squares<N> {
+    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
         self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, h), seen)
     }
 }
@@ -292,5 +292,5 @@ struct Attempt<const N: usize> {
     /// The norm of its error in units of the tolerance \[1], or 0 where it is not asked for.
     error: f64,
     /// The sizes of the motion there.
-    seen: Squares<N>,
+    seen: Squares,
 }

@@ -6,29 +6,32 @@ use super::lanes::{both, nothing, pair, pairs, put, sum};
 use crate::stored::stored;
 use std::ops::Range;
 
+/// A system has at most so many groups.
+pub const MOST_GROUPS: usize = 24;
+
 /// The square of each group's norm, in the square of its unit: the first [`System::GROUPS`] count.
-pub type Squares<const N: usize> = [f64; N];
+pub type Squares = [f64; MOST_GROUPS];
 
 /// How small the error of a step must be.
 #[derive(Clone, Copy, Debug)]
-pub struct Tolerance<const N: usize> {
+pub struct Tolerance {
     /// Relative to the size of each group \[1].
     pub relative: f64,
     /// No error below this counts.
-    pub absolute: Squares<N>,
+    pub absolute: Squares,
     /// What a group counts with at least, where nothing is known of its motion yet.
-    pub nominal: Squares<N>,
+    pub nominal: Squares,
 }
 
-stored!(Tolerance<const N: usize> { relative, absolute, nominal });
+stored!(Tolerance { relative, absolute, nominal });
 
-impl<const N: usize> Default for Tolerance<N> {
+impl Default for Tolerance {
     fn default() -> Self {
-        Self { relative: 0.0, absolute: [0.0; N], nominal: [0.0; N] }
+        Self { relative: 0.0, absolute: [0.0; MOST_GROUPS], nominal: [0.0; MOST_GROUPS] }
     }
 }
 
-impl<const N: usize> Tolerance<N> {
+impl Tolerance {
     /// So many times as loose.
     pub fn times(self, factor: f64) -> Self {
         let absolute = self.absolute.map(|square| square * factor * factor);
@@ -42,9 +45,9 @@ pub struct Sizes<const N: usize> {
     /// The state from which excursions are counted.
     pub origin: [f64; N],
     /// Of late.
-    recent: Squares<N>,
+    recent: Squares,
     /// Ever.
-    largest: Squares<N>,
+    largest: Squares,
 }
 
 stored!(Sizes<const N: usize> { origin, recent, largest });
@@ -60,7 +63,7 @@ const ROUNDING: f64 = 3e-16;
 
 impl<const N: usize> Sizes<N> {
     /// Of a motion that begins at `y`, where its rate is `rate`.
-    pub fn at_start(tolerance: &Tolerance<N>, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Self {
+    pub fn at_start(tolerance: &Tolerance, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Self {
         let largest = larger_of(&tolerance.nominal, &system.sizes(y, rate, y));
         let recent = largest.map(|square| LEAST * LEAST * square);
         let mut sizes = Self { origin: *y, recent, largest };
@@ -70,7 +73,7 @@ impl<const N: usize> Sizes<N> {
 
     /// Nothing yet: a place for what was stored.
     pub fn blank() -> Self {
-        Self { origin: [0.0; N], recent: [0.0; N], largest: [0.0; N] }
+        Self { origin: [0.0; N], recent: [0.0; MOST_GROUPS], largest: [0.0; MOST_GROUPS] }
     }
 
     /// From now on excursions of these components count from 0.
@@ -80,13 +83,13 @@ impl<const N: usize> Sizes<N> {
 
     /// The sizes of the motion at `y`.
     #[inline(always)]
-    pub fn seen(&self, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Squares<N> {
+    pub fn seen(&self, system: &impl System<N>, y: &[f64; N], rate: &[f64; N]) -> Squares {
         system.sizes(y, rate, &self.origin)
     }
 
     /// Goes on to where the motion has the sizes `seen`, over this `share` of a whole step \[1].
     #[inline(always)]
-    pub fn take<F: System<N>>(&mut self, _system: &F, seen: &Squares<N>, share: f64) {
+    pub fn take<F: System<N>>(&mut self, _system: &F, seen: &Squares, share: f64) {
         // eq. 80, KEPT^share to first order
         let kept = 1.0 - (1.0 - KEPT * KEPT) * share;
         for p in 0..pairs(F::GROUPS) {
@@ -115,19 +118,21 @@ impl<const N: usize> Sizes<N> {
     pub fn weights<F: System<N>>(
         &self,
         _system: &F,
-        tolerance: &Tolerance<N>,
-        rounded: &Squares<N>,
-        seen: &Squares<N>,
-    ) -> Squares<N> {
-        let mut weights = [0.0; N];
+        tolerance: &Tolerance,
+        rounded: &Squares,
+        seen: &Squares,
+    ) -> Squares {
+        let mut weights = [0.0; MOST_GROUPS];
         for p in 0..pairs(F::GROUPS) {
             // eq. 22: sc = max(rtol·S, atol·n, ε·R)
             let size = pair(&self.recent, p).max(pair(seen, p)) * both(tolerance.relative * tolerance.relative);
             let rounded = pair(rounded, p) * both(ROUNDING * ROUNDING);
-            put(&mut weights, p, both(1.0) / size.max(pair(&tolerance.absolute, p)).max(rounded));
+            let least = size.max(pair(&tolerance.absolute, p)).max(rounded);
+            // A load that does not act has no size, and no error.
+            put(&mut weights, p, both(1.0) / least.max(both(f64::MIN_POSITIVE)));
         }
         // The last pair may reach beyond the groups.
-        if F::GROUPS < N {
+        if F::GROUPS < MOST_GROUPS {
             weights[F::GROUPS] = 0.0;
         }
         weights
@@ -136,7 +141,7 @@ impl<const N: usize> Sizes<N> {
 
 /// The largest of all groups' errors, whose squares are `parts`, squared \[1]; not a number where one is not.
 #[inline(always)]
-pub fn largest_square<F: System<N>, const N: usize>(_system: &F, parts: &Squares<N>, weights: &Squares<N>) -> f64 {
+pub fn largest_square<F: System<N>, const N: usize>(_system: &F, parts: &Squares, weights: &Squares) -> f64 {
     let (mut most, mut all) = (both(0.0), nothing());
     for p in 0..pairs(F::GROUPS) {
         let weighed = pair(parts, p) * pair(weights, p);
@@ -150,7 +155,7 @@ pub fn largest_square<F: System<N>, const N: usize>(_system: &F, parts: &Squares
 }
 
 /// The squares of what rounding takes from numbers whose squares are `rounded`.
-pub fn noise<const N: usize>(rounded: &Squares<N>) -> Squares<N> {
+pub fn noise(rounded: &Squares) -> Squares {
     rounded.map(|square| square * (ROUNDING * ROUNDING))
 }
 
@@ -159,6 +164,6 @@ fn larger(a: f64, b: f64) -> f64 {
 }
 
 /// The larger of two, group by group.
-pub fn larger_of<const N: usize>(a: &Squares<N>, b: &Squares<N>) -> Squares<N> {
+pub fn larger_of(a: &Squares, b: &Squares) -> Squares {
     std::array::from_fn(|group| larger(a[group], b[group]))
 }

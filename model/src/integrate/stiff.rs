@@ -9,7 +9,7 @@ pub mod spectrum;
 use super::answer::Answer;
 use super::control::Controller;
 use super::power::power;
-use super::sizes::{Sizes, Squares, larger_of, largest_square};
+use super::sizes::{MOST_GROUPS, Sizes, Squares, larger_of, largest_square};
 use super::{Cost, Fault, LEAST_FIRST, SHRUNK, System, Tolerance, end_of_step};
 use crate::scalar::ulp;
 use crate::stored::stored;
@@ -28,12 +28,12 @@ pub trait Differentiable<const N: usize>: System<N> {
 #[derive(Clone, Copy, Debug)]
 pub struct Stiff<const N: usize> {
     /// Of the error estimate, which is of order 3.
-    tolerance: Tolerance<N>,
+    tolerance: Tolerance,
     sizes: Sizes<N>,
     /// Of what Newton's method leaves.
-    newton: Tolerance<N>,
+    newton: Tolerance,
     /// Of a step's own error.
-    local: Tolerance<N>,
+    local: Tolerance,
     controller: Controller,
     cost: Cost,
     /// The time reached \[s], the state there and its rate.
@@ -109,7 +109,7 @@ const FEW_ITERATIONS: u32 = 4;
 
 impl<const N: usize> Stiff<N> {
     /// Starts at time `t` \[s] and state `y`.
-    pub fn start(tolerance: Tolerance<N>, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
+    pub fn start(tolerance: Tolerance, system: &impl System<N>, t: f64, y: [f64; N]) -> Self {
         // The estimate falls with h⁴, the error of a step with h⁶ and that of a run with h⁵: what the first two call c tol^(4/5) and
         // c tol^(6/5), the last one keeps to tol.
         let fifth = power(tolerance.relative, 0.2);
@@ -128,7 +128,7 @@ impl<const N: usize> Stiff<N> {
         method.segment.sizes = method.sizes;
         // In which some size changes by a hundredth; what is too long is rejected.
         let weights = method.weights(system, f64::INFINITY, &method.sizes.seen(system, &y, &method.rate));
-        let speed = largest_square(system, &system.parts(&y, &method.rate), &weights).sqrt();
+        let speed = largest_square(system, &system.parts(t, &y, &method.rate), &weights).sqrt();
         method.h = (0.01 / (within.relative * speed)).min(LONGEST_FIRST).max(LEAST_FIRST * ulp(t));
         method
     }
@@ -340,7 +340,7 @@ impl<const N: usize> Stiff<N> {
         let collocation = Collocation::new(jacobian, self.h, system.depended_on());
         let guess = self.extrapolated();
         let Some(z) = self.solve(system, self.t, self.y, &collocation, guess) else {
-            return Attempt { z: guess, error: f64::NAN, rate: self.rate, seen: [0.0; N] };
+            return Attempt { z: guess, error: f64::NAN, rate: self.rate, seen: [0.0; MOST_GROUPS] };
         };
         let y = self.ended(&z);
         let rate = self.evaluate(system, end, &y);
@@ -360,7 +360,7 @@ impl<const N: usize> Stiff<N> {
     }
 
     /// What each group's error counts in a step of size `h` \[s] that ends where the sizes are `seen`.
-    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares<N>) -> Squares<N> {
+    fn weights(&self, system: &impl System<N>, h: f64, seen: &Squares) -> Squares {
         self.sizes.weights(system, &self.tolerance, &system.roundings(&self.y, h), seen)
     }
 
@@ -403,7 +403,7 @@ impl<const N: usize> Stiff<N> {
             let [from, to] = [y, end].map(|y| system.roundings(&y, collocation.h));
             let rounded = larger_of(&from, &to).map(|square| square * SUMS * SUMS);
             // As large as the motion was of late: a stage that is still wrong may be of any size.
-            let weights = self.sizes.weights(system, &self.newton, &rounded, &[0.0; N]);
+            let weights = self.sizes.weights(system, &self.newton, &rounded, &[0.0; MOST_GROUPS]);
             let change = collocation.newton(&rates, &w);
             for i in 0..STAGES {
                 for n in 0..N {
@@ -411,7 +411,7 @@ impl<const N: usize> Stiff<N> {
                 }
             }
             z = radau::T.map(|row| combined(&row, &w));
-            let squares = change.map(|change| largest_square(system, &system.parts(&y, &change), &weights));
+            let squares = change.map(|change| largest_square(system, &system.parts(t, &y, &change), &weights));
             let now = (squares.iter().sum::<f64>() / STAGES as f64).sqrt();
             // What is left, by the rate at which the changes shrink. That may be the rate of a large part which the Jacobian fits, and
             // hide a small one which it does not: what changed last must be small itself.
@@ -434,11 +434,12 @@ impl<const N: usize> Stiff<N> {
         system: &impl System<N>,
         collocation: &Collocation<N>,
         z: &[[f64; N]; STAGES],
-        seen: &Squares<N>,
+        seen: &Squares,
     ) -> f64 {
         let (y, weights) = (self.y, self.weights(system, self.h, seen));
+        let t = self.t;
         let norm =
-            |error: &[f64; N], weights: &Squares<N>| largest_square(system, &system.parts(&y, error), weights).sqrt();
+            |error: &[f64; N], weights: &Squares| largest_square(system, &system.parts(t, &y, error), weights).sqrt();
         let estimate = combined(&ERROR, z).map(|sum| sum / self.h);
         // eq. 44: (γ/h I − J) err = f(t, y) + Σ e_i z_i/h
         let mut error = collocation.filtered(&std::array::from_fn(|n| self.rate[n] + estimate[n]));
@@ -501,7 +502,7 @@ struct Attempt<const N: usize> {
     error: f64,
     /// The rate of the state at its end, and the sizes of the motion there.
     rate: [f64; N],
-    seen: Squares<N>,
+    seen: Squares,
 }
 
 impl<const N: usize> Segment<N> {

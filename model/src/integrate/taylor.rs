@@ -71,7 +71,7 @@ pub trait Analytic<const N: usize>: System<N> {
     fn state_of(&self, numbers: &[f64; N], rates: &[f64; N]) -> ([f64; N], Seed);
 
     /// The norm of what the term of this power adds to the state [1/s^power], squared, where the groups have these weights.
-    fn term(&self, y: &[f64; N], terms: &Terms<N>, power: usize, weights: &Squares<N>) -> f64;
+    fn term(&self, y: &[f64; N], terms: &Terms<N>, power: usize, weights: &Squares) -> f64;
 }
 
 /// What the products and functions in a series need.
@@ -90,7 +90,7 @@ stored!(Room { rows, levels, horizon });
 /// The method at work: where it stands, its last step as a polynomial, and what it spent.
 #[derive(Clone, Copy, Debug)]
 pub struct Taylor<const N: usize> {
-    tolerance: Tolerance<N>,
+    tolerance: Tolerance,
     sizes: Sizes<N>,
     cost: Cost,
     room: Room,
@@ -168,7 +168,7 @@ const LONGEST_FIRST: f64 = 1.0;
 
 impl<const N: usize> Taylor<N> {
     /// Starts at time `t` \[s] and state `y`.
-    pub fn start(tolerance: Tolerance<N>, system: &impl Analytic<N>, t: f64, y: [f64; N]) -> Self {
+    pub fn start(tolerance: Tolerance, system: &impl Analytic<N>, t: f64, y: [f64; N]) -> Self {
         let mut method = Self { tolerance, t, y, start: t, y_start: y, h: LONGEST_FIRST / GREATEST, ..Self::blank() };
         method.rate = method.evaluate(system, t, &y);
         method.sizes = Sizes::at_start(&tolerance, system, &y, &method.rate);
@@ -262,7 +262,7 @@ impl<const N: usize> Taylor<N> {
     }
 
     /// How small the error of a step must be.
-    pub fn tolerance(&self) -> Tolerance<N> {
+    pub fn tolerance(&self) -> Tolerance {
         self.tolerance
     }
 
@@ -431,7 +431,7 @@ impl<const N: usize> Taylor<N> {
 
 /// Of how many terms a tolerance is reached soonest: measured, and flat. What a step costs beside its terms makes it more than Jorba
 /// and Zou count.
-fn order<const N: usize>(tolerance: &Tolerance<N>) -> usize {
+fn order(tolerance: &Tolerance) -> usize {
     match tolerance.relative {
         loose if loose >= 1e-3 => 14,
         usual if usual >= 1e-9 => 22,

@@ -20,9 +20,13 @@ pub struct Tilt<S: Scalar> {
     quarter: S,
     /// (jc + s²)/4 \[1]
     numerator: S,
-    /// θ/sin θ \[1]
+    /// sin θ/θ and θ/sin θ \[1]
+    sinc: S,
     per_sinc: S,
 }
+
+/// Below this θ² [rad²] the change of sin θ/θ is a short series: it errs by 3e-9 of it.
+const SMALL: f64 = 0.01;
 
 impl<S: Scalar> Tilt<S> {
     /// The tilt of γ = (0, γ_y, γ_z) \[rad] in a chart.
@@ -42,7 +46,7 @@ impl<S: Scalar> Tilt<S> {
         let sign = S::constant(chart.sign());
         let across = sign * sinc;
         let axis = Vector3::new(sign * cos_theta, across * gamma.y, -(across * gamma.x));
-        Self { chart, gamma, axis, theta_squared, quarter, numerator, per_sinc }
+        Self { chart, gamma, axis, theta_squared, quarter, numerator, sinc, per_sinc }
     }
 
     /// The tilt of an axis t \[1] of which nothing else is known.
@@ -50,7 +54,7 @@ impl<S: Scalar> Tilt<S> {
     pub(crate) fn of_axis(chart: Chart, axis: Vector3<S>) -> Self {
         let none = S::constant(f64::NAN);
         let gamma = Vector2::new(none, none);
-        Self { chart, gamma, axis, theta_squared: none, quarter: none, numerator: none, per_sinc: none }
+        Self { chart, gamma, axis, theta_squared: none, quarter: none, numerator: none, sinc: none, per_sinc: none }
     }
 
     /// The tilt of an axis t \[1] that is not where the chart is singular. What nobody asks for is not computed.
@@ -108,6 +112,22 @@ impl<S: Scalar> Tilt<S> {
         let across = self.numerator * omega.yz().dot(&g);
         // eq. 8: dγ/dt = ω_⊥ − (e·ω) g − κ (g·ω) g; the division in κ takes longest, so what it gives is waited for last
         (omega.yz() - g * omega.x) - g * across * self.per_sinc
+    }
+
+    /// By how much the axis t changes where γ in the chart changes by so much \[rad], to first order \[1].
+    #[inline(always)]
+    pub fn axis_change(&self, change: &Vector2<S>) -> Vector3<S> {
+        let sign = S::constant(self.chart.sign());
+        let along = self.gamma.dot(change);
+        // (cos θ − sin θ/θ)/θ², whose terms nearly cancel where θ is small
+        let direct = (sign * self.axis.x - self.sinc) / self.theta_squared;
+        let x = self.theta_squared;
+        let series = x * (x * S::constant(-1.0 / 840.0) + S::constant(1.0 / 30.0)) - S::constant(1.0 / 3.0);
+        let slope = S::constant(SMALL).where_less(x, direct, series);
+        // eq. 121: dt = ±(−e (sin θ/θ) γ·dγ + d((sin θ/θ) γ×e))
+        let (g, g_change) = (self.g(), Vector2::new(change.y, -change.x));
+        let across = g_change * self.sinc + g * (slope * along);
+        Vector3::new(-(self.sinc * along), across.x, across.y) * sign
     }
 
     /// The axial rate ω_φ = dφ/dt [rad/s], φ from e, of a rotor that turns at ω [rad/s]. At t = −e, where it has no

@@ -8,7 +8,7 @@ mod triple;
 use super::{Rotor, groups};
 use crate::coefficient::Coefficient;
 use crate::effects::series::{MOST_POWER, Now, Row, Series};
-use crate::effects::{Effects, Motion};
+use crate::effects::{Change, Effects, Motion};
 use crate::integrate::sizes::{Squares, largest_square};
 use crate::integrate::taylor::{Analytic, Room, Scratch, Seed, Terms};
 use crate::rotation::Tilt;
@@ -296,7 +296,7 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
     }
 
     #[inline(always)]
-    fn term(&self, y: &[f64; N], terms: &Terms<N>, power: usize, weights: &Squares<N>) -> f64 {
+    fn term(&self, y: &[f64; N], terms: &Terms<N>, power: usize, weights: &Squares) -> f64 {
         let own = own(N);
         let first = &terms[0];
         let [of, above] = [power, power + 1].map(|power| &terms[power]);
@@ -316,7 +316,14 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
         if N >= WITH_WORK {
             change[own + SUPPLIED..][..2].copy_from_slice(&of[OWN + own..][..2]);
         }
-        let norm = largest_square(self, &self.parts_of(y, &change), weights);
+        let mut parts = self.parts_of_motion(y, &change);
+        if E::FACTS.loads > 0 {
+            let axis_rate = vector(&above[AXIS..]) * next;
+            let loaded = Change { r_c: coordinates.r, axis, v_c: coordinates.v, axis_rate };
+            let at = Coordinates::from_slice(rigid(y));
+            self.change_loads::<N>(&at, &start, &at.k, &loaded, &mut parts);
+        }
+        let norm = largest_square::<_, N>(self, &parts, weights);
         // φ has no part in the error; but its series has an end of its own, near where its chart is singular.
         let angle = of[ANGLE] * of[ANGLE] * weights[own + groups::PHI];
         if angle > norm { angle } else { norm }

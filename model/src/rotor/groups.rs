@@ -1,10 +1,10 @@
 //! The groups of a motion whose errors count together, and how large each is: r \[m] and v [m/s] along e and across it, K
-//! [kg·m²/s] along K and across it, γ \[rad], φ \[rad], the work supplied and lost \[J].
+//! [kg·m²/s] along K and across it, γ \[rad], φ \[rad], the work supplied and lost \[J]; then the [loads](super::loads) [N], [N·m].
 
 use super::Rotor;
 use crate::effects::Effects;
 use crate::integrate::System;
-use crate::integrate::sizes::Squares;
+use crate::integrate::sizes::{MOST_GROUPS, Squares};
 use crate::rotation::Tilt;
 use crate::state::{COORDINATES, Coordinates, own, rigid, work};
 use nalgebra::Vector3;
@@ -20,8 +20,8 @@ pub const PHI: usize = 7;
 
 /// The own states' squares and those of the rigid motion.
 #[inline(always)]
-pub(crate) fn squares<const N: usize>(y: &[f64; N], rigid: [f64; RIGID]) -> Squares<N> {
-    let mut squares = [0.0; N];
+pub(crate) fn squares<const N: usize>(y: &[f64; N], rigid: [f64; RIGID]) -> Squares {
+    let mut squares = [0.0; MOST_GROUPS];
     for n in 0..own(N) {
         squares[n] = y[n] * y[n];
     }
@@ -42,7 +42,7 @@ impl<E: Effects> Rotor<'_, E> {
     /// What happens along e is second order in what happens across it, and counts beside that. Where the mass centre is off the axis,
     /// r and v go round with it; what c does beside that may be far less, and then φ must be known as well.
     #[inline(always)]
-    pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares<N> {
+    pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
         let [at, rate, origin] = [y, rate, origin].map(|y| Coordinates::from_slice(rigid(y)));
         let (mut way, mut speed, mut phi) = (at.r - origin.r, at.v, 1.0);
         let centre = self.frame.body.asymmetric.map_or_else(Vector3::zeros, |asymmetric| asymmetric.centre);
@@ -61,14 +61,28 @@ impl<E: Effects> Rotor<'_, E> {
         let (k, tilt) = (at.k.norm_squared(), (at.gamma - origin.gamma).norm_squared());
         let per_j = self.frame.body.per_jt + larger(self.frame.body.spin, 0.0);
         // Where a speed is imposed, K lacks what the imposing torque gave: ω_φ has it.
-        let driven = if E::FACTS.imposes && self.effects.imposed(0.0).is_some() { rate.phi * rate.phi / (self.frame.body.per_jt + self.frame.body.spin) } else { 0.0 };
+        let driven = if E::FACTS.imposes && self.effects.imposed(0.0).is_some() {
+            rate.phi * rate.phi / (self.frame.body.per_jt + self.frame.body.spin)
+        } else {
+            0.0
+        };
         let kinetic = 0.5 * (self.frame.body.m * at.v.norm_squared() + k * per_j + driven);
-        squares(y, [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic])
+        let mut squares = squares(y, [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic]);
+        self.size_loads::<N>([&at, &rate, &origin], [way, speed], &mut squares);
+        squares
     }
 
     /// [`System::parts`].
     #[inline(always)]
-    pub(super) fn parts_of<const N: usize>(&self, y: &[f64; N], change: &[f64; N]) -> Squares<N> {
+    pub(super) fn parts_of<const N: usize>(&self, t: f64, y: &[f64; N], change: &[f64; N]) -> Squares {
+        let mut squares = self.parts_of_motion(y, change);
+        self.part_loads(t, y, &Coordinates::from_slice(rigid(change)), &mut squares);
+        squares
+    }
+
+    /// The same, without the loads.
+    #[inline(always)]
+    pub(crate) fn parts_of_motion<const N: usize>(&self, y: &[f64; N], change: &[f64; N]) -> Squares {
         let (k, by) = (Coordinates::from_slice(rigid(y)).k, Coordinates::from_slice(rigid(change)));
         let ([x, r], [vx, v]) = (split(&by.r), split(&by.v));
         let square = k.norm_squared();
@@ -86,7 +100,7 @@ impl<E: Effects> Rotor<'_, E> {
     /// [`System::roundings`]: a velocity is known no better than the place over the step allows,
     /// a tilt no better than the way of the step.
     #[inline(always)]
-    pub(super) fn roundings_of<const N: usize>(&self, y: &[f64; N], h: f64) -> Squares<N> {
+    pub(super) fn roundings_of<const N: usize>(&self, y: &[f64; N], h: f64) -> Squares {
         let at = Coordinates::from_slice(rigid(y));
         let ([x, r], [vx, v], k) = (split(&at.r), split(&at.v), at.k.norm_squared());
         let (per_h, jt, gamma) = (1.0 / (h * h), 1.0 / self.frame.body.per_jt, at.gamma.norm_squared());
@@ -97,7 +111,11 @@ impl<E: Effects> Rotor<'_, E> {
         let tilt = gamma + v * (h * h * self.frame.body.m * self.frame.body.per_jt);
         let [supplied, dissipated] = work(y);
         let work = supplied * supplied + dissipated * dissipated;
-        squares(y, [x, r, vx + x * per_h, v + q * per_h, turning, turning, tilt, at.phi * at.phi, work])
+        let velocity = v + q * per_h;
+        let mut squares = squares(y, [x, r, vx + x * per_h, velocity, turning, turning, tilt, at.phi * at.phi, work]);
+        let loaded = [x + r, vx + velocity, tilt, turning * self.frame.body.per_jt * self.frame.body.per_jt];
+        self.round_loads::<N>(&at, loaded.map(f64::sqrt), &mut squares);
+        squares
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Integration<const N: usize> {
     auto: Option<Auto>,
     /// Where it goes by series as often as the motion has one.
     series: Option<BySeries>,
-    tolerance: Tolerance<N>,
+    tolerance: Tolerance,
     /// So many evaluations a communication step may take.
     most: f64,
     last: LastStep,

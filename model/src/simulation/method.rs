@@ -42,7 +42,7 @@ macro_rules! each {
 
 impl<const N: usize> Method<N> {
     /// The method of the plan, at time `t` \[s] and state `y`.
-    pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) -> Self {
+    pub fn start<E: Effects>(plan: Plan, tolerance: Tolerance, rotor: &Rotor<'_, E>, t: f64, y: [f64; N]) -> Self {
         match plan {
             Plan::Explicit(tableau) => OfPair(Explicit::start(tableau, tolerance, rotor, t, y)),
             Plan::Composed(composition, longest) => {
@@ -58,7 +58,7 @@ impl<const N: usize> Method<N> {
 
     /// Looks whether `stiff` would now do better than what goes by explicit steps up to time `stop` \[s], or these again, and goes on
     /// with it. The last step can then no more be read.
-    pub fn adapt<E: Effects>(&mut self, auto: &mut Auto, tolerance: Tolerance<N>, rotor: &Rotor<'_, E>, stop: f64) {
+    pub fn adapt<E: Effects>(&mut self, auto: &mut Auto, tolerance: Tolerance, rotor: &Rotor<'_, E>, stop: f64) {
         let (t, y, size) = (self.time(), *self.state(), System::<N>::depended_on(rotor));
         let jacobian = rotor.jacobian(t, &y);
         let cost = self.cost();

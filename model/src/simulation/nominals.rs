@@ -4,7 +4,7 @@
 use super::start::Motion;
 use crate::effects::Effects;
 use crate::integrate::System;
-use crate::integrate::sizes::Squares;
+use crate::integrate::sizes::{MOST_GROUPS, Squares};
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::groups::squares;
 use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
@@ -24,6 +24,8 @@ pub struct Nominals<const N: usize> {
     pub work: f64,
     /// Of the own states, which come first.
     pub own: [f64; N],
+    /// Of the loads, squared, where they stand among the groups.
+    loads: Squares,
 }
 
 /// Of its radius of gyration a rotor moves so much where nothing else is known \[1].
@@ -65,6 +67,8 @@ impl<const N: usize> Nominals<N> {
         let place = if least.is_finite() { larger(least, unknown) } else { unknown };
         let tilt = place / radius;
         let velocity = rate * place;
+        let mut loads = [0.0; MOST_GROUPS];
+        rotor.round_loads::<N>(&at, [place, velocity, tilt, rate * tilt], &mut loads);
         Self {
             place,
             velocity,
@@ -72,14 +76,17 @@ impl<const N: usize> Nominals<N> {
             tilt,
             work: body.m * velocity * velocity,
             own: *own_nominal,
+            loads,
         }
     }
 
     /// In the groups of [`crate::rotor::groups`], squared.
-    pub(super) fn squares(&self) -> Squares<N> {
+    pub(super) fn squares(&self) -> Squares {
         let Self { place, velocity, momentum, tilt, work, .. } = *self;
         let groups = [place, place, velocity, velocity, momentum, momentum, tilt, 1.0, work];
-        squares(&self.own, groups.map(|size| size * size))
+        let rigid = squares(&self.own, groups.map(|size| size * size));
+        // Neither has any where the other has.
+        std::array::from_fn(|group| rigid[group] + self.loads[group])
     }
 
     /// Of each number of the state.

@@ -117,7 +117,7 @@ pub(super) fn tolerance<E: Effects, const N: usize>(
     motion: &Motion<N>,
     t: f64,
     span: f64,
-) -> Tolerance<N> {
+) -> Tolerance {
     let Solver { relative_tolerance: relative, absolute_tolerance, .. } = setup.solver;
     let part = |of: f64, span: f64| Nominals::of(effects, motion, t, span).squares().map(|square| of * of * square);
     Tolerance { relative, absolute: part(absolute_tolerance, f64::INFINITY), nominal: part(BESIDE, span) }

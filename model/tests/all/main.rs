@@ -29,6 +29,7 @@ mod imposed_speed;
 mod invariants;
 mod ledger;
 mod linear;
+mod loads;
 mod machines;
 mod motion;
 mod motor;

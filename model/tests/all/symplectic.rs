@@ -9,7 +9,7 @@ use split_rotor_model::energy::Ledger;
 use split_rotor_model::integrate::System;
 use split_rotor_model::integrate::composition::{Composed, Composition, Splitting};
 use split_rotor_model::integrate::explicit::Explicit;
-use split_rotor_model::integrate::sizes::{Sizes, largest_square};
+use split_rotor_model::integrate::sizes::{MOST_GROUPS, Sizes, largest_square};
 use split_rotor_model::rotation::chart::crossed_exactly;
 use split_rotor_model::rotation::{Angle, Chart, Tilt};
 use split_rotor_model::rotor::Rotor;
@@ -364,9 +364,9 @@ fn an_error_estimate_is_honest() {
             let end = *method.state();
             let [first, last] = [y, end].map(|y| rotor.rates_of_all(0.0, &y));
             let sizes = Sizes::at_start(&free, &rotor, &y, &first);
-            let weights = sizes.weights(&rotor, &free, &[0.0; 12], &sizes.seen(&rotor, &end, &last));
+            let weights = sizes.weights(&rotor, &free, &[0.0; MOST_GROUPS], &sizes.seen(&rotor, &end, &last));
             let apart = rotor.apart(&end, exact.state());
-            let error = largest_square(&rotor, &rotor.parts_of_ends(&y, &apart, h), &weights).sqrt();
+            let error = largest_square::<_, 12>(&rotor, &rotor.parts_of_ends(0.0, &y, &apart, h), &weights).sqrt();
             if error > ROUNDED {
                 ratios.push(error / method.cost().error_estimate);
             }

@@ -25,28 +25,30 @@ pub(super) mod at {
 
 /// A spring and damper at a station.
 #[derive(Clone, Copy, Debug)]
-struct Spring {
-    p: f64,
+pub(super) struct Spring {
+    pub p: f64,
     /// Where its axial spring is at rest \[m].
-    x: f64,
-    axial: [f64; 2],
-    k: [[f64; 2]; 2],
-    c: [[f64; 2]; 2],
+    pub x: f64,
+    pub axial: [f64; 2],
+    pub k: [[f64; 2]; 2],
+    pub c: [[f64; 2]; 2],
 }
 
 /// The laws with all that is constant worked out.
 #[derive(Clone, Debug)]
 pub struct Laws {
-    mass: f64,
-    gravity: Vector3<f64>,
+    pub(super) mass: f64,
+    pub(super) gravity: Vector3<f64>,
     /// From c to G, inertia about G and its inverse, in body axes; whether these turn with ψ.
     centre: Vector3<f64>,
     inertia: Matrix3<f64>,
     inverse: Matrix3<f64>,
     asymmetric: bool,
-    springs: Vec<Spring>,
+    pub(super) springs: Vec<Spring>,
     /// Against tilt: stiffness [N·m/rad], damping [N·m·s/rad].
-    tilt: [f64; 2],
+    pub(super) tilt: [f64; 2],
+    /// What rounding leaves of the rates of v [m/s²] and K [N·m]: a support knows how far it gives way to the last digit of l.
+    pub(super) rounding: [f64; 2],
     rotating_damping: Option<[f64; 2]>,
     drag: Option<[f64; 2]>,
     ports: Vec<f64>,
@@ -86,7 +88,7 @@ impl Motion {
     }
 }
 
-fn vector(y: &[f64], n: usize) -> Vector3<f64> {
+pub(super) fn vector(y: &[f64], n: usize) -> Vector3<f64> {
     Vector3::new(y[n], y[n + 1], y[n + 2])
 }
 
@@ -125,6 +127,7 @@ impl Laws {
             asymmetric: !machine.unbalances.is_empty() || machine.Jt2.is_some(),
             springs: Vec::new(),
             tilt: [0.0; 2],
+            rounding: [0.0; 2],
             rotating_damping: machine.rotating_damping,
             drag: machine.drag,
             ports: machine.ports.clone(),
@@ -144,8 +147,15 @@ impl Laws {
             let round = |s: f64| [[s, 0.0], [0.0, s]];
             laws.springs.push(Spring { p: -machine.l, x: 0.0, axial: [c[0], d[0]], k: round(c[0]), c: round(d[0]) });
             laws.tilt = [laws.tilt[0] + c[1], laws.tilt[1] + d[1]];
+            let force = 16.0 * f64::EPSILON * c[0] * machine.l;
+            laws.rounding = [force / mass, force * machine.l];
         }
         laws
+    }
+
+    /// The same machine, whose speed nothing imposes.
+    pub(super) fn unimposed(&self) -> Self {
+        Self { imposes: false, ..self.clone() }
     }
 
     /// Where ports are along t \[m].
@@ -201,12 +211,20 @@ impl Laws {
     }
 
     /// The torque of a motor [N·m] and its rate [N·m/s], where so much is in the state.
-    fn motor(&self, t: f64, motion: &Motion, inputs: &Inputs, torque: f64) -> [f64; 2] {
+    pub(super) fn motor(&self, t: f64, motion: &Motion, inputs: &Inputs, torque: f64) -> [f64; 2] {
         let steady = self.characteristic(t, motion, inputs);
         match self.motor {
             Some(Motor { time_constant, .. }) if time_constant > 0.0 => [torque, (steady - torque) / time_constant],
             _ => [steady, 0.0],
         }
+    }
+
+    /// Force on the rotor of the spring and damper of this number.
+    pub(super) fn spring_force(&self, n: usize, motion: &Motion) -> Vector3<f64> {
+        let Spring { p, x, axial, k, c } = &self.springs[n];
+        let [r, v] = motion.station(*p);
+        let ([ky, kz], [cy, cz]) = (across(k, &r), across(c, &v));
+        -Vector3::new(axial[0] * (r.x - x) + axial[1] * v.x, ky + cy, kz + cz)
     }
 
     /// Force on the rotor and moment about c, all but gravity, a motor and what imposes a speed.
@@ -217,10 +235,8 @@ impl Laws {
             force += f;
             moment += axis.cross(&f) * p;
         };
-        for Spring { p, x, axial, k, c } in &self.springs {
-            let [r, v] = motion.station(*p);
-            let ([ky, kz], [cy, cz]) = (across(k, &r), across(c, &v));
-            push(*p, -Vector3::new(axial[0] * (r.x - x) + axial[1] * v.x, ky + cy, kz + cz));
+        for n in 0..self.springs.len() {
+            push(self.springs[n].p, self.spring_force(n, motion));
         }
         for (n, p) in self.ports.iter().enumerate() {
             push(*p, inputs.port(n, t)[0]);

@@ -38,11 +38,11 @@ pub enum Pace {
 /// A run under way.
 #[derive(Clone, Debug)]
 pub struct Run {
-    laws: Laws,
-    inputs: Inputs,
+    pub(super) laws: Laws,
+    pub(super) inputs: Inputs,
     pace: Pace,
-    t: f64,
-    y: State,
+    pub(super) t: f64,
+    pub(super) y: State,
     /// What rounding has left out of y.
     rest: State,
     start: State,
@@ -160,7 +160,8 @@ impl Run {
             let h = laws.within_sliding(y, &first, h);
             let (mut accepted, mut best) = (None, (f64::INFINITY, 0.1 * h, 0));
             let gained = change(&mut rates, *t, y, &first, h, |column, gained, difference| {
-                let error = error(y, sizes, &first.map(|rate| h * rate), gained, difference, tolerance);
+                let rounding = laws.rounding.map(|rounding| h * rounding);
+                let error = error(y, sizes, (&first.map(|rate| h * rate), rounding), gained, difference, tolerance);
                 if column < 3 {
                     return false;
                 }
@@ -249,12 +250,24 @@ fn together(way: &State) -> State {
 }
 
 /// The largest difference over what is tolerated: part of how far the motion went, with this step, and what rounding leaves.
-fn error(y: &State, sizes: &State, slope: &State, gained: &State, difference: &State, tolerance: f64) -> f64 {
+fn error(
+    y: &State,
+    sizes: &State,
+    (slope, [of_v, of_k]): (&State, [f64; 2]),
+    gained: &State,
+    difference: &State,
+    tolerance: f64,
+) -> f64 {
     let (with, at_first) = (together(gained), together(slope));
     let mut most = 0.0_f64;
     for n in 0..SIZE {
         let size = sizes[n].max(with[n]);
-        let rounding = ROUNDING[0] * at_first[n].max(with[n]) + ROUNDING[1] * y[n].abs();
+        let of_rates = match n {
+            at::V..at::K => of_v,
+            at::K..at::P => of_k,
+            _ => 0.0,
+        };
+        let rounding = ROUNDING[0] * at_first[n].max(with[n]) + ROUNDING[1] * y[n].abs() + of_rates;
         let ratio = difference[n].abs() / (tolerance * size + rounding);
         // 0/0: nothing moves.
         if difference[n] != 0.0 {

@@ -3,7 +3,7 @@
 use super::Explicit;
 use crate::integrate::System;
 use crate::integrate::segment::Segment;
-use crate::integrate::sizes::largest_square;
+use crate::integrate::sizes::{MOST_GROUPS, largest_square};
 use crate::integrate::tableau::{Dop853, Dopri5, Pair};
 
 /// A step whose polynomial ends in a term of so many tolerances is of no use between its ends: one that spans many turns of a
@@ -66,11 +66,11 @@ impl<const N: usize> Explicit<N> {
 
     /// The last term of the polynomial in the middle of the step, in units of the tolerance \[1].
     fn roughness(&self, system: &impl System<N>) -> f64 {
-        let Segment { h, y, r, .. } = &self.segment;
+        let Segment { t, h, y, r, .. } = &self.segment;
         let terms = self.terms();
-        let weights = self.sizes.weights(system, &self.tolerance, &system.roundings(y, *h), &[0.0; N]);
+        let weights = self.sizes.weights(system, &self.tolerance, &system.roundings(y, *h), &[0.0; MOST_GROUPS]);
         // eq. 24: σ and 1 − σ are 1/2 in each of its factors
-        largest_square(system, &system.parts(y, &r[terms - 1]), &weights).sqrt() / f64::from(1_u32 << terms)
+        largest_square(system, &system.parts(*t, y, &r[terms - 1]), &weights).sqrt() / f64::from(1_u32 << terms)
     }
 
     /// How many terms the polynomial of eq. 24 has after y.

@@ -3,7 +3,7 @@
 use super::{Attempt, Explicit};
 use crate::integrate::System;
 use crate::integrate::lanes::{both, nothing, pair, pairs, put};
-use crate::integrate::sizes::{Squares, largest_square};
+use crate::integrate::sizes::{MOST_GROUPS, Squares, largest_square};
 use crate::integrate::tableau::{Combination, Dop853, Dopri5, ErrorRule, Pair, Stage};
 
 impl<const N: usize> Explicit<N> {
@@ -134,32 +134,30 @@ impl<const N: usize> Explicit<N> {
 
     /// The norm of the error of a step that ends where the sizes are `seen`, in units of the tolerance \[1].
     #[inline(always)]
-    fn error_norm<P: Pair, F: System<N>, const ALL: bool>(&self, system: &F, seen: &Squares<N>) -> f64 {
+    fn error_norm<P: Pair, F: System<N>, const ALL: bool>(&self, system: &F, seen: &Squares) -> f64 {
         // Laws as stiff as the longest step of late allows round a shorter one by less.
         let weights = self.weights(system, self.h.max(self.longest), seen);
         let parts = match const { &P::TABLEAU.error } {
             ErrorRule::Single(e) => self.error_parts::<F, ALL>(system, e),
-            ErrorRule::Blend { fine, coarse } => blended(
-                system,
-                self.error_parts::<F, ALL>(system, fine),
-                self.error_parts::<F, ALL>(system, coarse),
-            ),
+            ErrorRule::Blend { fine, coarse } => {
+                blended(system, self.error_parts::<F, ALL>(system, fine), self.error_parts::<F, ALL>(system, coarse))
+            }
         };
         self.h * P::TABLEAU.calibration * largest_square(system, &parts, &weights).sqrt()
     }
 
     /// The parts of Σ e_j k_j, squared. Inlined, so that these sums are written out too.
     #[inline(always)]
-    fn error_parts<F: System<N>, const ALL: bool>(&self, system: &F, e: Combination) -> Squares<N> {
-        system.parts(&self.y, &self.combined::<F, ALL>(e))
+    fn error_parts<F: System<N>, const ALL: bool>(&self, system: &F, e: Combination) -> Squares {
+        system.parts(self.t, &self.y, &self.combined::<F, ALL>(e))
     }
 }
 
 /// f⁴/(f² + 0.01 c²), of a fine estimate f and a coarse one c, group by group: a group whose motion is a polynomial has no fine
 /// estimate, and says nothing of the others.
 #[inline(always)]
-fn blended<F: System<N>, const N: usize>(_system: &F, fine: Squares<N>, coarse: Squares<N>) -> Squares<N> {
-    let mut blended = [0.0; N];
+fn blended<F: System<N>, const N: usize>(_system: &F, fine: Squares, coarse: Squares) -> Squares {
+    let mut blended = [0.0; MOST_GROUPS];
     for p in 0..pairs(F::GROUPS) {
         let (fine, coarse) = (pair(&fine, p), pair(&coarse, p));
         // Where both are 0, so is the error.

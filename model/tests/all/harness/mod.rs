@@ -16,6 +16,7 @@ use split_rotor_model::effects::drive::Drive;
 use split_rotor_model::effects::gravity::Gravity;
 use split_rotor_model::effects::support::Support;
 use split_rotor_model::effects::{Called, Effects, Entry, named};
+use split_rotor_model::integrate::sizes::MOST_GROUPS;
 use split_rotor_model::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use split_rotor_model::integrate::{Tolerance, explicit::Explicit};
 use split_rotor_model::rotation::Chart;
@@ -192,8 +193,8 @@ pub fn kept<E>(effects: E) -> &'static E {
 }
 
 /// This relative tolerance [1], of a motion that is of size 1 in each group.
-pub fn tolerance<const N: usize>(relative: f64) -> Tolerance<N> {
-    Tolerance { relative, absolute: [0.0; N], nominal: [1.0; N] }
+pub fn tolerance(relative: f64) -> Tolerance {
+    Tolerance { relative, absolute: [0.0; MOST_GROUPS], nominal: [1.0; MOST_GROUPS] }
 }
 
 /// What the simulation shows at time `t` [s].

@@ -4,6 +4,7 @@ use super::dice::Dice;
 use super::trial::{Partner, Trial};
 use nalgebra::{Vector2, Vector3};
 use oracles::machine::{Bearing, Machine, Start, Support, Unbalance};
+use oracles::rotation;
 use std::f64::consts::{PI, TAU};
 
 /// What holds a rotor.
@@ -22,6 +23,9 @@ const ALONE: u64 = 13;
 /// From this number on scenes draw the effects of [`newer`](super::newer) as well.
 const NEWER: u64 = 200;
 
+/// From this number on two of five are rotors that are run up without a jerk, and tops on stiff pivots.
+const RARE: u64 = 240;
+
 /// What a draw goes by: sizes of the rotor and of its motion.
 pub(super) struct Draw {
     pub(super) dice: Dice,
@@ -33,6 +37,8 @@ pub(super) struct Draw {
     /// Its spin at the start, and what a torque or a brake adds to it [rad/s].
     pub(super) spin: f64,
     pub(super) gain: f64,
+    /// Whether an imposed speed rises from rest with a rate that rises and falls.
+    pub(super) smooth: bool,
 }
 
 /// The scene of this number of a seed; `attempt` counts those before it that were not fit.
@@ -42,6 +48,8 @@ pub fn draw(seed: u64, number: u64, attempt: u64) -> Trial {
     match number {
         ..ALONE => draw.alone(number),
         ALONE..NEWER => draw.set(),
+        RARE.. if number.is_multiple_of(5) => draw.smooth_run_up(),
+        RARE.. if number % 5 == 1 => draw.stiff_pivot(),
         _ => draw.newer(number - NEWER),
     }
     draw.timed()
@@ -57,7 +65,7 @@ impl Draw {
         let axial = if thin { 2.0 } else { dice.decades(0.02, 2.0) };
         let machine = Machine { m, Ja: axial * transverse, Jt: transverse, ..Machine::default() };
         let trial = Trial::new("", machine, vec![1.0]);
-        Self { dice, trial, radius, rate: 0.0, spin: 0.0, gain: 0.0 }
+        Self { dice, trial, radius, rate: 0.0, spin: 0.0, gain: 0.0, smooth: false }
     }
 
     /// One effect by itself, on a rotor that nothing holds unless the effect does.
@@ -291,6 +299,37 @@ impl Draw {
     fn imposed_speed(&mut self) {
         self.trial.machine.imposed_speed = true;
         self.called("imposed speed");
+    }
+
+    /// An unbalanced rotor in bearings, from rest to up to three times its critical speed.
+    fn smooth_run_up(&mut self) {
+        self.speeds(0.0);
+        let count = 1 + self.dice.below(2);
+        self.bearings(count);
+        self.unbalances();
+        self.imposed_speed();
+        (self.spin, self.smooth) = (0.0, true);
+        self.gain = self.rate * self.dice.decades(0.1, 3.0) * self.dice.sign();
+        self.trial.machine.start = Start::default();
+    }
+
+    /// A top whose pivot is far stiffer than what it does.
+    fn stiff_pivot(&mut self) {
+        self.speeds(0.0);
+        self.spin = self.spin.abs().max(self.rate);
+        let dice = &mut self.dice;
+        let (l, tilt) = (self.radius * dice.within(0.5, 3.0), dice.across() * dice.within(0.05, 1.2));
+        let rate = (9.81 / self.radius).sqrt() * dice.decades(10.0, 1e3);
+        let gamma = Vector2::new(tilt.y, tilt.z);
+        let axis = rotation::axis(&gamma);
+        let machine = &mut self.trial.machine;
+        machine.l = l;
+        machine.support = Some(Support { c: [machine.m * rate * rate, 0.0], d: [0.0; 2] });
+        machine.gravity = Some(Vector3::x() * -9.81);
+        // Half as far as it gives way to the weight.
+        let r_c = axis * l - Vector3::x() * (0.5 * 9.81 / (rate * rate));
+        machine.start = Start { r_c, gamma, omega: axis * self.spin, ..Start::default() };
+        self.called("top on a stiff pivot");
     }
 
     fn ports(&mut self, count: usize) {

@@ -1,7 +1,7 @@
 //! Scenes that are always among them: those of which it is known that they went wrong.
 
 use super::trial::{Change, Partner, Trial};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use oracles::machine::known::{drifting, ordinary};
 use oracles::machine::{Bearing, Input, Machine, Start, Support, Unbalance};
 
@@ -17,6 +17,48 @@ fn points(end: f64, count: u32) -> Vec<f64> {
 fn oil(position: f64, k: f64, c: f64) -> Bearing {
     let [k, c] = [k, c].map(|of| [[of, 0.1 * of], [-0.2 * of, 0.7 * of]]);
     Bearing { position, k, c, ..Bearing::default() }
+}
+
+/// A finely balanced rotor.
+fn run_up() -> Machine {
+    let [k, c] = [3.007e5, 31.2].map(|of| [[of, 0.0], [0.0, of]]);
+    Machine {
+        m: 18.0,
+        Ja: 0.18,
+        Jt: 0.2553,
+        bearings: vec![Bearing {
+            position: -0.0177,
+            k,
+            c,
+            axial: [3e5, 31.2],
+            tilt: [2126.8, 0.08],
+            ..Bearing::default()
+        }],
+        unbalances: vec![Unbalance { mass: 2.786e-6, radius: 0.1, angle: 0.0, position: 0.00876 }],
+        imposed_speed: true,
+        ..Machine::default()
+    }
+}
+
+/// Its pivot gives way by micrometres while it falls by centimetres.
+fn heavy_top() -> Machine {
+    let l = 0.08;
+    Machine {
+        m: 0.5,
+        Ja: 7.5e-4,
+        Jt: 5e-4,
+        l,
+        gravity: Some(Vector3::x() * -9.81),
+        support: Some(Support { c: [1e6, 0.0], d: [0.0; 2] }),
+        start: Start {
+            // Half as far as it gives way to the weight.
+            r_c: Vector3::new(libm::cos(0.6), libm::sin(0.6), 0.0) * l - Vector3::x() * (0.25 * 9.81 / 1e6),
+            gamma: Vector2::new(0.0, 0.6),
+            omega: Vector3::new(libm::cos(0.6), libm::sin(0.6), 0.0) * 300.0,
+            ..Start::default()
+        },
+        ..Machine::default()
+    }
 }
 
 /// All of them.
@@ -83,6 +125,10 @@ pub fn all() -> Vec<Trial> {
         start: Start { omega: Vector3::x() * 3000.0, ..Start::default() },
         ..Machine::default()
     };
+    // A bearing at one place, nearly at the mass centre, and a rate of the speed that rises and falls.
+    let mut smoothly = Trial::new("run up without a jerk", run_up(), points(2.0, 100));
+    let slopes = [(0.0, [0.0, 250.0 / 0.6, 0.0]), (0.6, [250.0, -250.0 / 0.6, 0.0]), (1.2, [0.0; 3])];
+    smoothly.changes = slopes.map(|(t, terms)| Change { t, input: Input::Acceleration, terms }).into();
     vec![
         alone("drag alone", |machine| machine.drag = Some([0.01, 0.0])),
         alone("rotating damping alone", |machine| machine.rotating_damping = Some([1.0, 0.2])),
@@ -104,5 +150,7 @@ pub fn all() -> Vec<Trial> {
         Trial::new("micro rotor", micro, points(0.05, 100)),
         Trial::new("a small nutation", nutating, points(1.2, 100)),
         Trial { judged_from: 4.0, ..Trial::new("the whirl after a sag", sagging, points(5.0, 200)) },
+        smoothly,
+        Trial::new("a heavy top on a stiff elastic pivot", heavy_top(), points(1.0, 100)),
     ]
 }

@@ -26,6 +26,8 @@ pub struct Verdict {
     pub method: String,
     /// Errors over sizes [1], or why there are none.
     pub errors: Result<Measures, String>,
+    /// The output that is worst beside the motion, and its error over its size [1].
+    pub output: (String, f64),
     /// The worst error over what is allowed [1].
     pub worst: f64,
     /// Evaluations.
@@ -60,9 +62,11 @@ impl Verdict {
         // What is dropped or tilted nutates at Ja/Jt of its spin, and errors add up.
         let nutations = truth.sizes[2] / TAU * trial.machine.Ja / trial.machine.Jt;
         let allowed = ALLOWED * tolerance * truth.growth.max(1.0).max(nutations / NUTATIONS);
+        let output = shown.as_ref().map(|shown| truth.worst_output(trial, shown, allowed));
+        let output = output.unwrap_or_else(|_| ("nothing".into(), f64::INFINITY));
         let errors = shown.map(|shown| over(truth.differences(trial, &shown), truth.sizes));
-        let worst = errors.as_ref().map_or(f64::INFINITY, |errors| largest(*errors) / allowed);
-        Self { tolerance, method: name, errors, worst, evaluations, residual, seconds }
+        let worst = errors.as_ref().map_or(f64::INFINITY, |errors| largest([largest(*errors), output.1]) / allowed);
+        Self { tolerance, method: name, errors, output, worst, evaluations, residual, seconds }
     }
 
     /// Whether it answers as near as is allowed.

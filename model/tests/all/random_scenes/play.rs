@@ -15,19 +15,30 @@ pub trait Rig {
     fn advance(&mut self, t: f64) -> Result<(), String>;
     /// Place [m] and velocity [m/s] of a port.
     fn port(&mut self, port: usize) -> [Vector3<f64>; 2];
-    /// What the communication point shows.
+    /// The motion that the communication point shows.
     fn show(&mut self) -> Shown;
+    /// All else that it shows, in the order of [`Machine::outputs`](oracles::machine::Machine::outputs).
+    fn outputs(&mut self, trial: &Trial) -> Vec<Vector3<f64>>;
+}
+
+/// What a communication point shows.
+#[derive(Clone, Debug)]
+pub struct Seen {
+    /// The motion.
+    pub motion: Shown,
+    /// The outputs of [`Rig::outputs`].
+    pub outputs: Vec<Vector3<f64>>,
 }
 
 /// What it shows at the start and at each point; where it stopped, and why.
-pub fn play(trial: &Trial, rig: &mut impl Rig) -> Result<Vec<Shown>, String> {
+pub fn play(trial: &Trial, rig: &mut impl Rig) -> Result<Vec<Seen>, String> {
     let (grid, mut shown, mut next) = (trial.grid(), Vec::new(), 0);
     for (n, point) in grid.iter().enumerate() {
         if n > 0 {
             rig.advance(point.t).map_err(|reason| format!("at {:.6e} s: {reason}", grid[n - 1].t))?;
         }
         if point.shown {
-            shown.push(rig.show());
+            shown.push(Seen { motion: rig.show(), outputs: rig.outputs(trial) });
         }
         while let Some(change) = trial.changes.get(next).filter(|change| change.t <= point.t) {
             rig.set(change.input, change.terms);
@@ -60,6 +71,10 @@ impl Rig for Run {
 
     fn show(&mut self) -> Shown {
         Run::show(self)
+    }
+
+    fn outputs(&mut self, trial: &Trial) -> Vec<Vector3<f64>> {
+        Run::outputs(self, &trial.machine, &trial.probes)
     }
 }
 
@@ -97,6 +112,8 @@ pub struct Ours {
     inputs: Vec<(Input, Place)>,
     ports: Vec<[[Place; 3]; 2]>,
     evaluations: Place,
+    /// Where outputs stand, as they were first asked for.
+    outputs: Vec<[Option<Place>; 3]>,
 }
 
 /// Evaluations that a run may take: what needs more is as good as refused.
@@ -118,7 +135,7 @@ impl Ours {
             |port: usize, of: &str| ["x", "y", "z"].map(|axis| named.place(&format!("port[{}].{of}.{axis}", port + 1)));
         let ports = (0..trial.machine.ports.len()).map(|port| [axes(port, "r"), axes(port, "v")]).collect();
         let evaluations = named.place("solver.evaluations");
-        Ok(Self { named, inputs: Vec::new(), ports, evaluations })
+        Ok(Self { named, inputs: Vec::new(), ports, evaluations, outputs: Vec::new() })
     }
 
     /// Evaluations so far.
@@ -177,5 +194,21 @@ impl Rig for Ours {
     fn show(&mut self) -> Shown {
         let motion = &self.named.simulation.read().expect("possible parameters").motion;
         Shown { r_c: motion.r_c(), v_c: motion.v_c(), axis: *motion.axis(), omega: motion.omega, phi: motion.phi() }
+    }
+
+    fn outputs(&mut self, trial: &Trial) -> Vec<Vector3<f64>> {
+        if self.outputs.is_empty() {
+            let find = |name: &str| self.named.scene.variables.iter().find(|one| one.name == name).map(|one| one.place);
+            let places = |name: &str| match find(name) {
+                Some(place) => [Some(place), None, None],
+                None => ["x", "y", "z"].map(|axis| find(&format!("{name}.{axis}"))),
+            };
+            self.outputs = trial.machine.outputs(&trial.probes).iter().map(|(name, _)| places(name)).collect();
+        }
+        let outputs = std::mem::take(&mut self.outputs);
+        let mut read = |place: Option<Place>| place.map_or(0.0, |place| self.named.at(place));
+        let shown = outputs.iter().map(|places| Vector3::from(places.map(&mut read))).collect();
+        self.outputs = outputs;
+        shown
     }
 }

@@ -29,9 +29,9 @@ pub fn worst(rows: &[Row]) -> String {
     let mut all: Vec<_> = rows.iter().flat_map(|row| row.verdicts.iter().map(move |verdict| (row, verdict))).collect();
     all.sort_by(|a, b| b.1.worst.total_cmp(&a.1.worst));
     let mut lines = vec![
-        "| scene | what | tolerance | method | place, axis, φ over their sizes | over bound | A | evaluations |"
+        "| scene | what | tolerance | method | place, axis, φ over their sizes | worst output | over bound | A | evaluations |"
             .to_owned(),
-        "|---|---|--:|---|---|--:|--:|--:|".to_owned(),
+        "|---|---|--:|---|---|---|--:|--:|--:|".to_owned(),
     ];
     lines.extend(all.iter().take(WORST).map(|(row, verdict)| line(row, verdict)));
     lines.join("\n")
@@ -43,9 +43,11 @@ pub fn line(row: &Row, verdict: &Verdict) -> String {
         Ok(errors) => short(*errors),
         Err(why) => why.clone(),
     };
-    let Verdict { tolerance, method, worst, evaluations, .. } = verdict;
+    let Verdict { tolerance, method, output: (output, error), worst, evaluations, .. } = verdict;
     let (number, name, growth) = (row.number, &row.trial.name, row.truth.growth);
-    format!("| {number} | {name} | {tolerance:e} | {method} | {errors} | {worst:.2e} | {growth:.1} | {evaluations} |")
+    format!(
+        "| {number} | {name} | {tolerance:e} | {method} | {errors} | {output}, {error:.1e} | {worst:.2e} | {growth:.1} | {evaluations} |"
+    )
 }
 
 /// All that is known of a scene.

@@ -159,8 +159,21 @@ impl Draw {
         }
     }
 
+    /// A speed whose rate rises in the first part of the run and falls to nothing in the second.
+    fn smooth_speed(&mut self, end: f64) {
+        let half = end * self.dice.within(0.1, 0.45);
+        // ∫a dt = half · most
+        let most = self.gain / half;
+        for (t, terms) in [(0.0, [0.0, most / half, 0.0]), (half, [most, -most / half, 0.0]), (2.0 * half, [0.0; 3])] {
+            self.trial.changes.push(Change { t, input: Input::Acceleration, terms });
+        }
+    }
+
     /// A speed that is bent, and jumps.
     fn speed(&mut self, end: f64) {
+        if self.smooth {
+            return self.smooth_speed(end);
+        }
         let spin = self.spin;
         let dice = &mut self.dice;
         let jump = if dice.chance(0.5) { 1.0 } else { dice.within(0.8, 1.2) };

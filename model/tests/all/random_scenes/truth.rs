@@ -1,10 +1,10 @@
 //! What a scene's motion is, how far it goes, and how it grows what is off at the start.
 
-use super::play::play;
+use super::play::{Seen, play};
 use super::trial::Trial;
 use crate::harness::largest;
 use nalgebra::Vector3;
-use oracles::machine::{Machine, Pace, Run, Shown};
+use oracles::machine::{Beside, Machine, Pace, Run, Shown};
 use oracles::rotation;
 use std::f64::consts::TAU;
 
@@ -15,7 +15,9 @@ pub type Measures = [f64; 3];
 #[derive(Clone, Debug)]
 pub struct Truth {
     /// At the start and at each point.
-    pub shown: Vec<Shown>,
+    pub shown: Vec<Seen>,
+    /// All other outputs.
+    pub outputs: Vec<Output>,
     /// How far the motion goes.
     pub sizes: Measures,
     /// By how much it differs from that in steps twice as long, over the sizes.
@@ -25,6 +27,20 @@ pub struct Truth {
     /// Evaluations that it took in all.
     pub evaluations: usize,
 }
+
+/// An output beside the motion.
+#[derive(Clone, Debug)]
+pub struct Output {
+    /// Its name, of a vector without its axes.
+    pub name: String,
+    /// What its errors are compared with, in its unit.
+    pub size: f64,
+    /// The reference's own error over that [1].
+    pub own_error: f64,
+}
+
+/// Of what hardly changes, errors count beside this part of its value [1]: rounding is no error.
+const LEAST: f64 = 1e-6;
 
 /// Why a scene is drawn anew.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,12 +117,14 @@ impl Truth {
             return Err(Unfit::Grows(growth));
         }
         let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
+        let outputs = outputs(trial, &in_long_steps, &shown);
         let own = largest(own_error);
         if own.is_nan() || own > SURE * growth.max(1.0) {
             return Err(Unfit::Unsure(own));
         }
         Ok(Self {
             sizes,
+            outputs,
             own_error,
             growth,
             evaluations: coarse.evaluations() + fine.evaluations() + off.evaluations(),
@@ -139,8 +157,35 @@ fn across(v: &Vector3<f64>) -> f64 {
     libm::hypot(v.y, v.z)
 }
 
+/// All outputs, their sizes and the reference's own errors.
+fn outputs(trial: &Trial, in_long_steps: &[Seen], shown: &[Seen]) -> Vec<Output> {
+    let (judged, names) = (trial.judged(), trial.machine.outputs(&trial.probes));
+    let from = if judged == 1 { &shown[0] } else { &shown[judged] };
+    let value = |n: usize| largest(shown[judged..].iter().map(|now| now.outputs[n].norm()));
+    let excursion = |n: usize| largest(shown[judged..].iter().map(|now| (now.outputs[n] - from.outputs[n]).norm()));
+    let potential = names.len() - 1;
+    let own = output_differences(in_long_steps, shown, judged);
+    let output = |(n, (name, beside)): (usize, (String, Beside))| {
+        let size = match beside {
+            Beside::Excursion => excursion(n).max(LEAST * value(n)),
+            Beside::Size => value(n),
+            Beside::Energy => value(potential - 1) + excursion(potential),
+        };
+        Output { name, size, own_error: part(own[n], size) }
+    };
+    names.into_iter().enumerate().map(output).collect()
+}
+
+/// The largest differences of the outputs of two motions.
+fn output_differences(a: &[Seen], b: &[Seen], judged: usize) -> Vec<f64> {
+    let count = a[0].outputs.len();
+    let of = |n: usize| largest(a.iter().zip(b).skip(judged).map(|(a, b)| (a.outputs[n] - b.outputs[n]).norm()));
+    (0..count).map(of).collect()
+}
+
 /// How far place and axis go from the first point that counts, and φ from the start, but 1 rad at least.
-fn sizes(shown: &[Shown], judged: usize) -> Measures {
+fn sizes(shown: &[Seen], judged: usize) -> Measures {
+    let shown: Vec<_> = shown.iter().map(|seen| seen.motion).collect();
     let from = if judged == 1 { &shown[0] } else { &shown[judged] };
     [
         largest(shown[judged..].iter().map(|now| across(&(now.r_c - from.r_c)))),
@@ -154,8 +199,8 @@ fn angle(a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
 }
 
 /// The largest differences between two motions.
-pub fn differences(a: &[Shown], b: &[Shown], judged: usize) -> Measures {
-    let pairs = || a.iter().zip(b).skip(judged);
+fn differences(a: &[Seen], b: &[Seen], judged: usize) -> Measures {
+    let pairs = || a.iter().zip(b).skip(judged).map(|(a, b)| (&a.motion, &b.motion));
     [
         largest(pairs().map(|(a, b)| across(&(a.r_c - b.r_c)))),
         largest(pairs().map(|(a, b)| angle(&a.axis, &b.axis))),
@@ -165,18 +210,34 @@ pub fn differences(a: &[Shown], b: &[Shown], judged: usize) -> Measures {
 
 impl Truth {
     /// The largest differences from another motion.
-    pub fn differences(&self, trial: &Trial, other: &[Shown]) -> Measures {
+    pub fn differences(&self, trial: &Trial, other: &[Seen]) -> Measures {
         differences(&self.shown, other, trial.judged())
     }
+
+    /// The output that another motion has worst, and its error over its size beyond what the reference may itself err, ten times of
+    /// which must be within `allowed` \[1].
+    pub fn worst_output(&self, trial: &Trial, other: &[Seen], allowed: f64) -> (String, f64) {
+        let apart = output_differences(&self.shown, other, trial.judged());
+        let sure = self.outputs.iter().zip(apart).filter(|(output, _)| 10.0 * output.own_error <= allowed);
+        let errors = sure.map(|(output, apart)| (output.name.clone(), part(apart, output.size)));
+        errors
+            .fold(("nothing".into(), 0.0), |worst, next| if next.1 > worst.1 || next.1.is_nan() { next } else { worst })
+    }
+}
+
+/// An error over a size; nothing over nothing is nothing.
+fn part(error: f64, size: f64) -> f64 {
+    if error == 0.0 { 0.0 } else { error / size }
 }
 
 /// Each over its size; nothing over nothing is nothing.
 pub fn over(measures: Measures, sizes: Measures) -> Measures {
-    std::array::from_fn(|n| if measures[n] == 0.0 { 0.0 } else { measures[n] / sizes[n] })
+    std::array::from_fn(|n| part(measures[n], sizes[n]))
 }
 
 /// The machine with a start that is off by a part of how far each went, in directions that favour none.
-fn moved(machine: &Machine, shown: &[Shown], by: f64) -> Machine {
+fn moved(machine: &Machine, shown: &[Seen], by: f64) -> Machine {
+    let shown: Vec<_> = shown.iter().map(|seen| seen.motion).collect();
     let first = &shown[0];
     let went = |of: fn(&Shown) -> Vector3<f64>| {
         let ways = shown.iter().map(|now| of(now) - of(first));

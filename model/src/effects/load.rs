@@ -1,0 +1,54 @@
+//! What an error of the motion means for a load that is an output: how much it changes with a small change of the motion.
+
+use nalgebra::Vector3;
+
+/// An effect has at most so many loads among its outputs.
+pub const MOST_LOADS: usize = 2;
+
+/// How a rotor lies, for laws whose loads follow that.
+#[derive(Clone, Copy, Debug)]
+pub struct Pose {
+    /// Position of c \[m]; of G, where the difference does not matter.
+    pub r_c: Vector3<f64>,
+    /// The axis t \[1].
+    pub axis: Vector3<f64>,
+    /// Distance from the support point a to c, along t \[m].
+    pub l: f64,
+    /// ω_φ [rad/s].
+    pub speed: f64,
+}
+
+/// A change of the motion to first order.
+#[derive(Clone, Copy, Debug)]
+pub struct Change {
+    /// Of the position of c \[m].
+    pub r_c: Vector3<f64>,
+    /// Of the axis t \[1].
+    pub axis: Vector3<f64>,
+    /// Of the velocity of c [m/s].
+    pub v_c: Vector3<f64>,
+    /// Of dt/dt [1/s].
+    pub axis_rate: Vector3<f64>,
+}
+
+impl Pose {
+    /// Position of the station at `p` \[m] along t from c \[m].
+    #[inline(always)]
+    pub fn station(&self, p: f64) -> Vector3<f64> {
+        self.r_c + self.axis * p
+    }
+}
+
+impl Change {
+    /// Of the position of the station at `p` \[m] along t from c \[m].
+    #[inline(always)]
+    pub fn station(&self, p: f64) -> Vector3<f64> {
+        self.r_c + self.axis * p
+    }
+
+    /// Of its velocity [m/s].
+    #[inline(always)]
+    pub fn station_velocity(&self, p: f64) -> Vector3<f64> {
+        self.v_c + self.axis_rate * p
+    }
+}

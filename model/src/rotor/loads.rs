@@ -1,0 +1,110 @@
+//! Loads that are outputs, as groups of their own: the error of each counts beside how far it goes.
+
+use super::Rotor;
+use crate::effects::{Change, Effects, Pose};
+use crate::integrate::sizes::{MOST_GROUPS, Squares};
+use crate::rotation::{Chart, Tilt};
+use crate::rotor::groups::RIGID;
+use crate::state::{Coordinates, own, rigid};
+use nalgebra::Vector3;
+
+impl<E: Effects> Rotor<'_, E> {
+    /// Where the loads of a state of N numbers stand among the groups.
+    const fn load_groups<const N: usize>() -> std::ops::Range<usize> {
+        let first = own(N) + RIGID;
+        assert!(first + E::FACTS.loads <= MOST_GROUPS, "a system has at most MOST_GROUPS groups");
+        first..first + E::FACTS.loads
+    }
+
+    /// Writes how large each load is beside what it was at `origin`, of a motion whose c went by `way` \[m] and moves at `velocity` [m/s].
+    #[inline(always)]
+    pub(super) fn size_loads<const N: usize>(
+        &self,
+        [at, rate, origin]: [&Coordinates<f64>; 3],
+        [way, velocity]: [Vector3<f64>; 2],
+        squares: &mut Squares,
+    ) {
+        if E::FACTS.loads == 0 {
+            return;
+        }
+        let chart = self.frame.chart;
+        let tilt = Tilt::new(chart, at.gamma);
+        let (r_c, axis) = match chart {
+            Chart::FromE => (way, tilt.axis - Tilt::new(chart, origin.gamma).axis),
+            // Where it has turned over, the axis of the start is not known any more: loads count by themselves.
+            Chart::FromMinusE => (at.r, tilt.axis),
+        };
+        let excursion = Change { r_c, axis, v_c: velocity, axis_rate: tilt.axis_change(&rate.gamma) };
+        let pose = Pose { r_c: at.r, axis: tilt.axis, l: self.frame.body.l, speed: rate.phi };
+        self.effects.loads::<true>(&pose, &excursion, &mut squares[Self::load_groups::<N>()]);
+    }
+
+    /// Writes by how much each load changes with a small change `by` of the coordinates.
+    #[inline(always)]
+    pub(crate) fn part_loads<const N: usize>(
+        &self,
+        t: f64,
+        y: &[f64; N],
+        by: &Coordinates<f64>,
+        squares: &mut Squares,
+    ) {
+        if E::FACTS.loads == 0 {
+            return;
+        }
+        let at = Coordinates::from_slice(rigid(y));
+        let tilt = Tilt::new(self.frame.chart, at.gamma);
+        let (axis, momentum) = (tilt.axis_change(&by.gamma), self.momentum(t, y));
+        // eq. 121: d(dt/dt) = (dK×t + K×dt)/Jt
+        let axis_rate = (by.k.cross(&tilt.axis) + momentum.cross(&axis)) * self.frame.body.per_jt;
+        self.change_loads::<N>(&at, &tilt.axis, &momentum, &Change { r_c: by.r, axis, v_c: by.v, axis_rate }, squares);
+    }
+
+    /// The same of a change of the motion at these coordinates, with this axis and angular momentum [kg·m²/s].
+    #[inline(always)]
+    pub(super) fn change_loads<const N: usize>(
+        &self,
+        at: &Coordinates<f64>,
+        axis: &Vector3<f64>,
+        momentum: &Vector3<f64>,
+        change: &Change,
+        squares: &mut Squares,
+    ) {
+        let body = &self.frame.body;
+        // ω_φ but for how fast the axis goes round, which is little beside the spin.
+        let speed = momentum.dot(axis) * (body.per_jt + body.spin);
+        let pose = Pose { r_c: at.r, axis: *axis, l: body.l, speed };
+        self.effects.loads::<false>(&pose, change, &mut squares[Self::load_groups::<N>()]);
+    }
+
+    /// Writes what loads change by where place and tilt change as numbers that are rounded, which have these sizes: r_c \[m], v_c [m/s],
+    /// γ \[rad], dt/dt [1/s].
+    #[inline(always)]
+    pub(crate) fn round_loads<const N: usize>(
+        &self,
+        at: &Coordinates<f64>,
+        [place, velocity, tilt, tilt_rate]: [f64; 4],
+        squares: &mut Squares,
+    ) {
+        if E::FACTS.loads == 0 {
+            return;
+        }
+        // Along e a small tilt is of second order.
+        let change = Change {
+            r_c: Vector3::repeat(place),
+            axis: Vector3::new(tilt * tilt, tilt, tilt),
+            v_c: Vector3::repeat(velocity),
+            axis_rate: Vector3::repeat(tilt_rate),
+        };
+        let pose = Pose { r_c: at.r, axis: Vector3::x(), l: self.frame.body.l, speed: 0.0 };
+        self.effects.loads::<false>(&pose, &change, &mut squares[Self::load_groups::<N>()]);
+    }
+
+    /// Angular momentum about G [kg·m²/s].
+    #[inline(always)]
+    fn momentum<const N: usize>(&self, t: f64, y: &[f64; N]) -> Vector3<f64> {
+        if E::FACTS.imposes && self.effects.imposed(t).is_some() {
+            return self.motion(t, y).momentum();
+        }
+        Coordinates::from_slice(rigid(y)).k
+    }
+}
