@@ -77,9 +77,12 @@ impl Rub {
     /// How far the station is off the stator line \[m] while the ring presses on it, else 0, and which way \[1].
     #[inline(always)]
     fn pressed(&self, at: &Pose) -> (f64, Vector2<f64>) {
+        if self.branch[0] == 0.0 {
+            return (0.0, Vector2::zeros());
+        }
         let q = at.station(self.position).yz();
         let distance = q.norm_squared().max(self.least_square()).sqrt();
-        (if self.branch[0] > 0.0 { distance } else { 0.0 }, q * (1.0 / distance))
+        (distance, q * (1.0 / distance))
     }
 
     #[inline(always)]
@@ -138,7 +141,8 @@ impl Effect for Rub {
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
         let (distance, outward) = self.pressed(at);
-        let [depth, rate] = [change.station(self.position), change.station_velocity(self.position)].map(|v| outward.dot(&v.yz()));
+        let [depth, rate] =
+            [change.station(self.position), change.station_velocity(self.position)].map(|v| outward.dot(&v.yz()));
         let normal = self.pressure(depth, rate);
         [if distance > 0.0 { normal * normal } else { 0.0 }, 0.0]
     }

@@ -321,7 +321,8 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
             let axis_rate = vector(&above[AXIS..]) * next;
             let loaded = Change { r_c: coordinates.r, axis, v_c: coordinates.v, axis_rate };
             let at = Coordinates::from_slice(rigid(y));
-            self.change_loads::<N>(&at, &start, &at.k, &loaded, &mut parts);
+            let tilt = Tilt::of_axis(self.frame.chart, start);
+            self.change_loads::<N>(&at, &tilt, &at.k, &loaded, &mut parts);
         }
         let norm = largest_square::<_, N>(self, &parts, weights);
         // φ has no part in the error; but its series has an end of its own, near where its chart is singular.

@@ -35,7 +35,7 @@ impl<E: Effects> Rotor<'_, E> {
             Chart::FromMinusE => (at.r, tilt.axis),
         };
         let excursion = Change { r_c, axis, v_c: velocity, axis_rate: tilt.axis_change(&rate.gamma) };
-        let pose = Pose { r_c: at.r, axis: tilt.axis, l: self.frame.body.l, speed: rate.phi };
+        let pose = self.pose(at, tilt, rate.phi);
         self.effects.loads::<true>(&pose, &excursion, &mut squares[Self::load_groups::<N>()]);
     }
 
@@ -56,23 +56,23 @@ impl<E: Effects> Rotor<'_, E> {
         let (axis, momentum) = (tilt.axis_change(&by.gamma), self.momentum(t, y));
         // eq. 121: d(dt/dt) = (dK×t + K×dt)/Jt
         let axis_rate = (by.k.cross(&tilt.axis) + momentum.cross(&axis)) * self.frame.body.per_jt;
-        self.change_loads::<N>(&at, &tilt.axis, &momentum, &Change { r_c: by.r, axis, v_c: by.v, axis_rate }, squares);
+        self.change_loads::<N>(&at, &tilt, &momentum, &Change { r_c: by.r, axis, v_c: by.v, axis_rate }, squares);
     }
 
-    /// The same of a change of the motion at these coordinates, with this axis and angular momentum [kg·m²/s].
+    /// The same of a change of the motion at these coordinates, with this tilt and angular momentum [kg·m²/s].
     #[inline(always)]
     pub(super) fn change_loads<const N: usize>(
         &self,
         at: &Coordinates<f64>,
-        axis: &Vector3<f64>,
+        tilt: &Tilt<f64>,
         momentum: &Vector3<f64>,
         change: &Change,
         squares: &mut Squares,
     ) {
         let body = &self.frame.body;
         // ω_φ but for how fast the axis goes round, which is little beside the spin.
-        let speed = momentum.dot(axis) * (body.per_jt + body.spin);
-        let pose = Pose { r_c: at.r, axis: *axis, l: body.l, speed };
+        let speed = momentum.dot(&tilt.axis) * (body.per_jt + body.spin);
+        let pose = self.pose(at, *tilt, speed);
         self.effects.loads::<false>(&pose, change, &mut squares[Self::load_groups::<N>()]);
     }
 
@@ -95,8 +95,15 @@ impl<E: Effects> Rotor<'_, E> {
             v_c: Vector3::repeat(velocity),
             axis_rate: Vector3::repeat(tilt_rate),
         };
-        let pose = Pose { r_c: at.r, axis: Vector3::x(), l: self.frame.body.l, speed: 0.0 };
+        let pose = self.pose(at, Tilt::of_axis(self.frame.chart, Vector3::x()), 0.0);
         self.effects.loads::<false>(&pose, &change, &mut squares[Self::load_groups::<N>()]);
+    }
+
+    /// How the rotor lies at these coordinates, where its axis has this tilt and φ this rate [rad/s].
+    #[inline(always)]
+    fn pose(&self, at: &Coordinates<f64>, tilt: Tilt<f64>, speed: f64) -> Pose {
+        let to_centre = self.inertia().asymmetric.map(|asymmetric| asymmetric.centre);
+        Pose { centre: at.r, to_centre, tilt, phi: at.phi, l: self.frame.body.l, speed }
     }
 
     /// Angular momentum about G [kg·m²/s].

@@ -82,9 +82,9 @@ impl Run {
             all.push(number(laws.imposing(self.t, y, &self.inputs)));
         }
         all.push(motion.v_c);
-        for p in machine.ports.iter().chain(probes) {
-            all.extend(motion.station(*p));
-        }
+        all.extend(machine.ports.iter().flat_map(|p| motion.station(*p)));
+        // A probe looks across e.
+        all.extend(probes.iter().flat_map(|p| motion.station(*p).map(|v| Vector3::new(0.0, v.y, v.z))));
         all.extend([motion.omega, number(motion.speed())]);
         let [kinetic, potential] = laws.energies(y);
         all.extend([kinetic, potential].map(number));

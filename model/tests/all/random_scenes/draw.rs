@@ -23,9 +23,6 @@ const ALONE: u64 = 13;
 /// From this number on scenes draw the effects of [`newer`](super::newer) as well.
 const NEWER: u64 = 200;
 
-/// From this number on two of five are rotors that are run up without a jerk, and tops on stiff pivots.
-const RARE: u64 = 240;
-
 /// What a draw goes by: sizes of the rotor and of its motion.
 pub(super) struct Draw {
     pub(super) dice: Dice,
@@ -48,8 +45,8 @@ pub fn draw(seed: u64, number: u64, attempt: u64) -> Trial {
     match number {
         ..ALONE => draw.alone(number),
         ALONE..NEWER => draw.set(),
-        RARE.. if number.is_multiple_of(5) => draw.smooth_run_up(),
-        RARE.. if number % 5 == 1 => draw.stiff_pivot(),
+        240 | 245 => draw.smooth_run_up(),
+        241 | 246 => draw.stiff_pivot(),
         _ => draw.newer(number - NEWER),
     }
     draw.timed()
@@ -310,7 +307,9 @@ impl Draw {
         self.imposed_speed();
         (self.spin, self.smooth) = (0.0, true);
         self.gain = self.rate * self.dice.decades(0.1, 3.0) * self.dice.sign();
-        self.trial.machine.start = Start::default();
+        // At rest but for a little way: of what starts with nothing at all the reference knows no size.
+        let r_c = self.dice.across() * (1e-6 * self.radius);
+        self.trial.machine.start = Start { r_c, ..Start::default() };
     }
 
     /// A top whose pivot is far stiffer than what it does.

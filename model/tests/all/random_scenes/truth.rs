@@ -37,6 +37,9 @@ pub struct Output {
     pub size: f64,
     /// The reference's own error over that [1].
     pub own_error: f64,
+    /// For a ring, by how many tolerances its force shifts where the start is off by one, else 0: what is hard and hit for moments comes
+    /// late by as much as the motion does.
+    pub growth: f64,
 }
 
 /// Of what hardly changes, errors count beside this part of its value [1]: rounding is no error.
@@ -117,7 +120,7 @@ impl Truth {
             return Err(Unfit::Grows(growth));
         }
         let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
-        let outputs = outputs(trial, &in_long_steps, &shown);
+        let outputs = outputs(trial, [&in_long_steps, &shown, &shifted], off_by);
         let own = largest(own_error);
         if own.is_nan() || own > SURE * growth.max(1.0) {
             return Err(Unfit::Unsure(own));
@@ -158,20 +161,22 @@ fn across(v: &Vector3<f64>) -> f64 {
 }
 
 /// All outputs, their sizes and the reference's own errors.
-fn outputs(trial: &Trial, in_long_steps: &[Seen], shown: &[Seen]) -> Vec<Output> {
+fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by: f64) -> Vec<Output> {
     let (judged, names) = (trial.judged(), trial.machine.outputs(&trial.probes));
     let from = if judged == 1 { &shown[0] } else { &shown[judged] };
     let value = |n: usize| largest(shown[judged..].iter().map(|now| now.outputs[n].norm()));
     let excursion = |n: usize| largest(shown[judged..].iter().map(|now| (now.outputs[n] - from.outputs[n]).norm()));
     let potential = names.len() - 1;
     let own = output_differences(in_long_steps, shown, judged);
+    let shifts = output_differences(in_long_steps, shifted, judged);
     let output = |(n, (name, beside)): (usize, (String, Beside))| {
         let size = match beside {
             Beside::Excursion => excursion(n).max(LEAST * value(n)),
             Beside::Size => value(n),
             Beside::Energy => value(potential - 1) + excursion(potential),
         };
-        Output { name, size, own_error: part(own[n], size) }
+        let growth = if name.starts_with("rub") { part(shifts[n], size) / off_by } else { 0.0 };
+        Output { name, size, own_error: part(own[n], size), growth }
     };
     names.into_iter().enumerate().map(output).collect()
 }
@@ -214,12 +219,13 @@ impl Truth {
         differences(&self.shown, other, trial.judged())
     }
 
-    /// The output that another motion has worst, and its error over its size beyond what the reference may itself err, ten times of
-    /// which must be within `allowed` \[1].
+    /// The output that another motion has worst, and its error over its size and its own growth, where the motion grows by less; ten
+    /// times of what the reference itself errs must be within `allowed` \[1].
     pub fn worst_output(&self, trial: &Trial, other: &[Seen], allowed: f64) -> (String, f64) {
         let apart = output_differences(&self.shown, other, trial.judged());
         let sure = self.outputs.iter().zip(apart).filter(|(output, _)| 10.0 * output.own_error <= allowed);
-        let errors = sure.map(|(output, apart)| (output.name.clone(), part(apart, output.size)));
+        let grown = |output: &Output| (output.growth / self.growth.max(1.0)).max(1.0);
+        let errors = sure.map(|(output, apart)| (output.name.clone(), part(apart, output.size) / grown(output)));
         errors
             .fold(("nothing".into(), 0.0), |worst, next| if next.1 > worst.1 || next.1.is_nan() { next } else { worst })
     }
