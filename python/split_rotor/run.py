@@ -14,8 +14,8 @@ import numpy.typing as npt
 from . import _core
 
 if TYPE_CHECKING:
-    import pandas as pd
-    import xarray as xr
+    import pandas as pd  # type: ignore[import-untyped, import-not-found, unused-ignore]
+    import xarray as xr  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
 Array: TypeAlias = npt.NDArray[np.float64]
 """An array of numbers."""
@@ -107,7 +107,7 @@ def run(
     scene: _core.Scene,
     *,
     inputs: Mapping[str, Input] | None = None,
-    outputs: Sequence[str] | None = None,
+    outputs: list[str] | tuple[str, ...] | None = None,
     stop: float | str | None = None,
     step: float | str | None = None,
     method: Method | None = None,
@@ -148,14 +148,11 @@ def run(
     return result
 
 
-def _names(outputs: Iterable[str]) -> list[str]:
+def _names(outputs: object) -> list[str]:
     """The names of the outputs that are wanted; a text would be taken letter by letter."""
     if isinstance(outputs, str):
         raise TypeError(f'outputs must be a list of names: write outputs=["{outputs}"]')
-    try:
-        names = list(outputs)
-    except TypeError:
-        names = [outputs]  # told below
+    names: list[Any] = list(outputs) if isinstance(outputs, Iterable) else [outputs]
     for name in names:
         if not isinstance(name, str):
             raise TypeError(f'outputs must be a list of names, such as ["omega_phi"]; {name!r} is no text')
@@ -164,7 +161,7 @@ def _names(outputs: Iterable[str]) -> list[str]:
 
 def _course(name: str, value: Input) -> tuple[list[float], list[float]]:
     """Times [s] and values of an input that is given as a number or as both."""
-    if isinstance(value, Real):
+    if isinstance(value, (int, float, Real)):
         return [0.0], [float(value)]
     try:
         times, values = (np.asarray(part, dtype=float) for part in value)

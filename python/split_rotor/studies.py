@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _core
 
 if TYPE_CHECKING:
-    import pandas as pd
+    import pandas as pd  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
 
 class Columns(Mapping[str, "npt.NDArray[Any]"]):

@@ -80,7 +80,7 @@ fn exact_static_deflection_is_part_of_the_largest_one() {
     // It falls from the middle: z = −s (1 − cos(RATE t)), lowest at half a period.
     let sag = 2.0 * 9.81 / 8e4;
     for method in METHODS {
-        let ([c, _], [sample, _], _) = ran(&whirl(method, 3.0, "[effects.gravity]\n"));
+        let ([c, _], [sample, _], _) = ran(&whirl(method, 2.8, "[effects.gravity]\n"));
         close(method, c.largest, 2.0 * sag);
         assert!(sample < c.largest, "{method}");
     }

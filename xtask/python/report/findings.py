@@ -170,7 +170,7 @@ def _motion(result):
     tilt = measure.tilt(columns)
     if tilt.max() > 0.0 and not (stations.is_machine(result.scene) and tilt.max() <= measure.SMALL_TILT):
         when = number(columns["time"][tilt.argmax()])
-        yield Finding(f"{number(np.degrees(tilt.max()), 3)}°", f"largest tilt θ, at {when}\u00a0s")
+        yield Finding(f"{number(np.degrees(tilt.max()), 3)}°", f"largest tilt θ of the samples, at {when}\u00a0s")
 
 
 def _sampled(result):
@@ -193,7 +193,7 @@ def _load(result):
         return None
     name = max(found, key=lambda name: found[name].max())
     when = result.columns["time"][found[name].argmax()]
-    return Finding(quantity(found[name].max(), "N"), f"largest load, {name}, at {number(when)}\u00a0s")
+    return Finding(quantity(found[name].max(), "N"), f"largest load of the samples, {name}, at {number(when)}\u00a0s")
 
 
 def _time(result):
