@@ -664,7 +664,10 @@ impl<const N: usize> Integration<N> {
     /// The last step is looked at in so many places, between which a distance neither rises and falls twice.
     pub(super) fn places_to_look(&self) -> u32 {
         let [start, end] = self.last_step();
-        self.method.places_to_look((end - start) * self.nutation().sqrt())
+        let (body, nutation) = (&self.frame.body, self.nutation().sqrt());
+        // An unbalance goes round with the body, by up to |K|/Ja.
+        let turning = if body.asymmetric.is_some() { nutation * (1.0 + body.spin.abs() / body.per_jt) } else { nutation };
+        self.method.places_to_look((end - start) * turning)
     }
 
     /// The motion at a time `t` \[s] of the last step.

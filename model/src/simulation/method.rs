@@ -231,13 +231,13 @@ impl<const N: usize> Method<N> {
         if self.is_series() { 3 * PLACES } else { PLACES }
     }
 
-    /// In so many places a step must be looked at to follow a distance in it, in which the axis nutates by `nutation` \[rad]: steps of
+    /// In so many places a step must be looked at to follow a distance in it, in which the rotor turns by `turning` \[rad]: steps of
     /// pairs span up to a turn of the fastest motion, a series up to three. Compositions take shorter ones, but where they are exact.
-    pub fn places_to_look(&self, nutation: f64) -> u32 {
+    pub fn places_to_look(&self, turning: f64) -> u32 {
         match self {
             OfPair(_) | OfCollocation(_) => PLACES_TO_LOOK,
             OfSeries(_) => 3 * PLACES_TO_LOOK,
-            OfComposition(_) => (2.0 * nutation).ceil().clamp(1.0, MOST_PLACES) as u32,
+            OfComposition(_) => (2.0 * turning).ceil().clamp(1.0, MOST_PLACES) as u32,
         }
     }
 

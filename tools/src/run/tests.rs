@@ -112,6 +112,24 @@ fn exact_a_probe_far_from_c_moves_more() {
 }
 
 #[test]
+fn exact_what_turns_many_times_within_one_exact_step_is_followed() {
+    // The axis of a free rotor nutates about K, by |K|/Jt = 200 rad/s.
+    let tilted = "[rotor]\nm = 2.0\nJa = 0.02\nJt = 0.03\n[start]\ngamma = { y = 0.01 }\nomega = { x = 300.0 }\n\
+                  [[effects.probe]]\nposition = 0.1\n[experiment]\nstop = 1.0\nstep = 0.1\n";
+    let ([_, probe], [_, sample], _) = ran(&parsed(tilted));
+    // K = Jt ω + (Ja − Jt) (ω·t) t: t goes round K in a cone, and is furthest from e on the other side of it.
+    let (sine, cosine) = 0.01_f64.sin_cos();
+    // γ about y carries e to cos e − sin z.
+    let t = [cosine, -sine];
+    let along = 300.0 * t[0];
+    let k = [0.02 * along * t[0] + 0.03 * (300.0 - along * t[0]), 0.02 * along * t[1] - 0.03 * along * t[1]];
+    let (of_k, of_t) = (k[1].atan2(k[0]), t[1].atan2(t[0]));
+    let furthest = 2.0 * of_k - of_t;
+    close("probe", probe.largest, 0.1 * furthest.sin());
+    assert!(sample < probe.largest * (1.0 - 1e-6), "the samples alone tell {sample:e}");
+}
+
+#[test]
 fn regress_who_looks_for_the_largest_deflection_changes_no_bit_of_the_run() {
     for method in METHODS {
         let scene = whirl(method, 5.0, "[start]\nr_c = { y = 1e-5 }\n[effects.gravity]\n");
