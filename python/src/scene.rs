@@ -54,7 +54,8 @@ impl Scene {
         let mut document = self.document()?;
         for (name, value) in values {
             let name: String = name.extract()?;
-            let value = toml(&value).map_err(|error| PyTypeError::new_err(format!("{name}: {}", error.value(value.py()))))?;
+            let value =
+                toml(&value).map_err(|error| PyTypeError::new_err(format!("{name}: {}", error.value(value.py()))))?;
             let place = self.place(&mut document, &name).ok_or_else(|| told(self.unknown(&name)))?;
             *place = Item::Value(value);
         }

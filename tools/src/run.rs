@@ -98,11 +98,7 @@ impl<'s> Run<'s> {
     }
 
     /// Runs; at each communication point \[s] it is `seen`, that where the motion ends early too. A motion that diverges is an error.
-    pub fn follow(
-        &mut self,
-        experiment: &Experiment,
-        seen: impl FnMut(&mut Self, f64) -> Result<()>,
-    ) -> Result<()> {
+    pub fn follow(&mut self, experiment: &Experiment, seen: impl FnMut(&mut Self, f64) -> Result<()>) -> Result<()> {
         let outcome = self.follow_to_end(experiment, seen);
         if let Some(largest) = &mut self.largest {
             self.simulation.look(largest);

@@ -128,9 +128,7 @@ impl<'s> Recorded<'s> {
 
     /// The largest deflections of the stations, static ones included.
     fn deflections(&self) -> Value {
-        let told = |(name, Deflection { position, largest, at }): (&str, Deflection)| {
-            json!({ "station": name, "position_m": position, "largest_m": largest, "at_s": at })
-        };
+        let told = |(name, Deflection { position, largest, at }): (&str, Deflection)| json!({ "station": name, "position_m": position, "largest_m": largest, "at_s": at });
         self.run.largest().map(told).collect()
     }
 

@@ -91,8 +91,8 @@ impl Bounds {
         if deflection > FAR * self.size {
             self.found = Some(Divergence { t, deflection, size: self.size });
         }
-        for n in 0..DIRECTIONS {
-            self.limits[n] = self.limits[n].max(FURTHER * place[n].abs());
+        for (limit, place) in self.limits.iter_mut().zip(place) {
+            *limit = limit.max(FURTHER * place.abs());
         }
     }
 }

@@ -1,8 +1,8 @@
 //! A motion that somebody else integrates: states, rates, and the events at which its chart changes.
 
 use super::ALWAYS_INDICATED;
-use super::events::{Events, indicators};
 use super::divergence::{Bounds, Divergence};
+use super::events::{Events, indicators};
 use super::growth::{Growth, Watch};
 use super::start::Motion;
 use crate::effects::{Effects, MOST_INDICATORS};

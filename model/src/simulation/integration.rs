@@ -666,7 +666,8 @@ impl<const N: usize> Integration<N> {
         let [start, end] = self.last_step();
         let (body, nutation) = (&self.frame.body, self.nutation().sqrt());
         // An unbalance goes round with the body, by up to |K|/Ja.
-        let turning = if body.asymmetric.is_some() { nutation * (1.0 + body.spin.abs() / body.per_jt) } else { nutation };
+        let turning =
+            if body.asymmetric.is_some() { nutation * (1.0 + body.spin.abs() / body.per_jt) } else { nutation };
         self.method.places_to_look((end - start) * turning)
     }
 
