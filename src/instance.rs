@@ -56,8 +56,9 @@ pub struct Memory {
     experiment: Experiment,
     /// Whether the last step could not be done.
     step_failed: bool,
-    /// Whether it was said that the tilt is large, that the motion grows, which it does still, and that all inputs are 0.
-    warned: [bool; 3],
+    /// Whether it was said that the tilt is large, that the motion grows, which it does still, that all inputs are 0, and that the motion
+    /// diverges.
+    warned: [bool; 4],
 }
 
 /// What the host said of the experiment, and what it set itself.
@@ -93,7 +94,7 @@ impl Memory {
             simulation: Simulation::with(integrator, parameters),
             experiment: Experiment::default(),
             step_failed: false,
-            warned: [false; 3],
+            warned: [false; 4],
         }
     }
 
@@ -231,9 +232,9 @@ impl Instance {
         Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once that the tilt is large, where that matters, and whenever the linear motion begins to grow.
+    /// Says once that the tilt is large, where that matters, and that the motion diverges; and whenever the linear motion begins to grow.
     fn warn(&mut self) {
-        let [of_tilt, of_growth, _] = &mut self.memory.warned;
+        let [of_tilt, of_growth, _, of_divergence] = &mut self.memory.warned;
         if !*of_tilt && let Some(message) = self.memory.simulation.warns_of_tilt() {
             *of_tilt = true;
             self.logger.log(Severity::Warning, Category::Warning, message);
@@ -243,6 +244,10 @@ impl Instance {
         if !known && let Some(growth) = growth {
             let message = growth.to_string();
             self.logger.log(Severity::Warning, Category::Warning, &message);
+        }
+        if !*of_divergence && let Some(divergence) = self.memory.simulation.divergence() {
+            *of_divergence = true;
+            self.logger.log(Severity::Warning, Category::Warning, &divergence.to_string());
         }
     }
 

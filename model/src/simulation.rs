@@ -4,12 +4,14 @@
 mod auto;
 mod by_series;
 mod closest;
+mod divergence;
 mod events;
 mod exchange;
 #[cfg(feature = "general")]
 mod general;
 mod growth;
 mod integration;
+mod largest;
 mod method;
 mod nominals;
 mod plan;
@@ -17,11 +19,13 @@ pub(crate) mod rest;
 pub(crate) mod start;
 mod tangents;
 
+pub use divergence::Divergence;
 use exchange::Exchange;
 pub use exchange::Settled;
 #[cfg(feature = "general")]
 pub use general::General;
 pub use growth::Growth;
+pub use largest::{Deflection, Largest};
 pub use tangents::Tangents;
 
 use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
@@ -36,6 +40,7 @@ use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
 use crate::variables::{Instant, Parameters, Reading, Start};
 use integration::Integration;
+use largest::Looks;
 use nominals::Nominals;
 use start::{BESIDE, Motion};
 
@@ -249,15 +254,38 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// Before [`Simulation::start`], where a host integrates, or where `t` lies before the communication point or is not
     /// a number.
     pub fn advance(&mut self, t: f64) -> Result<(), Fault> {
+        self.advance_seen(t, &mut ())
+    }
+
+    /// [`Simulation::advance`], where each step is looked at for the `largest` deflections, if there are any, and where the run ends where
+    /// it diverges. Before an input is set, and at its end, [`Simulation::look`].
+    ///
+    /// # Panics
+    /// As [`Simulation::advance`].
+    pub fn advance_looking(&mut self, t: f64, largest: &mut Option<Largest>) -> Result<(), Fault> {
+        self.advance_seen(t, largest)
+    }
+
+    /// Looks at the motion up to the communication point, where a method integrates.
+    pub fn look(&self, largest: &mut Largest) {
+        if let Some(Run::Method(integration)) = &self.run {
+            largest.follow(integration, &self.parameters.effects, integration.time());
+        }
+    }
+
+    fn advance_seen<L: Looks>(&mut self, t: f64, looks: &mut L) -> Result<(), Fault> {
         self.instant = None;
         if self.parameters.effects.extrapolates() {
+            if let (true, Some(Run::Method(integration))) = (looks.looks(), &self.run) {
+                looks.look(integration, &self.parameters.effects, integration.time());
+            }
             self.extrapolate();
         }
         let Some(Run::Method(integration)) = &mut self.run else {
             panic!("no run of a method was started");
         };
         if !integration.advance_within_step(t) {
-            integration.advance(&mut self.parameters.effects, &mut self.scratch, t)?;
+            integration.advance(&mut self.parameters.effects, &mut self.scratch, t, looks)?;
         }
         if E::FACTS.imposes && self.parameters.effects.imposed::<f64>(t).is_some() {
             self.tell_of_step();
@@ -336,6 +364,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         match self.run.as_ref()? {
             Run::Method(integration) => integration.growth(),
             Run::Exchange(exchange) => exchange.growth(),
+        }
+    }
+
+    /// Where the motion diverges though something holds the rotor, as it was when that was found.
+    pub fn divergence(&self) -> Option<Divergence> {
+        match self.run.as_ref()? {
+            Run::Method(integration) => integration.divergence(),
+            Run::Exchange(exchange) => exchange.divergence(),
         }
     }
 

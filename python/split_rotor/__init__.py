@@ -1,30 +1,33 @@
 """A rigid rotor with six degrees of freedom: scenes, runs, linear views and FMUs, without a compiler.
 
-    import split_rotor as sr
+>>> import split_rotor as sr
+>>> scene = sr.Scene.named("turbo")
+>>> result = sr.run(scene, stop=0.1)
+>>> len(result["probe[1].r.y"]) == len(result.time)  # m, at times in s
+True
+>>> sr.campbell(scene).critical_speeds["speed_rad_s"].size > 0
+True
+>>> path = sr.package(scene, "turbo.fmu")
 
-    scene = sr.Scene.named("jeffcott")
-    result = sr.run(scene, stop=2.0)
-    result["probe[1].r.y"]                # m, one value for each of result.time
-    sr.campbell(scene).critical_speeds    # rad/s
-    sr.package(scene, "jeffcott.fmu")
-
-Quantities are in SI units and radians. Names of variables are those of the FMU.
+Quantities are in SI units and radians. Names of variables are those of the FMU: `list(result)`, `scene.variables`.
 """
 
-from ._core import RunError, Scene, SceneError
-from .run import Result, run
+from ._core import RunError, Scene, SceneError, __version__
+from .run import Deflection, Result, run
 from .studies import Accuracy, Campbell, Columns, Response, Study, accuracy, campbell, package, response
 
 __all__ = [
     "Accuracy",
     "Campbell",
     "Columns",
+    "Deflection",
     "Response",
     "Result",
     "RunError",
     "Scene",
     "SceneError",
     "Study",
+    "__version__",
     "accuracy",
     "campbell",
     "package",

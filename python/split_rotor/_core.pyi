@@ -2,14 +2,19 @@ from collections.abc import Mapping, Sequence
 from os import PathLike
 from typing import Any
 
+from .run import Result
+
+__version__: str
+"""The version of the package."""
+
 class SceneError(ValueError):
     """A scene that cannot be simulated: what is wrong, where, and what would be right."""
 
 class RunError(RuntimeError):
     """A run that ended early."""
 
-    result: Any
-    """The Result up to there."""
+    result: Result
+    """What was reached."""
 
 class Scene:
     """The rotor, what acts on it, how it starts and how long it is looked at; it does not change, and can be pickled."""
@@ -56,6 +61,9 @@ class Scene:
     @property
     def experiment(self) -> dict[str, float]:
         """When and how finely it is looked at: `start`, `stop` and `step` in s, `tolerance`."""
+
+def did_you_mean(name: str, known: Sequence[str]) -> str | None:
+    """Which of the known names was probably meant, in words; None where none is like it."""
 
 def run(scene: Scene, names: Sequence[str] | None) -> dict[str, Any]: ...
 def campbell(

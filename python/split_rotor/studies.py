@@ -1,37 +1,49 @@
 """What can be told of a scene without a run, or with many, and its FMU."""
 
+from __future__ import annotations
+
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 
+if TYPE_CHECKING:
+    import pandas as pd  # type: ignore[import-untyped, import-not-found, unused-ignore]
 
-class Columns(Mapping):
+
+class Columns(Mapping[str, "npt.NDArray[Any]"]):
     """A table: an array for each column by its name, whose end tells the unit; NaN where there is no value."""
 
-    def __init__(self, rows):
+    def __init__(self, rows: Sequence[Mapping[str, Any]]) -> None:
         names = list(rows[0]) if rows else []
         columns = {name: [row[name] for row in rows] for name in names}
         self._columns = {name: np.array([np.nan if one is None else one for one in of]) for name, of in columns.items()}
 
-    def __getitem__(self, name) -> np.ndarray:
-        return self._columns[name]
+    def __getitem__(self, name: str) -> npt.NDArray[Any]:
+        try:
+            return self._columns[name]
+        except KeyError:
+            meant = _core.did_you_mean(str(name), list(self))
+            raise KeyError(f"there is no column `{name}`: {meant or 'there are ' + ', '.join(self)}") from None
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
 
-    def __len__(self):
+    def __len__(self) -> int:
         return len(self._columns)
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         rows = len(next(iter(self.values()), ()))
         return f"<{rows} rows of {', '.join(self)}>"
 
-    def to_pandas(self):
+    def to_pandas(self) -> pd.DataFrame:
         """The same as a pandas.DataFrame."""
         import pandas as pd
 
@@ -41,16 +53,16 @@ class Columns(Mapping):
 class Study:
     """What a command shows of a scene: `str(study)` is its table in Markdown."""
 
-    def __init__(self, table, text):
-        self.table = table
+    def __init__(self, table: str, text: str) -> None:
+        self.table: str = table
         """The table that the command prints."""
-        self.data = json.loads(text)
+        self.data: dict[str, Any] = json.loads(text)
         """All of it, as in the JSON file that the command writes."""
 
-    def __str__(self):
+    def __str__(self) -> str:
         return self.table
 
-    def _repr_markdown_(self):
+    def _repr_markdown_(self) -> str:
         return self.table
 
 
@@ -69,7 +81,7 @@ class Campbell(Study):
         return Columns([{"order": line["order"], **crossing} for line in of for crossing in line["speeds"]])
 
     @property
-    def thresholds(self):
+    def thresholds(self) -> Columns | npt.NDArray[np.float64]:
         """Where modes begin or cease to grow: rows as `critical_speeds`, or of a body that is not symmetric an array of speeds [rad/s]."""
         of = self.data["thresholds"]
         return np.array(of) if self.data.get("floquet") else Columns(of)
@@ -100,16 +112,22 @@ class Accuracy(Study):
     @property
     def sentences(self) -> list[str]:
         """Which setting to take."""
-        return self.data["sentences"]
+        return list(self.data["sentences"])
 
 
-def accuracy(scene) -> Accuracy:
+def accuracy(scene: _core.Scene) -> Accuracy:
     """Error against time for every method, of the scene's FMU with the package's own library; it takes about a minute."""
     with TemporaryDirectory() as folder:
         return Accuracy(*_core.accuracy(scene, folder))
 
 
-def campbell(scene, *, speeds=None, steps=201, orders=(1.0, 2.0)) -> Campbell:
+def campbell(
+    scene: _core.Scene,
+    *,
+    speeds: Sequence[float] | None = None,
+    steps: int = 201,
+    orders: Sequence[float] = (1.0, 2.0),
+) -> Campbell:
     """Whirl frequencies and damping, critical speeds and thresholds of stability of a scene.
 
     speeds: the first and the last [rad/s], else from 0 to half as much again as the scene reaches.
@@ -119,7 +137,9 @@ def campbell(scene, *, speeds=None, steps=201, orders=(1.0, 2.0)) -> Campbell:
     return Campbell(*_core.campbell(scene, speeds, steps, list(orders)))
 
 
-def response(scene, *, speeds=None, steps=401, linear=False) -> Response:
+def response(
+    scene: _core.Scene, *, speeds: Sequence[float] | None = None, steps: int = 401, linear: bool = False
+) -> Response:
     """Half axes and phases of the orbits that the unbalance of a scene causes.
 
     speeds, steps: as of `campbell`.
@@ -128,7 +148,7 @@ def response(scene, *, speeds=None, steps=401, linear=False) -> Response:
     return Response(*_core.response(scene, speeds, steps, linear))
 
 
-def package(scene, path) -> Path:
+def package(scene: _core.Scene, path: str | PathLike[str]) -> Path:
     """Writes the FMU of a scene (FMI 2.0, co-simulation and model exchange, Linux on x86-64); its path.
 
     Its library holds every effect, and switches on those that the scene calls for; its outputs have the bits of the FMU that

@@ -21,6 +21,11 @@ create_exception!(split_rotor, RunError, PyRuntimeError, "A run that ended early
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "as Python names it")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
+    use super::did_you_mean;
+    #[pymodule_export]
     use super::run::run;
     #[pymodule_export]
     use super::scene::Scene;
@@ -34,6 +39,12 @@ mod _core {
 fn data(py: Python) -> PyResult<PathBuf> {
     let file: PathBuf = py.import("split_rotor")?.getattr("__file__")?.extract()?;
     Ok(file.with_file_name("data"))
+}
+
+/// Which of the known names was probably meant, in words.
+#[pyfunction]
+fn did_you_mean(name: &str, known: Vec<String>) -> Option<String> {
+    split_rotor_model::scene::did_you_mean(name, known.iter().map(String::as_str))
 }
 
 /// What the commands print of an error.

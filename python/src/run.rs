@@ -5,7 +5,7 @@ use crate::scene::Scene;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict};
 use split_rotor_model::scene::{Experiment, did_you_mean};
-use split_rotor_model::simulation::Growth;
+use split_rotor_model::simulation::{Deflection, Growth};
 use split_rotor_model::variables::Variable;
 use split_rotor_tools::run::{Run, outputs, points};
 use std::time::{Duration, Instant};
@@ -23,8 +23,8 @@ struct Seen {
 
 /// Runs a scene; of its outputs those of these names, or all. Others run meanwhile.
 ///
-/// Returns a dictionary: `time` (points) and `values` (outputs, points) as bytes, how many points were reached (`count`), `names`, `units`, `solver`, `log`, `warnings`, and `error` where the run
-/// ended early.
+/// Returns a dictionary: `time` (points) and `values` (outputs, points) as bytes, how many points were reached (`count`), `names`, `units`, `solver`, `log`, `warnings`, the `largest` deflection \[m]
+/// of each station and when that was \[s], and `error` where the run ended early.
 #[pyfunction]
 pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> PyResult<Bound<'py, PyDict>> {
     let scene = &scene.scene;
@@ -58,6 +58,11 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     let warnings: Vec<_> =
         scene.warnings().into_iter().chain(of_tilt).chain(run.grown().iter().map(Growth::to_string)).collect();
     result.set_item("warnings", warnings)?;
+    let largest = PyDict::new(py);
+    for (name, Deflection { largest: size, at, .. }) in run.largest() {
+        largest.set_item(name, (size, at))?;
+    }
+    result.set_item("largest", largest)?;
     result.set_item("error", error)?;
     Ok(result)
 }

@@ -1,6 +1,7 @@
 //! A scene as Python holds it: its text, and what was read from it.
 
 use crate::{SceneError, data};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyInt};
 use split_rotor_model::scene::{self, Experiment, did_you_mean};
@@ -52,7 +53,9 @@ impl Scene {
     fn with_values(&self, values: &Bound<'_, PyDict>) -> PyResult<Self> {
         let mut document = self.document()?;
         for (name, value) in values {
-            let (name, value): (String, _) = (name.extract()?, toml(&value)?);
+            let name: String = name.extract()?;
+            let value =
+                toml(&value).map_err(|error| PyTypeError::new_err(format!("{name}: {}", error.value(value.py()))))?;
             let place = self.place(&mut document, &name).ok_or_else(|| told(self.unknown(&name)))?;
             *place = Item::Value(value);
         }
@@ -210,6 +213,11 @@ fn toml(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if let Ok(number) = value.extract::<f64>() {
         return Ok(number.into());
     }
-    let several: PyResult<Vec<Value>> = value.try_iter()?.map(|one| toml(&one?)).collect();
+    let Ok(several) = value.try_iter() else {
+        let kind = value.get_type().name()?;
+        let words = format!("a value must be a number, a text, True or False, or a list of these, not {kind}");
+        return Err(PyTypeError::new_err(words));
+    };
+    let several: PyResult<Vec<Value>> = several.map(|one| toml(&one?)).collect();
     Ok(Array::from_iter(several?).into())
 }

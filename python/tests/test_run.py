@@ -95,6 +95,47 @@ def test_a_run_that_ends_early_keeps_what_was_reached():
     assert result.time[-1] == pytest.approx(3.1 / 4.9, abs=1e-9) and len(result["r_c.x"]) == len(result.time) == 65
 
 
+WHIRL = """
+[rotor]
+m = 2.0
+Ja = 0.02
+Jt = 0.03
+[start]
+r_c.y = 12e-6
+v_c.y = 1e-3
+[[effects.bearing]]
+position = 0.0
+kyy = 8e4
+kzz = 8e4
+kt = 1e3
+[[effects.probe]]
+position = 0.1
+[experiment]
+tolerance = 1e-9
+stop = 0.07
+step = 0.0142
+"""
+
+
+def test_exact_largest_deflections_do_not_depend_on_the_samples():
+    # 200 rad/s, sampled 2.2 times in a period
+    result = sr.run(sr.Scene.from_toml(WHIRL), outputs=["r_c.y"])
+    assert list(result.deflections) == ["r_c", "probe[1]"]
+    for deflection in result.deflections.values():
+        assert deflection.largest == pytest.approx(13e-6, rel=1e-7)
+        assert np.tan(200.0 * deflection.at) == pytest.approx(5.0 / 12.0, abs=1e-3)
+    assert np.abs(result["r_c.y"]).max() < 12.99e-6
+    assert str(result.deflections["r_c"]).startswith("13 µm at 0.0")
+
+
+def test_regress_a_run_that_diverges_ends_and_keeps_what_was_reached():
+    scene = sr.Scene.from_toml(WHIRL).with_values({"bearing[1].kyy": -8e4, "experiment.stop": 100.0})
+    with pytest.raises(sr.RunError, match="the motion diverges: at t = .* s the rotor is .* m off") as ended, pytest.warns(UserWarning, match="unstable"):
+        sr.run(scene)
+    result = ended.value.result
+    assert 0.1 < result.time[-1] < 0.3 and np.isfinite(result["r_c.y"]).all()
+
+
 def test_what_the_fmu_would_warn_of_is_a_warning():
     with pytest.warns(UserWarning, match="the rotor is unstable: small motions about its state at t = "):
         result = sr.run(sr.Scene.named("unstable_whirl"))

@@ -125,3 +125,18 @@ def test_exact_a_body_that_is_not_symmetric_is_unstable_where_its_revolutions_sa
     modes = [{"speed_rad_s": speed, "growth_rate_1_s": 2e-6} for speed in (50.0, 90.0)]
     linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=True, growing=(90.0,))
     assert [findings._stability(run([speed, speed]), linear).judged for speed in (50.0, 90.0)] == ["", "bad"]
+
+
+def test_exact_the_largest_deflection_is_that_of_the_run_or_else_said_to_be_a_sample(findings):
+    lines = {name: np.zeros(101) for name in ("r_c.z", "axis.y", "axis.z", "gamma.y", "gamma.z")} | {"axis.x": np.ones(101)}
+    seen = run([100.0, 100.0], **{"r_c.y": np.linspace(0.0, -2e-5, 101)}, **lines)
+    seen.scene.blocks = lambda *kinds: []
+    seen.scene.outputs, seen.scene.parameters, seen.deflections = {}, {}, ()
+    (found,) = findings._motion(seen)
+    assert found.value == "20\u00a0µm"
+    assert found.what == "largest sample of the deflection off the x axis, static deflection included: r_c, at 1\u00a0s"
+    of_run = [findings.Deflection("r_c", 20.5e-6, 0.3), findings.Deflection("probe[1]", 31.25e-6, 0.625)]
+    seen.deflections = of_run
+    (found,) = findings._motion(seen)
+    assert found.value == "31.25\u00a0µm"
+    assert found.what == "largest deflection off the x axis, static deflection included: probe[1], at 0.625\u00a0s"

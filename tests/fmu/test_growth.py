@@ -1,4 +1,4 @@
-"""What an FMU logs of a motion that grows: once for each onset along a run."""
+"""What an FMU logs of a motion that grows: once for each onset along a run; and once where it diverges."""
 
 import re
 
@@ -35,3 +35,19 @@ def test_exact_growth_is_logged_at_each_onset_with_time_speed_and_time_constant(
             assert 40.0 < speed < 50.0 and 4.0 < t - 12.2 * turn < 5.2
             exact = np.roots([5.0, 80.0, 2000.0 - 40.0j * speed]).real.max()  # m z̈ + (c + d) ż + (k − i d ω) z = 0
             assert abs(e * exact - 1.0) < 1e-3  # as it is printed
+
+
+def test_regress_that_the_motion_diverges_is_logged_once(fmus):
+    switches = {"effects.gravity": False, "effects.support": False, "effects.bearing[1]": True}
+    start = {"rotor.m": 5.0, "rotor.l": 0.0, "bearing[1].kyy": -2e5, "bearing[1].kzz": -2e5, "start.omega.x": 0.0, "start.r_c.x": 0.0, "start.r_c.y": 1e-5}
+    with Host(fmus["rotor"]) as host:
+        host.slave.setBoolean([host.reference(name) for name in switches], list(switches.values()))
+        host.start(start)
+        for i in range(150):
+            assert host.step(1e-3 * i, 1e-3) == 0
+        (warning,) = (line for line in host.log if "the motion diverges" in line)
+        t, deflection = map(float, re.search(r"at t = ([\d.e+-]+) s the rotor is ([\d.e+-]+) m off", warning).groups())
+        # A million sizes of 0.125 m are reached at 0.12 s; it is seen where the solver's step ends.
+        assert 0.119 < t < 0.14 and deflection > 0.125e6
+        assert abs(deflection / (1e-5 * np.cosh(200.0 * t)) - 1.0) < 0.06, "as it is printed"
+        assert host.read("r_c.y") > 1e6  # the run goes on

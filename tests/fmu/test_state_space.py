@@ -1,8 +1,10 @@
 """`cargo xtask state-space` and `response --from --to`: what is written for control design, read back."""
 
 import json
+import re
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import project
@@ -54,6 +56,32 @@ def test_exact_matlab_file_holds_what_the_json_does(folder):
     assert [np.shape(held[name]) for name in "ABCD"] == [
         (rows, columns) for rows, columns in ((10, 10), (10, 12), (sizes[2], 10), (sizes[2], 12))
     ]
+
+
+def test_regress_there_is_a_list_of_names_that_python_control_takes(folder):
+    model = at(folder)
+    for of in ("state", "input", "output"):
+        names, safe = model[f"{of}_names"], model[f"{of}_safe_names"]
+        assert len(set(safe)) == len(safe) == len(names)
+        assert all(re.fullmatch(r"[A-Za-z]\w*", name) for name in safe), safe
+    assert dict(zip(model["input_names"], model["input_safe_names"], strict=True))["port[1].f.y"] == "port_1_f_y"
+
+
+def test_the_lines_of_the_document_make_a_system_of_python_control(folder, monkeypatch):
+    # The package is in none of the environments: this stands for what it takes (0.10.2), and refuses what it refuses.
+    def ss(*matrices, states, inputs, outputs):
+        assert [np.shape(matrix) for matrix in matrices] == [
+            (len(rows), len(columns)) for rows in (states, outputs) for columns in (states, inputs)
+        ]
+        assert not any("." in name for name in [*states, *inputs, *outputs]), "control.ss: ValueError"
+        return matrices
+
+    monkeypatch.setitem(sys.modules, "control", SimpleNamespace(ss=ss))
+    monkeypatch.chdir(folder)
+    (lines,) = re.findall("```python\n(.*?)```", (project.ROOT / "docs" / "linear.md").read_text(encoding="utf-8"), re.DOTALL)
+    names = {}
+    exec(lines, names)  # as a reader would
+    assert np.array_equal(names["system"][0], at(folder)["A"])
 
 
 def test_exact_frequency_response_is_that_of_the_matrices(folder, xtask):

@@ -1,8 +1,6 @@
 //! Inputs over time: a run stops wherever one of them bends or jumps, and is told how it goes on.
 
-use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Input, Scene};
-use split_rotor_model::simulation::General;
 use split_rotor_model::variable::Place;
 
 /// What inputs drive.
@@ -62,19 +60,5 @@ impl<'s> Course<'s> {
     fn steer<D: Driven>(&self, driven: &mut D, t: f64, which: impl Fn(&Input) -> bool) -> Result<(), D::Error> {
         let those = self.inputs.iter().filter(|(input, _)| which(input));
         those.into_iter().try_for_each(|(input, place)| driven.steer(*place, input.from(t)))
-    }
-}
-
-impl Driven for General {
-    type Error = Fault;
-
-    fn go(&mut self, _: f64, to: f64) -> Result<(), Fault> {
-        self.advance(to)
-    }
-
-    fn steer(&mut self, input: Place, [value, rate]: [f64; 2]) -> Result<(), Fault> {
-        self.set_input(input, value);
-        self.set_input_derivative(input, 1, rate);
-        Ok(())
     }
 }

@@ -1,11 +1,12 @@
 //! A scene run over the list of all effects, which gives the bits of the scene's FMU.
 
-use crate::course::Course;
+use crate::course::{Course, Driven};
+use crate::scenes;
 use anyhow::{Context, Error, Result, bail, ensure};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Scene};
-use split_rotor_model::simulation::{General, Growth};
-use split_rotor_model::variable::Role;
+use split_rotor_model::simulation::{Deflection, General, Growth, Largest};
+use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 
 /// So many radii of gyration off the x axis a rotor turns in no machine: what made it go there is of no interest \[1].
@@ -42,10 +43,25 @@ pub fn points(Experiment { start, stop, step, .. }: &Experiment) -> usize {
     ((stop - start) / step - 1e-9).ceil() as usize
 }
 
+/// The stations whose largest deflections count, by name, with their positions along t from c \[m]: c, and the probes that are on.
+fn stations(scene: &Scene) -> Vec<(String, f64)> {
+    let value = scenes::values(scene);
+    let probes = (1..).map_while(|n| {
+        let name = format!("probe[{n}]");
+        value(&format!("{name}.position")).map(|position| (name, position))
+    });
+    // In a general scene an effect may be off.
+    let is_on = |(name, _): &(String, f64)| value(&format!("effects.{name}")) != Some(0.0);
+    [("r_c".to_owned(), 0.0)].into_iter().chain(probes.filter(is_on)).collect()
+}
+
 /// A run.
 pub struct Run<'s> {
     /// What moves.
     pub simulation: General,
+    /// The names of the stations, and what was seen of them.
+    stations: Vec<String>,
+    largest: Option<Largest>,
     outputs: Vec<&'s Variable>,
     references: Vec<u32>,
     values: Vec<f64>,
@@ -59,7 +75,16 @@ impl<'s> Run<'s> {
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, course: Course::of(scene), scene, grown: Vec::new() }
+        let (stations, positions): (Vec<_>, Vec<_>) = stations(scene).into_iter().unzip();
+        let (largest, course, grown) = (Some(Largest::at(positions)), Course::of(scene), Vec::new());
+        Self { simulation, stations, largest, outputs, references, values, course, scene, grown }
+    }
+
+    /// The largest deflections of c (`r_c`) and of the probes from the x axis, static deflections included: between the communication
+    /// points too, since the solver's dense output is searched.
+    pub fn largest(&self) -> impl Iterator<Item = (&str, Deflection)> {
+        let found = self.largest.iter().flat_map(Largest::found);
+        self.stations.iter().map(String::as_str).zip(found)
     }
 
     /// What began to grow on the way.
@@ -72,14 +97,23 @@ impl<'s> Run<'s> {
         &self.outputs
     }
 
-    /// Runs; at each communication point \[s] it is `seen`, that where the motion ends early too.
-    pub fn follow(
+    /// Runs; at each communication point \[s] it is `seen`, that where the motion ends early too. A motion that diverges is an error.
+    pub fn follow(&mut self, experiment: &Experiment, seen: impl FnMut(&mut Self, f64) -> Result<()>) -> Result<()> {
+        let outcome = self.follow_to_end(experiment, seen);
+        if let Some(largest) = &mut self.largest {
+            self.simulation.look(largest);
+        }
+        outcome
+    }
+
+    fn follow_to_end(
         &mut self,
         experiment: &Experiment,
         mut seen: impl FnMut(&mut Self, f64) -> Result<()>,
     ) -> Result<()> {
         let Experiment { start, stop, step, tolerance } = *experiment;
-        self.course.begin(&mut self.simulation, start).map_err(stuck)?;
+        let Self { course, simulation, largest, .. } = self;
+        course.begin(&mut Motion { simulation, largest }, start).map_err(stuck)?;
         let started = self.simulation.start_until(start, Some(tolerance), Some(stop));
         started.map_err(|invalid| self.scene.refused(&invalid))?;
         self.grown.extend(self.simulation.growth());
@@ -88,11 +122,15 @@ impl<'s> Run<'s> {
         for point in 1..=points(experiment) {
             // As a host reckons, which tells the length of a step.
             let next = (start + point as f64 * step).min(stop);
-            let outcome = self.course.go(&mut self.simulation, from, from + (next - from));
+            let Self { course, simulation, largest, .. } = self;
+            let outcome = course.go(&mut Motion { simulation, largest }, from, from + (next - from));
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
                 self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
                 seen(self, reached)?;
+            }
+            if let Some(divergence) = self.simulation.divergence() {
+                bail!("{divergence}; the run ends there");
             }
             outcome.map_err(|fault| match self.grown.last() {
                 Some(growth) => Error::msg(format!("{fault}; {growth}")),
@@ -125,6 +163,32 @@ impl<'s> Run<'s> {
     }
 }
 
+/// A rotor that inputs drive, and its largest deflections.
+struct Motion<'r> {
+    simulation: &'r mut General,
+    largest: &'r mut Option<Largest>,
+}
+
+impl Driven for Motion<'_> {
+    type Error = Fault;
+
+    fn go(&mut self, _: f64, to: f64) -> Result<(), Fault> {
+        self.simulation.advance_looking(to, self.largest)
+    }
+
+    fn steer(&mut self, input: Place, [value, rate]: [f64; 2]) -> Result<(), Fault> {
+        if let Some(largest) = self.largest {
+            self.simulation.look(largest);
+        }
+        self.simulation.set_input(input, value);
+        self.simulation.set_input_derivative(input, 1, rate);
+        Ok(())
+    }
+}
+
 fn stuck(fault: Fault) -> Error {
     Error::msg(fault.to_string())
 }
+
+#[cfg(test)]
+mod tests;

@@ -9,7 +9,7 @@ import scipy.io
 
 # Rows and columns are those of these vectors; without inputs a matrix has no columns.
 MATRICES = {"A": ("x0", "x0"), "B": ("x0", "u0"), "C": ("y0", "x0"), "D": ("y0", "u0")}
-LISTS = [f"{of}_{words}" for of in ("state", "input", "output") for words in ("names", "units")]
+LISTS = [f"{of}_{words}" for of in ("state", "input", "output") for words in ("names", "safe_names", "units")]
 
 
 def cells(words):

@@ -1,14 +1,14 @@
 //! `run`: a scene simulated in this process, without a package, with its report.
 
-use crate::numbers::rounded;
+use crate::numbers::{micrometres, rounded};
 use crate::progress::{Progress, program};
 use crate::{paths, python, report, scenes};
 use anyhow::{Context, Result, ensure};
 use cpu_time::ThreadTime;
+use serde_json::{Value, json};
 use split_rotor_model::error::Invalid;
 use split_rotor_model::scene::{Experiment, Scene};
-use split_rotor_model::simulation::Growth;
-use split_rotor_model::variables::Variable;
+use split_rotor_model::simulation::{Deflection, Growth};
 use split_rotor_model::xml;
 use split_rotor_tools::run::{self, Run};
 use std::f64::consts::PI;
@@ -20,8 +20,8 @@ use std::time::Duration;
 /// A report looks at a run so often, at least: it must see what goes on within a turn.
 const SEEN: f64 = 1e4;
 
-/// Runs a scene from start to stop of its experiment; leaves result.csv, with every output at each communication point, and the
-/// modelDescription.xml that says what these are. Where a step cannot be done, what was reached is left all the same.
+/// Runs a scene from start to stop of its experiment; leaves result.csv, with every output at each communication point, the
+/// modelDescription.xml that says what these are, and the largest deflections in deflections.json. Where a step cannot be done, what was reached is left all the same.
 pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
     let name = scene;
     let scene = scenes::find_warned(name)?;
@@ -32,6 +32,7 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
     let table = folder.join(RESULT);
     let mut recorded = Recorded { tells: true, ..Recorded::of(&scene) };
     let outcome = recorded.record(&scene.experiment, &table);
+    std::fs::write(folder.join(DEFLECTIONS), format!("{:#}\n", recorded.deflections()))?;
     if recorded.print(&scene.title)? {
         println!("  table      {}", table.display());
     }
@@ -74,22 +75,18 @@ fn check_size(scene: &Scene) -> Result<()> {
 const RESULT: &str = "result.csv";
 const SAMPLES: &str = "samples.csv";
 
+/// The largest deflections, of which the terminal and the report speak.
+const DEFLECTIONS: &str = "deflections.json";
+
 /// A run and what was seen of it.
 struct Recorded<'s> {
     run: Run<'s>,
-    watched: Vec<Watched>,
+    /// The column of `energy.residual`, and its largest size at a communication point \[J].
+    residual: Option<usize>,
+    largest_residual: f64,
     solving: Duration,
     /// Whether it warns of what grows.
     tells: bool,
-}
-
-/// Outputs that count by their size, or by that of both together.
-struct Watched {
-    name: String,
-    columns: Vec<usize>,
-    largest: f64,
-    /// When that was \[s].
-    at: f64,
 }
 
 impl<'s> Recorded<'s> {
@@ -100,11 +97,14 @@ impl<'s> Recorded<'s> {
         writeln!(table, "time,{}", names.join(","))?;
         let progress = Progress::of(run::points(experiment));
         progress.set_message("simulating");
-        let (watched, tells, mut writing, mut told) = (&mut self.watched, self.tells, Duration::ZERO, 0);
+        let (tells, mut writing, mut told) = (self.tells, Duration::ZERO, 0);
+        let (residual, largest) = (self.residual, &mut self.largest_residual);
         let began = ThreadTime::now();
         let outcome = self.run.follow(experiment, |run, t| {
             let began = ThreadTime::now();
-            write(run.values()?, t, watched, &mut table)?;
+            let values = run.values()?;
+            *largest = residual.map_or(*largest, |column| largest.max(values[column].abs()));
+            write(values, t, &mut table)?;
             progress.inc(1);
             // At once: what grows without bound may take long.
             while let Some(growth) = run.grown().get(told).filter(|_| tells) {
@@ -121,7 +121,15 @@ impl<'s> Recorded<'s> {
 
     fn of(scene: &'s Scene) -> Self {
         let outputs: Vec<_> = run::outputs(scene).collect();
-        Self { watched: watched(&outputs), run: Run::of(scene, outputs), solving: Duration::ZERO, tells: false }
+        let residual = outputs.iter().position(|output| output.name == "energy.residual");
+        let run = Run::of(scene, outputs);
+        Self { run, residual, largest_residual: 0.0, solving: Duration::ZERO, tells: false }
+    }
+
+    /// The largest deflections of the stations, static ones included.
+    fn deflections(&self) -> Value {
+        let told = |(name, Deflection { position, largest, at }): (&str, Deflection)| json!({ "station": name, "position_m": position, "largest_m": largest, "at_s": at });
+        self.run.largest().map(told).collect()
     }
 
     /// Prints what came of it, if it began.
@@ -138,13 +146,13 @@ impl<'s> Recorded<'s> {
         if let Some(words) = self.run.simulation.auto() {
             println!("             {words}");
         }
-        for Watched { name, columns, largest, at } in &self.watched {
-            match columns.len() {
-                1 => println!("  energy     {name} at most {largest:.2e} J"),
-                // Probes that are off see nothing.
-                _ if *largest == 0.0 => {}
-                _ => println!("  deflection {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
-            }
+        println!("  energy     energy.residual at most {:.2e} J at the communication points", self.largest_residual);
+        for (name, Deflection { largest, at, .. }) in self.run.largest() {
+            println!(
+                "  deflection {name} at most {} µm off the x axis, static deflection included, at {} s",
+                micrometres(largest),
+                rounded(at)
+            );
         }
         for Growth { rate, t, speed } in self.run.grown() {
             let (rpm, time) = (rounded(speed * 30.0 / PI), rounded(1.0 / rate));
@@ -158,26 +166,9 @@ impl<'s> Recorded<'s> {
 }
 
 /// Writes what the outputs are at time `t` \[s].
-fn write(values: &[f64], t: f64, watched: &mut [Watched], table: &mut impl Write) -> Result<()> {
-    for watched in watched {
-        let size = watched.columns.iter().fold(0.0_f64, |size, column| size.hypot(values[*column]));
-        if size > watched.largest {
-            (watched.largest, watched.at) = (size, t);
-        }
-    }
+fn write(values: &[f64], t: f64, table: &mut impl Write) -> Result<()> {
     let values: Vec<_> = values.iter().map(|value| format!("{value:?}")).collect();
     Ok(writeln!(table, "{t:?},{}", values.join(","))?)
-}
-
-/// The residual of the energy, and how far c and the probes are off the x axis.
-fn watched(outputs: &[&Variable]) -> Vec<Watched> {
-    let of = |name: &str, parts: &[&str]| {
-        let column = |part: &&str| outputs.iter().position(|output| output.name == format!("{name}{part}"));
-        let columns = parts.iter().map(column).collect::<Option<Vec<_>>>()?;
-        Some(Watched { name: name.into(), columns, largest: 0.0, at: 0.0 })
-    };
-    let probes = (1..).map_while(|i| of(&format!("probe[{i}]"), &[".r.y", ".r.z"]));
-    of("energy.residual", &[""]).into_iter().chain(of("r_c", &[".y", ".z"])).chain(probes).collect()
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use nalgebra::{Dim, Matrix, RawStorage};
 use serde_json::{Value, json};
 use split_rotor_model::linear::{Machine, Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
+use std::iter::once;
 use std::path::Path;
 
 /// Writes the matrices of a scene at this speed [rad/s], or the one with which it starts, as JSON, as an FMU and for MATLAB into the folder
@@ -67,6 +68,7 @@ fn json(scene: &Scene, space: &StateSpace) -> Value {
     let StateSpace { steady, states, inputs, outputs, directions, a, b, c, d, .. } = space;
     let names = |of: &[Quantity]| of.iter().map(|one| json!(one.name)).collect::<Value>();
     let units = |of: &[Quantity]| of.iter().map(|one| json!(one.unit.name)).collect::<Value>();
+    let safe = |of: &[Quantity]| safe_names(of.iter().map(|one| &*one.name)).into_iter().collect::<Value>();
     let values = |of: &[Quantity]| of.iter().map(|one| json!(one.steady)).collect::<Value>();
     json!({
         "scene": scene.name,
@@ -74,10 +76,13 @@ fn json(scene: &Scene, space: &StateSpace) -> Value {
         "speed_rad_s": steady.speed,
         "torque_N_m": steady.torque,
         "state_names": names(states),
+        "state_safe_names": safe(states),
         "state_units": units(states),
         "input_names": names(inputs),
+        "input_safe_names": safe(inputs),
         "input_units": units(inputs),
         "output_names": names(outputs),
+        "output_safe_names": safe(outputs),
         "output_units": units(outputs),
         "x0": values(states),
         "u0": values(inputs),
@@ -90,7 +95,31 @@ fn json(scene: &Scene, space: &StateSpace) -> Value {
     })
 }
 
+/// Names that are identifiers, in the same order and each another one: programs such as python-control refuse names with a dot.
+fn safe_names<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
+    let mut safe = Vec::<String>::new();
+    for name in names {
+        let words: Vec<_> = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty()).collect();
+        let plain = words.join("_");
+        let mut candidates = once(plain.clone()).chain((2..).map(|number| format!("{plain}_{number}")));
+        safe.extend(candidates.find(|candidate| !safe.contains(candidate)));
+    }
+    safe
+}
+
 /// A matrix row by row.
 fn rows<R: Dim, C: Dim>(matrix: &Matrix<f64, R, C, impl RawStorage<f64, R, C>>) -> Value {
     matrix.row_iter().map(|row| row.iter().map(|value| json!(value)).collect::<Value>()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::safe_names;
+
+    #[test]
+    fn exact_safe_names_are_identifiers_and_differ() {
+        let names = ["port[1].f.y", "bearing[2].kyy", "omega_phi", "a.b_c", "a_b.c", "a.b.c_2", "a.b.c"];
+        let safe = ["port_1_f_y", "bearing_2_kyy", "omega_phi", "a_b_c", "a_b_c_2", "a_b_c_2_2", "a_b_c_3"];
+        assert_eq!(safe_names(names.into_iter()), safe);
+    }
 }

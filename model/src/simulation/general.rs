@@ -1,6 +1,6 @@
 //! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
 
-use super::{Any, Growth, Integrator};
+use super::{Any, Divergence, Growth, Integrator, Largest};
 use crate::effects::All;
 use crate::error::Invalid;
 use crate::integrate::Fault;
@@ -17,6 +17,13 @@ impl General {
     #[inline(never)]
     pub fn with(integrator: Integrator, parameters: Parameters<All>) -> Self {
         Self(Any::with(integrator, parameters))
+    }
+}
+
+impl General {
+    /// [`super::Simulation::advance`], with the code of [`General::advance_looking`].
+    pub fn advance(&mut self, t: f64) -> Result<(), Fault> {
+        self.advance_looking(t, &mut None)
     }
 }
 
@@ -64,7 +71,9 @@ passed_on! {
     set_input_derivative(&mut, place: Place, order: u32, value: f64) -> bool;
     start(&mut, t: f64, relative_tolerance: Option<f64>) -> Result<(), Invalid>;
     start_until(&mut, t: f64, relative_tolerance: Option<f64>, stop: Option<f64>) -> Result<(), Invalid>;
-    advance(&mut, t: f64) -> Result<(), Fault>;
+    advance_looking(&mut, t: f64, largest: &mut Option<Largest>) -> Result<(), Fault>;
+    look(&, largest: &mut Largest) -> ();
+    divergence(&,) -> Option<Divergence>;
     time(&,) -> Option<f64>;
     get(&mut, place: Place) -> Result<Option<f64>, Invalid>;
     value(&, place: Place) -> Option<f64>;

@@ -3,8 +3,10 @@
 use super::auto::Auto;
 use super::by_series::BySeries;
 use super::closest::closest_to_origin;
+use super::divergence::{Bounds, Divergence};
 use super::events::{Events, indicators};
 use super::growth::{Growth, Watch};
+use super::largest::Looks;
 use super::method::Method;
 use super::plan::Plan;
 use super::start::{Motion, tolerance};
@@ -43,13 +45,14 @@ pub(super) struct Integration<const N: usize> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
     watch: Watch,
+    bounds: Bounds,
     events: Events,
     /// Where an input was set since the last communication step.
     held: Option<Held<N>>,
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
+    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, bounds, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -137,6 +140,8 @@ const TOO_LONG: Refusal = Refusal(
              solver.step_size, or where it is 0, tighten solver.relative_tolerance or take another solver.method",
 );
 
+const DIVERGES: Refusal = Refusal("the motion diverges");
+
 impl<const N: usize> Integration<N> {
     /// A integration from time `t` \[s] of a motion that shows `reading` at its start, for `span` \[s], where that is known.
     pub(super) fn start<E: Effects>(
@@ -169,6 +174,7 @@ impl<const N: usize> Integration<N> {
             t,
             stop: t + span,
             total_at_start: instant.reading.ledger.total_at_start,
+            bounds: Bounds::of(&frame.under(effects)),
             events,
             ..Self::blank()
         };
@@ -192,6 +198,7 @@ impl<const N: usize> Integration<N> {
             total_at_start: 0.0,
             tilted: false,
             watch: Watch::default(),
+            bounds: Bounds::default(),
             events: Events::default(),
             held: None,
         }
@@ -223,6 +230,11 @@ impl<const N: usize> Integration<N> {
         self.watch.found()
     }
 
+    /// Where the motion diverges, as it was when that was found.
+    pub(super) fn divergence(&self) -> Option<Divergence> {
+        self.bounds.found()
+    }
+
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {
         self.tilted |= self.frame.chart.is_tilted_back(gamma) && effects.needs_gamma();
     }
@@ -249,7 +261,13 @@ impl<const N: usize> Integration<N> {
 
     /// Moves the communication point to time `t` \[s], where the solver may not have been. On a fault it stands at the last time reached.
     #[inline(never)]
-    pub(super) fn advance<E: Effects>(&mut self, effects: &mut E, scratch: &mut Scratch, t: f64) -> Result<(), Fault> {
+    pub(super) fn advance<E: Effects, L: Looks>(
+        &mut self,
+        effects: &mut E,
+        scratch: &mut Scratch,
+        t: f64,
+        looks: &mut L,
+    ) -> Result<(), Fault> {
         // Who sets an input often sets it at the next communication point again: the solver does not run ahead of that.
         let until = if self.held.is_some() { t } else { self.stop.max(t) };
         self.go_back(effects)?;
@@ -257,15 +275,17 @@ impl<const N: usize> Integration<N> {
             return self.show_at(effects, t);
         }
         if !matches!(self.method, Method::Composed(_)) {
-            return self.run_to(effects, scratch, t, until);
+            return self.run_to(effects, scratch, [t, until], looks);
         }
         let before = (self.t, self.method, self.last, self.frame, self.events);
-        let outcome = self.run_to(effects, scratch, t, until);
+        let seen = looks.clone();
+        let outcome = self.run_to(effects, scratch, [t, until], looks);
         // Where the motion is lost, what stands in its way has another cause.
         if self.keeps_energy(effects) {
             return outcome.and_then(|()| self.show_at(effects, t));
         }
         (self.t, self.method, self.last, self.frame, self.events) = before;
+        *looks = seen;
         let y = self.method.state();
         let motion = self.frame.under(effects).motion(self.method.time(), y);
         self.events.tell(effects, &motion, y);
@@ -332,7 +352,14 @@ impl<const N: usize> Integration<N> {
 
     /// Steps up to time `t` \[s] or past it, but not past `until` \[s]; the communication point is then there, or where steps
     /// came to.
-    fn run_to<E: Effects>(&mut self, effects: &mut E, scratch: &mut Scratch, t: f64, until: f64) -> Result<(), Fault> {
+    fn run_to<E: Effects, L: Looks>(
+        &mut self,
+        effects: &mut E,
+        scratch: &mut Scratch,
+        [t, until]: [f64; 2],
+        looks: &mut L,
+    ) -> Result<(), Fault> {
+        looks.look(self, effects, self.method.time());
         let most = self.method.cost().evaluations + self.most;
         let ahead = if self.method.is_free() { EXACT_AHEAD } else { AHEAD };
         self.method.limit_step(ahead * (t - self.t));
@@ -378,10 +405,19 @@ impl<const N: usize> Integration<N> {
             }
             // Where a law only switched, the turns of the step before are counted already.
             if moved {
+                looks.look(self, effects, t.min(self.method.time()));
                 self.settle(effects, t);
+            }
+            if looks.looks() {
+                self.bounds.look(&self.frame.under(effects), self.method.time(), self.method.state());
+                if self.bounds.found().is_some() {
+                    self.t = self.method.time();
+                    return Err(Fault::Refused { t: self.t, reason: DIVERGES });
+                }
             }
         }
         self.watch.look(&self.frame.under(effects), self.method.time(), self.method.state());
+        self.bounds.look(&self.frame.under(effects), self.method.time(), self.method.state());
         self.t = t;
         Ok(())
     }
@@ -618,6 +654,28 @@ impl<const N: usize> Integration<N> {
         frame.chart = self.last.chart;
         let y = self.method.dense(&frame.under(effects), self.t);
         (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
+    }
+
+    /// When the last step began and ended \[s].
+    pub(super) fn last_step(&self) -> [f64; 2] {
+        [self.method.start_time(), self.method.time()]
+    }
+
+    /// The last step is looked at in so many places, between which a distance neither rises and falls twice.
+    pub(super) fn places_to_look(&self) -> u32 {
+        let [start, end] = self.last_step();
+        let (body, nutation) = (&self.frame.body, self.nutation().sqrt());
+        // An unbalance goes round with the body, by up to |K|/Ja.
+        let turning =
+            if body.asymmetric.is_some() { nutation * (1.0 + body.spin.abs() / body.per_jt) } else { nutation };
+        self.method.places_to_look((end - start) * turning)
+    }
+
+    /// The motion at a time `t` \[s] of the last step.
+    pub(super) fn motion_at<E: Effects>(&mut self, effects: &E, t: f64) -> Kinematics<f64> {
+        self.t = t;
+        let (y, chart, turns) = self.shown(effects);
+        self.motion_in(effects, chart, &y).when(t, turns)
     }
 
     /// What the communication point shows under these effects.

@@ -16,6 +16,10 @@ use std::ops::Range;
 /// A step of others is looked at in so many places.
 const PLACES: u32 = 16;
 
+/// In so many for the largest distance in it.
+const PLACES_TO_LOOK: u32 = 8;
+const MOST_PLACES: f64 = 4096.0;
+
 /// A method at work.
 #[derive(Clone, Copy)]
 #[allow(clippy::large_enum_variant, reason = "a method is kept in place, so that it needs no allocation")]
@@ -225,6 +229,16 @@ impl<const N: usize> Method<N> {
     /// In so many places a step is looked at for events: a series spans as much as three steps of other methods.
     pub fn places(&self) -> u32 {
         if self.is_series() { 3 * PLACES } else { PLACES }
+    }
+
+    /// In so many places a step must be looked at to follow a distance in it, in which the rotor turns by `turning` \[rad]: steps of
+    /// pairs span up to a turn of the fastest motion, a series up to three. Compositions take shorter ones, but where they are exact.
+    pub fn places_to_look(&self, turning: f64) -> u32 {
+        match self {
+            OfPair(_) | OfCollocation(_) => PLACES_TO_LOOK,
+            OfSeries(_) => 3 * PLACES_TO_LOOK,
+            OfComposition(_) => (2.0 * turning).ceil().clamp(1.0, MOST_PLACES) as u32,
+        }
     }
 
     /// Whether it goes by series.

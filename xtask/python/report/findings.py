@@ -7,7 +7,7 @@ import numpy as np
 from . import linear, measure, stations, vibration
 from .notation import number, quantity, rpm
 from .panels import loads
-from .turns import turns
+from .result import Deflection
 
 MOST = 5
 """Critical speeds that are named."""
@@ -162,25 +162,29 @@ def _contact(result):
 
 def _motion(result):
     columns = result.columns
+    largest = max(result.deflections or _sampled(result), key=lambda found: found.largest)
+    if largest.largest > 0.0:
+        kind = "largest sample of the deflection" if largest.is_sample else "largest deflection"
+        when = f"at {number(largest.at, 6)}\u00a0s"
+        yield Finding(_micrometres(largest.largest), f"{kind} off the x axis, static deflection included: {largest.station}, {when}")
     tilt = measure.tilt(columns)
-    if stations.is_machine(result.scene) and tilt.max() <= measure.SMALL_TILT:
-        seen = [(station, turns(station, columns)) for station in stations.looked_at(result.scene)]
-        whirls = [(t.whirl[1:].max(), t, station) for station, t in seen if t]
-        if whirls:
-            largest, t, station = max(whirls, key=lambda whirl: whirl[0])
-            if largest <= stations.ROUNDING * stations.largest_offset(result.scene, columns):
-                return
-            when = 1 + t.whirl[1:].argmax()
-            at = f"at {number(t.time[when], 3)}\u00a0s, {rpm(t.speed[when])}"
-            yield Finding(quantity(largest, "m"), f"largest whirl, {station.name}, {at}; from the second turn on")
-            return
-    distance = np.hypot(columns["r_c.y"], columns["r_c.z"])
-    if distance.max() > 0.0:
-        when = number(columns["time"][distance.argmax()])
-        yield Finding(quantity(distance.max(), "m"), f"largest distance of c from the x axis, at {when}\u00a0s")
-    if tilt.max() > 0.0:
+    if tilt.max() > 0.0 and not (stations.is_machine(result.scene) and tilt.max() <= measure.SMALL_TILT):
         when = number(columns["time"][tilt.argmax()])
-        yield Finding(f"{number(np.degrees(tilt.max()), 3)}°", f"largest tilt θ, at {when}\u00a0s")
+        yield Finding(f"{number(np.degrees(tilt.max()), 3)}°", f"largest tilt θ of the samples, at {when}\u00a0s")
+
+
+def _sampled(result):
+    """The largest samples of the deflections of c and of the probes."""
+    places = [stations.Station("r_c", 0.0), *stations.all_of(result.scene, "probe")]
+    for place in places:
+        distance = np.abs(place.offset(result.columns))
+        when = distance.argmax()
+        yield Deflection(place.name, distance[when], result.columns["time"][when], is_sample=True)
+
+
+def _micrometres(length):
+    """A length [m] as `cargo xtask run` prints it."""
+    return f"{number(1e6 * length, 6)}\u00a0µm"
 
 
 def _load(result):
@@ -189,7 +193,7 @@ def _load(result):
         return None
     name = max(found, key=lambda name: found[name].max())
     when = result.columns["time"][found[name].argmax()]
-    return Finding(quantity(found[name].max(), "N"), f"largest load, {name}, at {number(when)}\u00a0s")
+    return Finding(quantity(found[name].max(), "N"), f"largest load of the samples, {name}, at {number(when)}\u00a0s")
 
 
 def _time(result):

@@ -1,12 +1,17 @@
 """One run, wherever it comes from: all that the report knows of it."""
 
 import csv
+import json
 from dataclasses import dataclass
 
 import numpy as np
 from fmpy import read_model_description
 
 from .scene import Scene
+
+
+DEFLECTIONS = "deflections.json"
+"""The largest deflections of a run, beside its table."""
 
 
 class NotAResult(Exception):
@@ -26,6 +31,20 @@ class Timings:
 
 
 @dataclass(frozen=True)
+class Deflection:
+    """The largest deflection of a station from the x axis, static deflection included."""
+
+    station: str
+    """Its name: `r_c`, `probe[1]` …"""
+    largest: float
+    """[m]"""
+    at: float
+    """When that was [s]."""
+    is_sample: bool = False
+    """Whether it is the largest of the samples, between which it may have been larger."""
+
+
+@dataclass(frozen=True)
 class Result:
     """What a run left behind."""
 
@@ -40,6 +59,8 @@ class Result:
     """What the FMU logged, `status category: message`."""
     response: np.ndarray | None = None
     """Of a scene that answers to an imposed speed, columns `speed` [rad/s] and `radius` [m] of the whirl that lasts."""
+    deflections: tuple[Deflection, ...] = ()
+    """The largest deflections that the solver's dense output tells; empty where only samples are known."""
 
     @property
     def at_steps(self):
@@ -64,4 +85,16 @@ def read(folder, table="result.csv", solver=None):
     if len(values) < 2 or any(len(row) != len(names) for row in values):
         raise NotAResult(f"{folder / table}: at least two rows are needed, all as long as the header")
     columns = np.array(values, dtype=[(name, float) for name in names])
-    return Result(scene, columns, "without an FMU, by cargo xtask run", None if solver is None else Timings(solver))
+    timings = None if solver is None else Timings(solver)
+    return Result(scene, columns, "without an FMU, by cargo xtask run", timings, deflections=_deflections(folder / DEFLECTIONS))
+
+
+def _deflections(file):
+    """The largest deflections in `file`; none where it is not there."""
+    try:
+        found = json.loads(file.read_text(encoding="utf-8"))
+        return tuple(Deflection(one["station"], one["largest_m"], one["at_s"]) for one in found)
+    except FileNotFoundError:
+        return ()
+    except (OSError, ValueError, KeyError, TypeError) as failure:
+        raise NotAResult(f"{file}: {failure}") from failure
