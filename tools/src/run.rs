@@ -4,7 +4,7 @@ use crate::course::Course;
 use anyhow::{Context, Error, Result, bail, ensure};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Scene};
-use split_rotor_model::simulation::{General, Growth};
+use split_rotor_model::simulation::{General, Growth, Unheld};
 use split_rotor_model::variable::Role;
 use split_rotor_model::variables::{METHODS, Variable};
 
@@ -52,6 +52,7 @@ pub struct Run<'s> {
     course: Course<'s>,
     scene: &'s Scene,
     grown: Vec<Growth>,
+    unheld: Option<Unheld>,
 }
 
 impl<'s> Run<'s> {
@@ -59,7 +60,21 @@ impl<'s> Run<'s> {
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, course: Course::of(scene), scene, grown: Vec::new() }
+        Self {
+            simulation,
+            outputs,
+            references,
+            values,
+            course: Course::of(scene),
+            scene,
+            grown: Vec::new(),
+            unheld: None,
+        }
+    }
+
+    /// In which directions nothing holds the rotor, once the run has begun.
+    pub fn unheld(&self) -> Option<&Unheld> {
+        self.unheld.as_ref()
     }
 
     /// What began to grow on the way.
@@ -83,6 +98,7 @@ impl<'s> Run<'s> {
         let started = self.simulation.start_until(start, Some(tolerance), Some(stop));
         started.map_err(|invalid| self.scene.refused(&invalid))?;
         self.grown.extend(self.simulation.growth());
+        self.unheld = self.simulation.unheld();
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {

@@ -223,6 +223,11 @@ impl<const N: usize> Integration<N> {
         self.watch.found()
     }
 
+    /// Where the method stands: time \[s] and state.
+    pub(super) fn reached(&self) -> (Frame, f64, &[f64; N]) {
+        (self.frame, self.method.time(), self.method.state())
+    }
+
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {
         self.tilted |= self.frame.chart.is_tilted_back(gamma) && effects.needs_gamma();
     }
@@ -333,7 +338,7 @@ impl<const N: usize> Integration<N> {
     /// Steps up to time `t` \[s] or past it, but not past `until` \[s]; the communication point is then there, or where steps
     /// came to.
     fn run_to<E: Effects>(&mut self, effects: &mut E, scratch: &mut Scratch, t: f64, until: f64) -> Result<(), Fault> {
-        let most = self.method.cost().evaluations + self.most;
+        let most = self.method.cost().work() + self.most;
         let ahead = if self.method.is_free() { EXACT_AHEAD } else { AHEAD };
         self.method.limit_step(ahead * (t - self.t));
         let mut switched = 0;
