@@ -15,6 +15,7 @@ pub use state::{State, kind_name};
 pub use values::{Room, Type, fill};
 
 use crate::scene::{self, Effects, Simulation};
+use split_rotor_model::effects::Effects as _;
 use split_rotor_model::error::Invalid;
 use split_rotor_model::integrate::Cost;
 use split_rotor_model::log::{ALL, Category};
@@ -56,9 +57,26 @@ pub struct Memory {
     experiment: Experiment,
     /// Whether the last step could not be done.
     step_failed: bool,
-    /// Whether it was said that the tilt is large, that the motion grows, which it does still, that all inputs are 0, and that the motion
-    /// diverges.
-    warned: [bool; 4],
+    /// What was said of this run.
+    warned: [bool; warned::COUNT],
+}
+
+/// What is said once of a run, by its place in [`Memory::warned`].
+mod warned {
+    /// That the tilt is large.
+    pub const OF_TILT: usize = 0;
+    /// That the motion grows, which it does still.
+    pub const OF_GROWTH: usize = 1;
+    /// That all inputs are 0.
+    pub const OF_ZEROS: usize = 2;
+    /// That something is set of an effect that is off.
+    pub const OF_WHAT_IS_OFF: usize = 3;
+    /// That the host goes on as if a discarded step had been done.
+    pub const OF_ITS_CLOCK: usize = 4;
+    /// That the motion diverges.
+    pub const OF_DIVERGENCE: usize = 5;
+    /// How many there are.
+    pub const COUNT: usize = 6;
 }
 
 /// What the host said of the experiment, and what it set itself.
@@ -94,7 +112,7 @@ impl Memory {
             simulation: Simulation::with(integrator, parameters),
             experiment: Experiment::default(),
             step_failed: false,
-            warned: [false; 4],
+            warned: [false; warned::COUNT],
         }
     }
 
@@ -158,6 +176,8 @@ impl Instance {
             }
         };
         self.warn();
+        self.warn_of_unheld();
+        self.warn_of_what_is_off();
         Ok(())
     }
 
@@ -234,20 +254,81 @@ impl Instance {
 
     /// Says once that the tilt is large, where that matters, and that the motion diverges; and whenever the linear motion begins to grow.
     fn warn(&mut self) {
-        let [of_tilt, of_growth, _, of_divergence] = &mut self.memory.warned;
-        if !*of_tilt && let Some(message) = self.memory.simulation.warns_of_tilt() {
-            *of_tilt = true;
+        let told = &mut self.memory.warned;
+        if !told[warned::OF_TILT]
+            && let Some(message) = self.memory.simulation.warns_of_tilt()
+        {
+            told[warned::OF_TILT] = true;
             self.logger.log(Severity::Warning, Category::Warning, message);
         }
         let growth = self.memory.simulation.growth();
-        let known = std::mem::replace(of_growth, growth.is_some());
+        let known = std::mem::replace(&mut told[warned::OF_GROWTH], growth.is_some());
         if !known && let Some(growth) = growth {
             let message = growth.to_string();
             self.logger.log(Severity::Warning, Category::Warning, &message);
         }
-        if !*of_divergence && let Some(divergence) = self.memory.simulation.divergence() {
-            *of_divergence = true;
+        let told = &mut self.memory.warned;
+        if !told[warned::OF_DIVERGENCE]
+            && let Some(divergence) = self.memory.simulation.divergence()
+        {
+            told[warned::OF_DIVERGENCE] = true;
             self.logger.log(Severity::Warning, Category::Warning, &divergence.to_string());
+        }
+    }
+
+    /// Says where a run begins in which directions nothing holds the rotor.
+    fn warn_of_unheld(&self) {
+        match self.memory.simulation.unheld() {
+            Some(unheld) if unheld.is_mere_axial() => self.tell(Category::Events, || unheld.to_string()),
+            Some(unheld) => self.logger.log(Severity::Warning, Category::Warning, &unheld.to_string()),
+            None => {}
+        }
+    }
+
+    /// Says once, where a run begins, which variables of effects that are off the host has set: they do nothing.
+    fn warn_of_what_is_off(&mut self) {
+        let simulation = &self.memory.simulation;
+        let is_set = |(reference, start): &(u32, f64)| {
+            let place = Place::of(*reference);
+            self.off_for(place).is_some() && simulation.value(place).is_some_and(|value| value != *start)
+        };
+        let set: Vec<_> = scene::values().starts().filter(is_set).map(|(reference, _)| Place::of(reference)).collect();
+        self.say_what_is_off(&set);
+    }
+
+    /// Says it of inputs that are set while it runs; what was set before is looked at where the run begins.
+    fn warn_of_inputs_off(&mut self, set: impl Iterator<Item = (u32, f64)>) {
+        if Effects::FACTS.switched
+            && !self.memory.warned[warned::OF_WHAT_IS_OFF]
+            && self.memory.simulation.time().is_some()
+        {
+            let places = set.filter(|(_, value)| *value != 0.0).map(|(reference, _)| Place::of(reference));
+            let off: Vec<_> = places.filter(|place| self.off_for(*place).is_some()).collect();
+            self.say_what_is_off(&off);
+        }
+    }
+
+    /// The switch of the effect that has this variable, where that is off.
+    fn off_for(&self, place: Place) -> Option<String> {
+        let (block, row) = self.memory.simulation.parameters().effects.at(place)?;
+        (row != Place::SWITCH && block.kind().switched && !block.is_active()).then(|| block.kind().switch_name())
+    }
+
+    /// Says it of these variables, if it was not said of any.
+    fn say_what_is_off(&mut self, set: &[Place]) {
+        let words = set.iter().filter_map(|place| {
+            let name = Parameters::<Effects>::name(*place).unwrap_or_default();
+            Some(format!("{name} is set, but {} is off", self.off_for(*place)?))
+        });
+        let words: Vec<_> = words.collect();
+        if !words.is_empty() && !self.memory.warned[warned::OF_WHAT_IS_OFF] {
+            self.memory.warned[warned::OF_WHAT_IS_OFF] = true;
+            let message = format!(
+                "{}: what is off does nothing; set the switch to true before {}",
+                words.join(", "),
+                self.names.end_of_initialization
+            );
+            self.logger.log(Severity::Warning, Category::Warning, &message);
         }
     }
 
@@ -255,7 +336,7 @@ impl Instance {
     /// nobody connected.
     fn warn_of_zeros(&mut self) {
         let memory = &mut self.memory;
-        if memory.warned[2] || memory.simulation.time() != Some(memory.experiment.start) {
+        if memory.warned[warned::OF_ZEROS] || memory.simulation.time() != Some(memory.experiment.start) {
             return;
         }
         let is_input = |reference| {
@@ -269,7 +350,7 @@ impl Instance {
         if let Some((reference, start)) = other
             && inputs.all(|(reference, _)| is_zero(reference))
         {
-            memory.warned[2] = true;
+            memory.warned[warned::OF_ZEROS] = true;
             let name = Parameters::<Effects>::name(Place::of(reference)).unwrap_or_default();
             let message = format!(
                 "all inputs are 0, and the scene begins with {name} = {start:?}: some hosts send 0 to inputs that nobody \

@@ -39,7 +39,7 @@ impl Mount {
 
 impl Effect for Mount {
     const ROWS: &'static [Row<Self>] = &[
-        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
         parameter!(k, &NEWTON_PER_METRE, None, Bound::Positive, "stiffness at the line"),
         parameter!(doubled, &METRE, None, Bound::Positive, "distance at which the stiffness has doubled"),
         output!("F.z", &NEWTON, "force on the rotor, z", |mount, motion| mount.force(motion).z),

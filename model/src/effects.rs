@@ -240,6 +240,8 @@ pub trait Entry: Effect {
     const NUMBER: u32;
     /// Whether a scene may hold several, named with their index.
     const SEVERAL: bool;
+    /// Its switch in a list where it has one.
+    const SWITCH: Meta = switch("whether the effect acts; if false, it is not calculated and its outputs are 0");
 }
 
 /// What can be said of an effect without its type.
@@ -251,6 +253,8 @@ pub struct Info {
     pub number: u32,
     /// Whether a scene may hold several, named with their index.
     pub several: bool,
+    /// What is said of its switch, where it has one.
+    pub switch: Meta,
     /// The terminal that it is, if it is one.
     pub terminal: Option<Terminal>,
     /// The path of its type, for the list that build.rs writes.
@@ -277,14 +281,16 @@ pub struct Info {
     pub excludes: &'static [&'static str],
 }
 
-/// The switch of an effect: whether it acts.
-pub static SWITCH: Meta = Meta {
-    name: "effects",
-    description: "whether the effect acts; what does not act is not computed, and shows zeros",
-    unit: &ONE,
-    kind: Kind::Boolean,
-    role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
-};
+/// The switch of an effect, of which this is said: whether it acts.
+pub const fn switch(description: &'static str) -> Meta {
+    Meta {
+        name: "effects",
+        description,
+        unit: &ONE,
+        kind: Kind::Boolean,
+        role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
+    }
+}
 
 fn switch_name(name: &str, several: bool, index: u32) -> String {
     format!("effects.{}", block_name(name, several, index))
@@ -333,6 +339,7 @@ macro_rules! catalogue {
                 const NAME: &'static str = stringify!($module);
                 const NUMBER: u32 = $number;
                 const SEVERAL: bool = catalogue!(@several $many);
+                const SWITCH: Meta = switch(catalogue!(@switch $module));
             }
 
             #[cfg($module)]
@@ -350,6 +357,7 @@ macro_rules! catalogue {
             name: stringify!($module),
             number: $number,
             several: catalogue!(@several $many),
+            switch: switch(catalogue!(@switch $module)),
             terminal: <$module::$type as Effect>::TERMINAL,
             type_path: concat!("split_rotor_model::effects::", stringify!($module), "::", stringify!($type)),
             metas: || <catalogue!(@largest $module $type $($nodes)?)>::ROWS.iter().map(|row| row.meta).collect(),
@@ -394,6 +402,9 @@ macro_rules! catalogue {
     };
     (@largest $module:ident $type:ident) => { $module::$type };
     (@largest $module:ident $type:ident $nodes:ident) => { $module::$type<{ table::MOST_NODES }> };
+    (@switch $module:ident) => {
+        concat!("whether the effect ", stringify!($module), " acts; if false, it is not calculated and its outputs are 0")
+    };
     (@several one) => { false };
     (@several several) => { true };
 }

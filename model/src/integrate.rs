@@ -145,7 +145,7 @@ impl std::fmt::Display for Fault {
             }
             Fault::Spent { t } => write!(
                 f,
-                "at t = {t:?} s this communication step has taken all the evaluations that solver.max_evaluations allows: what \
+                "at t = {t:?} s this communication step has taken all the work that solver.max_evaluations allows: what \
                  moves here is too fast to be followed for so long; take shorter communication steps, a looser \
                  solver.relative_tolerance, a longer solver.step_size where one is given, another solver.method or more \
                  evaluations"
@@ -170,18 +170,40 @@ pub struct Cost {
     pub rejected: f64,
     /// Evaluations of the right-hand side.
     pub evaluations: f64,
+    /// Work besides these, as that of so many explicit evaluations.
+    pub besides: f64,
     /// The step that the method would like next \[s].
     pub next_step: f64,
     /// Sum of the accepted steps' error norms, in units of the tolerance \[1].
     pub error_estimate: f64,
 }
 
+impl Cost {
+    /// The work so far, as that of so many explicit evaluations: what `solver.max_evaluations` bounds. It counts what is done, and
+    /// not how long that takes, so that a run ends at the same step on every machine.
+    pub fn work(&self) -> f64 {
+        self.evaluations + self.besides
+    }
+
+    /// The same with what another method had spent before.
+    fn after(self, before: Self) -> Self {
+        let evaluations = before.evaluations + self.evaluations;
+        Self { evaluations, besides: before.besides + self.besides, ..before }
+    }
+
+    /// Goes back to what it was, but that what was `spent` stays so.
+    fn charge(&mut self, spent: Self) {
+        (self.evaluations, self.besides) = (spent.evaluations, spent.besides);
+    }
+}
+
 impl Stored for Cost {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { steps, rejected, evaluations, next_step, error_estimate } = self;
+        let Self { steps, rejected, evaluations, besides, next_step, error_estimate } = self;
         count(steps, walk)?;
         count(rejected, walk)?;
         count(evaluations, walk)?;
+        count(besides, walk)?;
         next_step.walk(walk)?;
         error_estimate.walk(walk)
     }

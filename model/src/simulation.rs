@@ -18,6 +18,7 @@ mod plan;
 pub(crate) mod rest;
 pub(crate) mod start;
 mod tangents;
+mod unheld;
 
 pub use divergence::Divergence;
 use exchange::Exchange;
@@ -27,6 +28,7 @@ pub use general::General;
 pub use growth::Growth;
 pub use largest::{Deflection, Largest};
 pub use tangents::Tangents;
+pub use unheld::Unheld;
 
 use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
 use crate::error::Invalid;
@@ -373,6 +375,15 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             Run::Method(integration) => integration.divergence(),
             Run::Exchange(exchange) => exchange.divergence(),
         }
+    }
+
+    /// In which directions nothing holds the rotor, while something does in others; asked where the run begins.
+    pub fn unheld(&self) -> Option<Unheld> {
+        let (frame, t, state) = match self.run.as_ref()? {
+            Run::Method(integration) => integration.reached(),
+            Run::Exchange(exchange) => exchange.reached(),
+        };
+        Unheld::of(&frame.under(&self.parameters.effects), t, state)
     }
 
     /// What to warn of where the tilt ever was large and that matters ([`Simulation::has_tilted`]).

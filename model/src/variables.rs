@@ -7,7 +7,7 @@ pub use solver::{METHODS, Solver, TOLERANCES, numbers};
 
 use crate::body::{Body, Shape};
 use crate::dual::Tangent;
-use crate::effects::{Effects, Info, Motion, SWITCH, full_name};
+use crate::effects::{Effects, Info, Motion, full_name};
 use crate::energy::Ledger;
 use crate::error::Invalid;
 use crate::integrate::Cost;
@@ -165,6 +165,9 @@ const ANY: Bound = Bound::Finite;
 /// The blocks that are always there, in the order of their value references.
 pub static BLOCKS: [&[AlwaysRow]; 6] = [ROTOR, START, solver::ROWS, MOTION, ENERGY, STATE];
 
+/// Which of them is that of the solver.
+const SOLVER: u32 = 2;
+
 const ROTOR: &[AlwaysRow] = &[
     parameter!(rotor.m, &KILOGRAM, None, Bound::Positive, "mass"),
     parameter!(rotor.Ja, &KILOGRAM_METRE_SQUARED, None, Bound::Positive, "axial moment of inertia"),
@@ -207,7 +210,7 @@ const START: &[AlwaysRow] = &[
                 &ONE,
                 Some(0.0),
                 ANY,
-                "start where loads balance at the spin start.omega.x, sought from start.r_c and start.gamma",
+                "start in equilibrium at spin start.omega.x, sought from start.r_c and start.gamma",
             )
         },
         access: Access::Parameter {
@@ -301,9 +304,9 @@ const STATE: &[AlwaysRow] = states! {
     6, "K.x", ANGULAR_MOMENTUM, NEWTON_METRE, "angular momentum about the mass centre of the whole, x";
     7, "K.y", ANGULAR_MOMENTUM, NEWTON_METRE, "angular momentum about the mass centre of the whole, y";
     8, "K.z", ANGULAR_MOMENTUM, NEWTON_METRE, "angular momentum about the mass centre of the whole, z";
-    9, "gamma.y", RADIAN, RADIAN_PER_SECOND, "transverse Euler vector in the chart in force, y";
-    10, "gamma.z", RADIAN, RADIAN_PER_SECOND, "transverse Euler vector in the chart in force, z";
-    11, "phi", RADIAN, RADIAN_PER_SECOND, "axial angle in the chart in force";
+    9, "gamma.y", RADIAN, RADIAN_PER_SECOND, "transverse Euler vector in the active chart, y";
+    10, "gamma.z", RADIAN, RADIAN_PER_SECOND, "transverse Euler vector in the active chart, z";
+    11, "phi", RADIAN, RADIAN_PER_SECOND, "axial angle in the active chart";
     12, "supplied", JOULE, WATT, "work supplied since the start";
     13, "dissipated", JOULE, WATT, "work lost since the start";
 };
@@ -648,7 +651,7 @@ pub struct Variable {
     pub meta: Meta,
 }
 
-/// The list: all variables of a scene that calls for `effects`, each with its index from 1 among its kind.
+/// The list: all variables of a scene that calls for `effects`, each with its index from 1 among its kind; those of the solver last.
 pub fn of_scene(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
     let could_work = effects.iter().any(|(info, _)| info.could_work);
     let mut list = Vec::new();
@@ -660,13 +663,16 @@ pub fn of_scene(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
             meta,
         }));
     };
-    for (number, rows) in (0..).zip(BLOCKS) {
-        block(number, &str::to_owned, rows.iter().map(|row| row.meta).collect());
+    let metas = |rows: &[AlwaysRow]| rows.iter().map(|row| row.meta).collect();
+    for (number, rows) in (0..).zip(BLOCKS).filter(|(number, _)| *number != SOLVER) {
+        block(number, &str::to_owned, metas(rows));
     }
     for (info, index) in effects {
         let name = |name: &str| full_name(&info.block_name(*index), name);
         block(Place::effect_block(info.number, *index), &name, (info.metas)());
     }
+    // Whoever looks through a list of variables looks for the machine first.
+    block(SOLVER, &str::to_owned, metas(BLOCKS[SOLVER as usize]));
     list
 }
 
@@ -675,7 +681,7 @@ pub fn of_general(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
     let switch = |(info, index): &(&'static Info, u32)| Variable {
         name: info.switch_name(*index),
         place: Place::switch(Place::effect_block(info.number, *index)),
-        meta: SWITCH,
+        meta: info.switch,
     };
     let mut list = of_scene(effects);
     let first = list.iter().position(|variable| variable.place.block >= Place::FIRST_EFFECT).unwrap_or(list.len());

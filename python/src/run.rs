@@ -55,8 +55,9 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     result.set_item("solver", solver)?;
     result.set_item("log", run.simulation.auto().into_iter().collect::<Vec<_>>())?;
     let of_tilt = run.simulation.warns_of_tilt().map(str::to_owned);
-    let warnings: Vec<_> =
-        scene.warnings().into_iter().chain(of_tilt).chain(run.grown().iter().map(Growth::to_string)).collect();
+    let unheld = run.unheld().filter(|unheld| !unheld.is_mere_axial()).map(ToString::to_string);
+    let of_motion = unheld.into_iter().chain(of_tilt).chain(run.grown().iter().map(Growth::to_string));
+    let warnings: Vec<_> = scene.warnings().into_iter().chain(of_motion).collect();
     result.set_item("warnings", warnings)?;
     let largest = PyDict::new(py);
     for (name, Deflection { largest: size, at, .. }) in run.largest() {

@@ -1,7 +1,8 @@
 //! Steps, and what is known of the last one.
 
 use super::values::{Type, finite, shown, typed};
-use super::{Failure, Instance, Reply, Room, State};
+use super::{Failure, Instance, Reply, Room, Severity, State, warned};
+use split_rotor_model::log::Category;
 use split_rotor_model::scalar::ulp;
 use split_rotor_model::signal::HIGHEST_DERIVATIVE;
 use split_rotor_model::variable::{Place, Role};
@@ -13,7 +14,7 @@ const TIME_ULPS: f64 = 4.0;
 impl Instance {
     /// Moves the communication point from `from` by `step` \[s].
     pub fn do_step(&mut self, from: f64, step: f64) -> Reply {
-        let to = self.end_of_step(from, step)?;
+        let to = self.end_of_step(from, step).inspect_err(|_| self.warn_of_its_clock(from))?;
         // There is news of the run only where the method has gone on.
         let outcome = if self.memory.simulation.advance_within_step(to) { Ok(()) } else { self.run_to(to) };
         self.memory.step_failed = outcome.is_err();
@@ -33,6 +34,19 @@ impl Instance {
         }
         self.warn();
         outcome.map_err(|fault| Failure::Discard(fault.to_string()))
+    }
+
+    /// Says once that the host goes on, from time `from` \[s], as if the step had been done that was discarded.
+    fn warn_of_its_clock(&mut self, from: f64) {
+        let (now, told) = (self.now(), &mut self.memory.warned[warned::OF_ITS_CLOCK]);
+        if self.memory.step_failed && !*told && from > now {
+            *told = true;
+            let message = format!(
+                "the last step was discarded, and the host goes on at t = {from:?} s as if it had been done: the motion stands at \
+                 t = {now:?} s, as the output solver.time says, and does not go on"
+            );
+            self.logger.log(Severity::Warning, Category::Warning, &message);
+        }
     }
 
     /// Where a step ends, if it is a right one.
@@ -79,6 +93,7 @@ impl Instance {
                 return Err(Failure::Error(format!("derivative {value:?} of {name} must be a finite number")));
             }
         }
+        self.warn_of_inputs_off(references.iter().zip(values).map(|(reference, value)| (*reference, *value)));
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             self.memory.simulation.set_input_derivative(Place::of(*reference), order.unsigned_abs(), *value);
         }

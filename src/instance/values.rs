@@ -102,6 +102,7 @@ impl Instance {
             let _ = simulation.set_parameter(place, value) || simulation.set_input(place, value);
         }
         self.memory.experiment.host_set_tolerance |= sets_tolerance;
+        self.warn_of_inputs_off(references.iter().zip(values).map(|(reference, value)| (*reference, convert(value))));
         Ok(())
     }
 

@@ -140,3 +140,19 @@ def test_exact_the_largest_deflection_is_that_of_the_run_or_else_said_to_be_a_sa
     (found,) = findings._motion(seen)
     assert found.value == "31.25\u00a0µm"
     assert found.what == "largest deflection off the x axis, static deflection included: probe[1], at 0.625\u00a0s"
+
+
+def test_regress_a_rotor_that_nothing_holds_is_not_called_stable(findings):
+    """It drifted by 12.6 mm under a green "stable"."""
+    row = {"mode": 1, "direction": "forward", "damping_ratio": 0.05, "frequency_rad_s": 100.0}
+    modes = [row | {"speed_rad_s": speed} for speed in (0.0, 600.0)]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
+    words = "nothing holds the rotor along z (any push there moves it away, though no motion grows)"
+    held = findings._stability(run([100.0, 300.0]), linear)
+    assert (held.value, held.judged) == ("stable", "good")
+    unheld = findings._stability(run([100.0, 300.0]), linear, unheld=words)
+    assert (unheld.value, unheld.judged) == ("no mode grows", "")
+    assert unheld.what.startswith("beside the directions in which nothing holds the rotor, at ")
+    told = findings._unheld(words)
+    assert (told.value, told.what, told.judged) == ("not held", words, "bad")
+    assert findings._unheld("") is None

@@ -51,3 +51,26 @@ def test_regress_that_the_motion_diverges_is_logged_once(fmus):
         assert 0.119 < t < 0.14 and deflection > 0.125e6
         assert abs(deflection / (1e-5 * np.cosh(200.0 * t)) - 1.0) < 0.06, "as it is printed"
         assert host.read("r_c.y") > 1e6  # the run goes on
+
+
+def test_regress_a_rotor_that_nothing_holds_in_a_direction_is_warned_of_once(fmus):
+    """Coefficients by the names of a program whose lateral directions are x and y: it fell along z without a word."""
+    bearings = {"bearing[1].position": -0.12, "bearing[2].position": 0.12}
+
+    def said(gravity, **coefficients):
+        with Host(fmus["rotor"]) as host:
+            switches = {"effects.gravity": gravity, "effects.support": False, "effects.bearing[1]": True, "effects.bearing[2]": True}
+            host.slave.setBoolean([host.reference(name) for name in switches], list(switches.values()))
+            values = {f"bearing[{i}].{name}": value for i in (1, 2) for name, value in coefficients.items()}
+            host.start(bearings | values)
+            for i in range(3):
+                assert host.step(1e-3 * i, 1e-3) == 0
+            return [line for line in host.log if "nothing holds" in line]
+
+    (line,) = said(True, kxx=1e6, kyy=0.8e6)
+    assert "along z (a load of 49.050 N acts there) and against tilt about y (any push there" in line  # 5 kg
+    (line,) = said(False, kxx=1e6, kyy=0.8e6)
+    assert "along z (any push there moves it away" in line
+    # Free along its axis alone is no warning.
+    assert not said(True, kyy=1e6, kzz=1e6)
+    assert not said(True, kxx=1e6, kyy=1e6, kzz=1e6)

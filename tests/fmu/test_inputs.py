@@ -6,6 +6,8 @@ the kinetic energy. What a polynomial of the input does, call by call: tests/int
 
 import numpy as np
 import pytest
+from fmpy.simulation import Input
+from host import Host
 
 UPRIGHT = {"gravity.g.z": 0.0, "support.c1": 0.0, "support.c2": 0.0, "support.d1": 0.0, "support.d2": 0.0}
 SPIN, JA = 50.0, 0.15625
@@ -66,3 +68,38 @@ def test_exact_ramp_that_is_held(driven):
     steps = np.round(result["time"] / 0.01)
     held = 6.0 * 0.01**2 * steps * (steps - 1.0) / 2.0
     np.testing.assert_allclose(result["drive.w"], speed(held), rtol=ROUNDING)
+
+
+def test_regress_exact_a_constant_that_fmpy_rounds_leaves_the_ramp_alone(fmus):
+    """Of a constant 100 fmpy makes 100.00000000000001 now and then, which threw the speed back from 77.6 to 99.6 rad/s."""
+    rows = np.array([(0.0, 100.0), (1.0, 100.0)], dtype=[("time", np.float64), ("imposed_speed.w", np.float64)])
+    start = {"imposed_speed.w": 100.0, "imposed_speed.a": -22.4, "start.omega.x": 100.0, "unbalance[1].mass": 0.0}
+    shown = ["omega_phi"]
+    result = fmus["jeffcott"].simulate(start_values=start, input=rows, stop_time=1.0, output_interval=0.01, output=shown)
+    table = rows["imposed_speed.w"][np.newaxis]
+    sent = np.array([Input.interpolate(time=t, t=rows["time"], table=table)[0].item() for t in result["time"]])
+    assert np.any(sent != 100.0) and np.all(np.abs(sent - 100.0) < 2e-14)
+    np.testing.assert_allclose(result["omega_phi"], 100.0 - 22.4 * result["time"], rtol=1e-13)
+
+
+def test_regress_what_is_set_of_an_effect_that_is_off_is_said_once(fmus):
+    """The input did nothing, as fmi2OK."""
+
+    def said(before, during, on=()):
+        with Host(fmus["rotor"]) as host:
+            host.slave.setBoolean([host.reference(f"effects.{name}") for name in on], [True] * len(on))
+            host.start(before)
+            for i in range(3):
+                host.set(during)
+                assert host.step(0.01 * i, 0.01) == 0
+            return [line for line in host.log if " is off" in line]
+
+    (line,) = said({"drive.tau": 5.0}, {"drive.tau": 6.0})
+    assert "drive.tau is set, but effects.drive is off: " in line and "before fmi2ExitInitializationMode" in line
+    (line,) = said({}, {"drive.tau": 5.0, "port[1].f.z": 1.0})
+    assert "drive.tau is set, but effects.drive is off, port[1].f.z is set, but effects.port[1] is off: " in line
+    (line,) = said({"bearing[2].kyy": 1e6}, {})
+    assert "bearing[2].kyy is set, but effects.bearing[2] is off: " in line
+    # What is 0, what is as it was, and what is on.
+    assert not said({"drive.tau": 0.0, "motor.command": 1.0}, {"drive.tau": 0.0})
+    assert not said({"drive.tau": 5.0}, {"drive.tau": 6.0}, on=["drive"])

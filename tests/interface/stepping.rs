@@ -337,3 +337,52 @@ fn fmi_reading_twice_gives_the_same_bits() {
     values.reverse();
     assert_eq!(values.into_iter().map(Real::to_bits).collect::<Vec<_>>(), motion(&mut instance));
 }
+
+/// Some hosts ignore what fmi2DoStep returns: the time that the motion has reached is an output, and the log says once that it stands.
+#[test]
+#[cfg_attr(not(scene_has_support), ignore = "needs a scene with support")]
+fn regress_a_host_that_ignores_a_discarded_step_is_warned_once_and_sees_how_far_the_motion_came() {
+    let mut instance = Instance::quiet().started(&tumbling());
+    assert_eq!(instance.get("solver.time"), 0.0);
+    assert_eq!(instance.do_step(0.0, 0.05), Status::Ok);
+    assert_eq!(instance.get("solver.time"), 0.05);
+    let mut warnings = 0;
+    for n in 1..5 {
+        let from = 0.05 * Real::from(n);
+        let expected = [Status::Ok, Status::Discard, Status::Error, Status::Error][n as usize - 1];
+        assert_eq!(instance.do_step(from, 0.05), expected);
+        let last = instance.last_successful_time().expect("a step was made");
+        assert_eq!(instance.get("solver.time").to_bits(), last.to_bits());
+        assert!(last <= 3.1 / 30.0 + 1e-9);
+        assert_eq!(instance.terminated(), Ok(n > 1));
+        let records = instance.journal.take();
+        warnings += records.iter().filter(|record| record.message.contains("solver.time")).count();
+    }
+    assert_eq!(warnings, 1);
+}
+
+/// Whatever a host asks or does wrong between them, fmi2Terminated is true after every fmi2Discard, until a step is done.
+#[test]
+#[cfg_attr(not(scene_has_support), ignore = "needs a scene with support")]
+fn regress_terminated_stays_true_after_every_discard() {
+    let mut instance = Instance::quiet();
+    instance.set_method(3);
+    instance.set_all(&[("solver.max_evaluations", 1e3)]);
+    let mut instance = instance.started(&[]);
+    let mut discarded = 0;
+    for _ in 0..5 {
+        let from = instance.last_successful_time().expect("it was initialized");
+        assert_eq!(instance.do_step(from, 10.0 - from), Status::Discard);
+        discarded += 1;
+        for _ in 0..2 {
+            assert_eq!((instance.step_status(), instance.terminated()), (Ok(Status::Discard), Ok(true)));
+            refused(&mut instance, 9.0, 1.0, &["currentCommunicationPoint"]);
+            instance.get("energy.residual");
+        }
+    }
+    assert_eq!(discarded, 5);
+    // Another step that can be done ends that.
+    let from = instance.last_successful_time().expect("it was initialized");
+    assert_eq!(instance.do_step(from, 1e-3), Status::Ok);
+    assert_eq!((instance.step_status(), instance.terminated()), (Ok(Status::Ok), Ok(false)));
+}

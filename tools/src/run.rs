@@ -5,7 +5,7 @@ use crate::scenes;
 use anyhow::{Context, Error, Result, bail, ensure};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Scene};
-use split_rotor_model::simulation::{Deflection, General, Growth, Largest};
+use split_rotor_model::simulation::{Deflection, General, Growth, Largest, Unheld};
 use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 
@@ -68,6 +68,7 @@ pub struct Run<'s> {
     course: Course<'s>,
     scene: &'s Scene,
     grown: Vec<Growth>,
+    unheld: Option<Unheld>,
 }
 
 impl<'s> Run<'s> {
@@ -77,7 +78,7 @@ impl<'s> Run<'s> {
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
         let (stations, positions): (Vec<_>, Vec<_>) = stations(scene).into_iter().unzip();
         let (largest, course, grown) = (Some(Largest::at(positions)), Course::of(scene), Vec::new());
-        Self { simulation, stations, largest, outputs, references, values, course, scene, grown }
+        Self { simulation, stations, largest, outputs, references, values, course, scene, grown, unheld: None }
     }
 
     /// The largest deflections of c (`r_c`) and of the probes from the x axis, static deflections included: between the communication
@@ -85,6 +86,11 @@ impl<'s> Run<'s> {
     pub fn largest(&self) -> impl Iterator<Item = (&str, Deflection)> {
         let found = self.largest.iter().flat_map(Largest::found);
         self.stations.iter().map(String::as_str).zip(found)
+    }
+
+    /// In which directions nothing holds the rotor, once the run has begun.
+    pub fn unheld(&self) -> Option<&Unheld> {
+        self.unheld.as_ref()
     }
 
     /// What began to grow on the way.
@@ -117,6 +123,7 @@ impl<'s> Run<'s> {
         let started = self.simulation.start_until(start, Some(tolerance), Some(stop));
         started.map_err(|invalid| self.scene.refused(&invalid))?;
         self.grown.extend(self.simulation.growth());
+        self.unheld = self.simulation.unheld();
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {

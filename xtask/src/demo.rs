@@ -8,13 +8,21 @@ use split_rotor_model::scene::{Input, Scene};
 
 /// Packages the scene, simulates it with fmpy, and reports. An energy that does not add up is an error.
 pub fn demo(scene: &str) -> Result<()> {
-    let Scene { name, inputs, .. } = scenes::find(scene)?;
+    let found = scenes::find(scene)?;
+    let unheld = report::unheld(&found);
+    let Scene { name, inputs, .. } = found;
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let out = paths::target().join("demo").join(name);
     let view = report::linear_view(scene);
     let course = |input: &Input| json!({ "name": input.name, "time": input.time, "value": input.value });
     let inputs: Value = inputs.iter().map(course).collect();
     let mut demo = python::python()?;
-    demo.arg("xtask/python/demo.py").arg(fmu).arg("--out").arg(out).args(["--inputs", &inputs.to_string()]).args(view);
+    demo.arg("xtask/python/demo.py")
+        .arg(fmu)
+        .arg("--out")
+        .arg(out)
+        .args(["--inputs", &inputs.to_string()])
+        .args(view)
+        .args(unheld);
     program("simulating the FMU with fmpy, and making its report", &mut demo)
 }

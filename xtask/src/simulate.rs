@@ -48,9 +48,15 @@ pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
             RESULT
         };
         let view = report::linear_view(name);
+        let unheld = report::unheld(&scene);
         let mut report = python::python()?;
         let solver = recorded.solving.as_secs_f64().to_string();
-        report.arg("xtask/python/run.py").arg(&folder).args(["--table", table, "--solver", &solver]).args(view);
+        report
+            .arg("xtask/python/run.py")
+            .arg(&folder)
+            .args(["--table", table, "--solver", &solver])
+            .args(view)
+            .args(unheld);
         program("making the report", &mut report)?;
     }
     Ok(())
@@ -99,6 +105,7 @@ impl<'s> Recorded<'s> {
         progress.set_message("simulating");
         let (tells, mut writing, mut told) = (self.tells, Duration::ZERO, 0);
         let (residual, largest) = (self.residual, &mut self.largest_residual);
+        let mut told_of_unheld = false;
         let began = ThreadTime::now();
         let outcome = self.run.follow(experiment, |run, t| {
             let began = ThreadTime::now();
@@ -106,7 +113,12 @@ impl<'s> Recorded<'s> {
             *largest = residual.map_or(*largest, |column| largest.max(values[column].abs()));
             write(values, t, &mut table)?;
             progress.inc(1);
-            // At once: what grows without bound may take long.
+            // At once: what grows or drifts without bound may take long.
+            if let Some(unheld) = run.unheld().filter(|_| tells && !told_of_unheld) {
+                let kind = if unheld.is_mere_axial() { "note" } else { "warning" };
+                progress.suspend(|| eprintln!("{kind}: {unheld}"));
+                told_of_unheld = true;
+            }
             while let Some(growth) = run.grown().get(told).filter(|_| tells) {
                 progress.suspend(|| eprintln!("warning: {growth}"));
                 told += 1;
@@ -154,10 +166,11 @@ impl<'s> Recorded<'s> {
                 rounded(at)
             );
         }
-        for Growth { rate, t, speed } in self.run.grown() {
+        for Growth { rate, t, speed, at_ports } in self.run.grown() {
             let (rpm, time) = (rounded(speed * 30.0 / PI), rounded(1.0 / rate));
+            let held = if *at_ports { "with the loads at its ports held, " } else { "" };
             println!(
-                "  unstable   seen at {} s, {rpm} rpm: small motions grow by a factor of e in {time} s",
+                "  unstable   {held}seen at {} s, {rpm} rpm: small motions grow by a factor of e in {time} s",
                 rounded(*t)
             );
         }

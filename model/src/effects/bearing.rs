@@ -223,7 +223,7 @@ macro_rules! rows {
 impl<const NODES: usize> Bearing<NODES> {
     /// Its variables, and those of nodes that it may not have.
     const ALL: &'static [Row<Self>] = rows!([
-        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
         parameter!(
             kyy,
             &NEWTON_PER_METRE,

@@ -4,7 +4,7 @@
 //! host sends derivatives of w, they tell the rate themselves.
 
 use super::{Effect, InputSet, Motion, Row, Terminal};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, ulp};
 use crate::signal::Signal;
 use crate::state::{Kinematics, Rates};
 use crate::variable::units::{KILOGRAM_METRE_SQUARED, NEWTON_METRE, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED};
@@ -28,7 +28,7 @@ mod at {
     /// What the speed gained over w where an input was last set [rad/s], and whether that was a.
     pub const GAINED: usize = 0;
     pub const BENT: usize = 1;
-    /// The value of w that was set last [rad/s], and whether it differed from the one before.
+    /// The last value of w that counted [rad/s], and whether the last one set differed from it.
     pub const TOLD: usize = 2;
     pub const DIFFERED: usize = 3;
     /// The last two communication points, the later first \[s].
@@ -45,6 +45,9 @@ mod at {
 }
 
 const MEMORY: usize = 12;
+
+/// Two values of w are one where they differ by no more: hosts interpolate, and 100 comes back as 100.00000000000001 [ulp].
+const SAME: f64 = 4.0;
 
 /// The row of w.
 const W: usize = 0;
@@ -162,11 +165,14 @@ impl Effect for ImposedSpeed {
         let InputSet { row, order, t, goes_on } = set;
         let mut counts = false;
         if row == W && order == 0 {
-            let value: f64 = self.w.at(t);
-            let differs = value != self.memory[at::TOLD];
+            let (value, last) = (self.w.at::<f64>(t), self.memory[at::TOLD]);
+            let differs = (value - last).abs() > SAME * ulp(last);
             // A sampled speed is followed point by point; one that is only repeated leaves a ramp alone.
             counts = differs || self.memory[at::DIFFERED] != 0.0;
-            (self.memory[at::TOLD], self.memory[at::DIFFERED]) = (value, f64::from(differs));
+            if counts {
+                self.memory[at::TOLD] = value;
+            }
+            self.memory[at::DIFFERED] = f64::from(differs);
         }
         if goes_on && !counts {
             return false;

@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Change, Effect, InputSet, MOST_OWN, Motion, Pose, SWITCH, Wrench};
+use super::{Act, Change, Effect, InputSet, MOST_OWN, Motion, Pose, Wrench};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
@@ -253,7 +253,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn meta(place: Place) -> Option<&'static Meta> {
         let [n, _] = Self::number_of(place.block)?;
         let kind = Self::kind(n)?;
-        if kind.switched && place.row == Place::SWITCH { Some(&SWITCH) } else { (kind.meta)(place.row) }
+        if kind.switched && place.row == Place::SWITCH { Some(&kind.switch) } else { (kind.meta)(place.row) }
     }
 
     /// The full name of the variable at this place; None where there is none.

@@ -30,7 +30,7 @@ impl Effect for Port {
     const LAW: &'static str = "the force f at a station and the moment m, from outside";
 
     const ROWS: &'static [Row<Self>] = &[
-        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
         input!(f.x, &NEWTON, 0.0, "force on the rotor at the station, x"),
         input!(f.y, &NEWTON, 0.0, "force on the rotor at the station, y"),
         input!(f.z, &NEWTON, 0.0, "force on the rotor at the station, z"),

@@ -15,7 +15,7 @@ impl Effect for Probe {
     const LAW: &'static str = "place and velocity of a station; no load";
 
     const ROWS: &'static [Row<Self>] = &[
-        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
         output!("r.y", &METRE, "position of the station, y", |p, m| m.station(p.position).y),
         output!("r.z", &METRE, "position of the station, z", |p, m| m.station(p.position).z),
         output!("v.y", &METRE_PER_SECOND, "velocity of the station, y", |p, m| m.station_velocity(p.position).y),

@@ -37,7 +37,7 @@ impl Effect for RotatingDamping {
             Bound::NotNegative,
             "damping in axes that turn with the rotor about e"
         ),
-        parameter!(position, &METRE, Some(0.0), Bound::Finite, "place along t from c"),
+        parameter!(position, &METRE, Some(0.0), Bound::Finite, "axial position from the mass centre"),
     ];
 
     #[inline(always)]

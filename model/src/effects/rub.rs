@@ -112,7 +112,7 @@ impl Effect for Rub {
         "δ = |q| − gap > 0: N = stiffness δ + damping dδ/dt ≥ 0, and friction N tanh(v_t/v0) against the sliding v_t";
 
     const ROWS: &'static [Row<Self>] = &[
-        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
         parameter!(gap, &METRE, None, Bound::Positive, "radial gap between shaft and ring"),
         parameter!(stiffness, &NEWTON_PER_METRE, Some(0.0), Bound::NotNegative, "stiffness of the ring"),
         parameter!(damping, &NEWTON_SECOND_PER_METRE, Some(0.0), Bound::NotNegative, "damping of the ring"),

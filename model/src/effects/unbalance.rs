@@ -33,7 +33,7 @@ impl Effect for Unbalance {
             Bound::Finite,
             "angle of the point mass about the axis, from y towards z at phi = 0, gamma = 0"
         ),
-        parameter!(position, &METRE, None, Bound::Finite, "place along t from c"),
+        parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
     ];
 
     const PUSHES: bool = false;

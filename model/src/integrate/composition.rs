@@ -334,9 +334,9 @@ impl<const N: usize> Composed<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// So many evaluations were made until now.
-    pub fn charge(&mut self, evaluations: f64) {
-        self.cost.evaluations = evaluations;
+    /// So much was spent until now.
+    pub fn charge(&mut self, spent: Cost) {
+        self.cost.charge(spent);
     }
 
     /// One step forward, but not past time `until` \[s], while the run has taken at most `most` evaluations. One that cannot be
@@ -348,7 +348,7 @@ impl<const N: usize> Composed<N> {
         loop {
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * h > self.t && h > SHRUNK * self.h;
-            if !advances || self.cost.evaluations > most {
+            if !advances || self.cost.work() > most {
                 return Err(Fault::of_no_step(self.t, advances, fault));
             }
             let end = end_of_step(self.t, h, until);

@@ -166,8 +166,7 @@ impl<const N: usize> Explicit<N> {
 
     /// The same in place of another method at the same state, with its sizes and its cost, and with a next step of `h` \[s].
     pub fn instead(self, h: f64, sizes: Sizes<N>, cost: Cost) -> Self {
-        let evaluations = cost.evaluations + self.cost.evaluations;
-        Self { h, sizes, cost: Cost { evaluations, ..cost }, ..self }
+        Self { h, sizes, cost: self.cost.after(cost), ..self }
     }
 
     /// From now on excursions of these components count from 0.
@@ -180,13 +179,13 @@ impl<const N: usize> Explicit<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// So many evaluations were made until now.
-    pub fn charge(&mut self, evaluations: f64) {
-        self.cost.evaluations = evaluations;
+    /// So much was spent until now.
+    pub fn charge(&mut self, spent: Cost) {
+        self.cost.charge(spent);
     }
 
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
-    /// evaluations. Where none is possible, the method stands as before.
+    /// evaluations, other work counted as such. Where none is possible, the method stands as before.
     pub fn step(&mut self, system: &impl System<N>, most: f64, until: f64) -> Result<(), Fault> {
         let (rate, h) = (self.k[self.tableau.last], self.h);
         if !are_finite(&rate) {
@@ -196,7 +195,7 @@ impl<const N: usize> Explicit<N> {
         loop {
             // A step that is not a number does not advance the time either.
             let advances = self.t + 0.1 * self.h > self.t && self.h > SHRUNK * h;
-            if !advances || self.cost.evaluations > most {
+            if !advances || self.cost.work() > most {
                 (self.k[self.tableau.last], self.h) = (rate, h);
                 return Err(Fault::of_no_step(self.t, advances, obstacle));
             }

@@ -273,8 +273,7 @@ impl<const N: usize> Taylor<N> {
 
     /// The same in place of another method at the same state, with its sizes and its cost, and after a step of `h` \[s].
     pub fn instead(self, h: f64, sizes: Sizes<N>, cost: Cost) -> Self {
-        let evaluations = cost.evaluations + self.cost.evaluations;
-        Self { h, sizes, cost: Cost { evaluations, ..cost }, ..self }
+        Self { h, sizes, cost: self.cost.after(cost), ..self }
     }
 
     /// From now on excursions of these components count from 0.
@@ -287,13 +286,13 @@ impl<const N: usize> Taylor<N> {
         Cost { next_step: self.h, ..self.cost }
     }
 
-    /// So many evaluations were made until now.
-    pub fn charge(&mut self, evaluations: f64) {
-        self.cost.evaluations = evaluations;
+    /// So much was spent until now.
+    pub fn charge(&mut self, spent: Cost) {
+        self.cost.charge(spent);
     }
 
     /// One step forward of the method's own choice, but not past time `until` \[s], while the run has taken at most `most`
-    /// evaluations; false where the laws have a series for too short a time. Where no step is possible, the method stands where it
+    /// evaluations, other work counted as such; false where the laws have a series for too short a time. Where no step is possible, the method stands where it
     /// stood, and its last step is forgotten.
     pub fn step(
         &mut self,
@@ -312,7 +311,7 @@ impl<const N: usize> Taylor<N> {
         let (mut h, mut obstacle) = (first, None);
         loop {
             let advances = self.t + 0.1 * h > self.t && h > SHRUNK * first;
-            if !advances || self.cost.evaluations > most {
+            if !advances || self.cost.work() > most {
                 return Err(Fault::of_no_step(self.t, advances, obstacle));
             }
             let end = end_of_step(self.t, h, until);

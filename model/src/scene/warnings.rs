@@ -19,7 +19,8 @@ impl Scene {
     pub fn warnings(&self) -> Vec<String> {
         let places_and_masses = self.far_places().chain(self.heavy_unbalances());
         let others = self.large_angles().chain(self.idle_spin());
-        places_and_masses.chain(others).chain(self.idle_effects()).chain(self.idle_inputs()).collect()
+        let names = self.names_of_other_axes();
+        places_and_masses.chain(others).chain(names).chain(self.idle_effects()).chain(self.idle_inputs()).collect()
     }
 
     /// Names and values of the parameters whose names end so; of what is switched off too.
@@ -57,6 +58,36 @@ impl Scene {
         let is_idle = own != 0.0 && (own - imposed).abs() > 1e-9 * imposed.abs();
         (is_idle && self.acting().any(|(info, _)| info.name == IMPOSED))
             .then(|| format!("{START} = {own:?} rad/s does not count: {IMPOSED_SPEED} begins with {imposed:?} rad/s"))
+    }
+
+    /// Coefficients by the names of programs whose lateral directions are x and y: of a bearing, those along z are missing.
+    fn names_of_other_axes(&self) -> impl Iterator<Item = String> {
+        self.acting().filter_map(|(info, index)| {
+            let block = Place::effect_block(info.number, index);
+            // Nodes of a table too.
+            let is_given = |name: &str| {
+                let own = self.variables.iter().filter(|variable| variable.place.block == block);
+                let mut named = own.filter(|variable| variable.meta.name.split('[').next() == Some(name));
+                named.any(|variable| self.starts.get(&variable.place.value_reference()).is_some_and(|value| *value != 0.0))
+            };
+            let lacks = |kind: &&str| {
+                ["xx", "yy"].iter().all(|of| is_given(&format!("{kind}{of}"))) && !is_given(&format!("{kind}zz"))
+            };
+            let kinds: Vec<_> = ["k", "c"].into_iter().filter(lacks).collect();
+            let name = info.block_name(index);
+            let list = |of: &[&str]| {
+                kinds.iter().flat_map(|kind| of.iter().map(move |of| format!("{kind}{of}"))).collect::<Vec<_>>().join(", ")
+            };
+            (!kinds.is_empty()).then(|| {
+                format!(
+                    "{name} has {} and no {}: here x is the axis of the rotor, and y and z lie across it; where the lateral directions \
+                     are x and y (ROSS, API data sheets, DyRoBeS), write {} for them",
+                    list(&["xx", "yy"]),
+                    list(&["zz"]),
+                    list(&["yy", "zz"]),
+                )
+            })
+        })
     }
 
     /// What acts has a mass, a stiffness or a damping, whose unit holds kg. What has an input is left to its host.

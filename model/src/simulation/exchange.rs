@@ -131,6 +131,11 @@ impl<const N: usize> Exchange<N> {
         self.bounds.found()
     }
 
+    /// Where the host's motion stands: time \[s] and state.
+    pub(super) fn reached(&self) -> (Frame, f64, &[f64; N]) {
+        (self.frame, self.t, &self.state)
+    }
+
     /// The host's time \[s].
     pub fn set_time(&mut self, t: f64) {
         self.t = t;

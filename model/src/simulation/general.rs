@@ -1,6 +1,6 @@
 //! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
 
-use super::{Any, Divergence, Growth, Integrator, Largest};
+use super::{Any, Divergence, Growth, Integrator, Largest, Unheld};
 use crate::effects::All;
 use crate::error::Invalid;
 use crate::integrate::Fault;
@@ -81,5 +81,6 @@ passed_on! {
     read(&mut,) -> Result<&Reading, Invalid>;
     auto(&,) -> Option<String>;
     growth(&,) -> Option<Growth>;
+    unheld(&,) -> Option<Unheld>;
     warns_of_tilt(&,) -> Option<&'static str>;
 }

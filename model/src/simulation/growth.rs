@@ -1,5 +1,6 @@
 //! Whether the linear motion about where a rotor is grows: what an unstable machine does is right, but its user should know.
 
+use super::rest::settled;
 use crate::body::Inertia;
 use crate::effects::Effects;
 use crate::integrate::System;
@@ -20,20 +21,23 @@ pub struct Growth {
     pub t: f64,
     /// ω_φ there [rad/s].
     pub speed: f64,
+    /// Whether the rotor has ports: their loads count as held, and a partner that answers the motion may change the growth.
+    pub at_ports: bool,
 }
 
-stored!(Growth { rate, t, speed });
+stored!(Growth { rate, t, speed, at_ports });
 
 impl Display for Growth {
     /// What to warn of.
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let Self { rate, t, speed } = self;
+        let Self { rate, t, speed, at_ports } = self;
         // To five digits, and no zeros behind them.
         let [t, time] = [*t, 1.0 / rate].map(|value| format!("{value:.4e}").parse().unwrap_or(value));
+        let held = if *at_ports { " with the loads at its ports held" } else { "" };
         write!(
             f,
-            "the rotor is unstable: small motions about its state at t = {t:?} s, at {speed:.1} rad/s, grow by a factor of e every \
-             {time:?} s"
+            "the rotor is unstable{held}: small motions about its state at t = {t:?} s, at {speed:.1} rad/s, grow by a factor of e \
+             every {time:?} s"
         )
     }
 }
@@ -102,6 +106,9 @@ const STILL: f64 = 3.0;
 /// An asymmetric body turns its equations with it, which these do not see: its inertias about t differ by more than this \[1].
 const ASYMMETRIC: f64 = 1e-3;
 
+/// The effect that passes on the loads of other models.
+pub(super) const PORT: &str = "port";
+
 impl Watch {
     /// What grows, as it was when it was seen first; None where nothing does any more.
     pub fn found(&self) -> Option<Growth> {
@@ -139,7 +146,8 @@ impl Watch {
         // motion grows, it may well come to move fast.
         let holds = |seen: &Seen| seen.exceeds(&motion) && seen.by > torque * per_jt / seen.size;
         let rate = growing().filter(|seen| holds(seen) || self.found.is_some()).fold(Seen::default(), largest).by;
-        let found = || Growth { rate, t, speed: motion.axial_rate() };
+        let at_ports = rotor.effects.active().any(|block| block.kind().name == PORT);
+        let found = || Growth { rate, t, speed: motion.axial_rate(), at_ports };
         // What has grown until the axis leans far is one growth, whatever is seen of it there.
         let still = self.found.filter(|_| rate > 0.0 || motion.tilt.gamma().norm() > FAR);
         self.found = still.or_else(|| (rate > 0.0).then(found));
@@ -181,7 +189,7 @@ impl Watch {
         // The balanced rotor: what an unbalance adds turns with it.
         let Frame { body, chart, turns, .. } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
-        let jacobian = balanced.jacobian(t, y);
+        let jacobian = balanced.jacobian(t, &settled(&balanced, t, y));
         let first = own(N);
         let Some(matrix) = Self::scaled(&Linear::from_fn(|i, j| jacobian[first + i][first + j]), &balanced.frame.body)
         else {

@@ -235,6 +235,11 @@ impl<const N: usize> Integration<N> {
         self.bounds.found()
     }
 
+    /// Where the method stands: time \[s] and state.
+    pub(super) fn reached(&self) -> (Frame, f64, &[f64; N]) {
+        (self.frame, self.method.time(), self.method.state())
+    }
+
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {
         self.tilted |= self.frame.chart.is_tilted_back(gamma) && effects.needs_gamma();
     }
@@ -360,7 +365,7 @@ impl<const N: usize> Integration<N> {
         looks: &mut L,
     ) -> Result<(), Fault> {
         looks.look(self, effects, self.method.time());
-        let most = self.method.cost().evaluations + self.most;
+        let most = self.method.cost().work() + self.most;
         let ahead = if self.method.is_free() { EXACT_AHEAD } else { AHEAD };
         self.method.limit_step(ahead * (t - self.t));
         let mut switched = 0;

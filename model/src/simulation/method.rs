@@ -183,7 +183,7 @@ impl<const N: usize> Method<N> {
 
     /// Goes back to what it was `before`; what it has spent since is spent.
     pub fn take_back(&mut self, before: Self) {
-        let spent = self.cost().evaluations;
+        let spent = self.cost();
         *self = before;
         each!(self, method => method.charge(spent));
     }

@@ -13,7 +13,7 @@ use crate::variables::{Parameters, Start};
 use nalgebra::{Const, Matrix3, Matrix3x2, SMatrix, SVD, SVector, Vector2, Vector3};
 
 /// Place (3) and tilt (2), which are sought.
-const UNKNOWNS: usize = 5;
+pub(super) const UNKNOWNS: usize = 5;
 
 /// Rates of v (3) and K (3), which must vanish.
 const BALANCES: usize = 6;
@@ -24,6 +24,9 @@ const LONGEST: f64 = 0.3;
 
 /// Singular values below this part of the largest are those of directions in which nothing holds the rotor \[1].
 const UNHELD: f64 = 1e-12;
+
+/// Springs hold nothing whose period is beyond all times: the square of a rate [1/s²].
+const NOTHING: f64 = 1e-100;
 
 /// What is left of the loads where they balance, over what they were \[1].
 const BALANCED: f64 = 1e-9;
@@ -36,6 +39,13 @@ const GROWS: f64 = 4.0;
 /// Where it creeps by less than this it is handed to Newton's method, which moves it by no more than that much \[1, rad].
 const NEAR: f64 = 1e-7;
 const BEYOND: f64 = 1e-3;
+
+/// Forces balance after so many steps at most, where the last is no longer than this part of the radius of gyration \[1].
+const MOST_SETTLING: u32 = 20;
+const SETTLED: f64 = 1e-9;
+
+/// A direction is held where the square of its stiffness is more than this part of that of all \[1].
+const HARDLY_HELD: f64 = 1e-14;
 
 /// The chart of γ is asked for again beyond this \[rad].
 const FAR: f64 = 2.0;
@@ -79,7 +89,7 @@ pub(crate) struct Rest<const N: usize> {
 #[cfg_attr(not(feature = "general"), allow(dead_code, reason = "what only the linear view asks for"))]
 pub(crate) struct Balance<const N: usize> {
     /// Rates of v over the radius of gyration, and of K over Jt but for its part along the axis [1/s²].
-    left: SVector<f64, BALANCES>,
+    pub(super) left: SVector<f64, BALANCES>,
     /// Their derivatives by place over that radius and by tilt.
     slopes: SMatrix<f64, BALANCES, UNKNOWNS>,
     /// ∂f/∂y of all numbers of the state.
@@ -103,12 +113,12 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
     }
 
     /// Transverse inertia [kg·m²], and the radius of gyration that goes with it \[m].
-    fn across(&self) -> (f64, f64) {
+    pub(super) fn across(&self) -> (f64, f64) {
         let (across, per_m) = (1.0 / self.rotor.frame.body.per_jt, self.rotor.frame.body.per_m);
         (across, (across * per_m).sqrt())
     }
 
-    fn balance(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> Balance<N> {
+    pub(super) fn balance(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> Balance<N> {
         let (rotor, (inertia, length)) = (self.rotor, self.across());
         let state = self.state(r, gamma);
         let mut rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(self.t, &state)));
@@ -214,6 +224,21 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
     }
 }
 
+impl<const N: usize> Balance<N> {
+    /// Directions in which nothing holds it, orthonormal in place over the radius of gyration and tilt, and how many those are in which
+    /// something does; None where they were not found.
+    pub(super) fn unheld(&self) -> Option<(Vec<SVector<f64, UNKNOWNS>>, usize)> {
+        let all = parted(self.slopes)?;
+        let largest = all.singular_values[0];
+        let least = if largest > NOTHING { UNHELD * largest } else { largest };
+        let rows = all.v_t?;
+        let free = |n: &usize| all.singular_values[*n] <= least;
+        let unheld: Vec<_> = (0..UNKNOWNS).filter(free).map(|n| rows.row(n).transpose()).collect();
+        let held = UNKNOWNS - unheld.len();
+        Some((unheld, held))
+    }
+}
+
 /// The derivatives along some coordinates.
 struct Block<'a, const N: usize> {
     jacobian: &'a [[f64; N]; N],
@@ -231,6 +256,28 @@ impl<const N: usize> Block<'_, N> {
 fn parted(matrix: SMatrix<f64, BALANCES, UNKNOWNS>) -> Option<SVD<f64, Const<BALANCES>, Const<UNKNOWNS>>> {
     let is_finite = matrix.iter().all(|part| part.is_finite());
     is_finite.then(|| matrix.try_svd(true, true, 5.0 * f64::EPSILON, MOST_ROTATIONS)).flatten()
+}
+
+/// The state with the mass centre where the forces balance, so far as stiffness holds it; all else is as it is. A load on a spring turns
+/// the rotor: a top stands on its own weight, and before its spring has taken that up, nothing turns it over. The state itself where it
+/// lies on another side of an event, or is not found: the laws are then far from linear.
+pub(super) fn settled<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> [f64; N] {
+    let (mut state, length) = (*y, (rotor.frame.body.per_m / rotor.frame.body.per_jt).sqrt());
+    for _ in 0..MOST_SETTLING {
+        let acceleration = Coordinates::from_slice(rigid(&rotor.rates_of_all(t, &state))).v;
+        let slopes = Block { jacobian: &rotor.jacobian(t, &state), of: 0..3 }.rates_of::<3>(3);
+        // Least squares: where nothing holds the rotor, it stays.
+        let squares = slopes.tr_mul(&slopes);
+        let inverse = (squares + Matrix3::identity() * (HARDLY_HELD * squares.trace())).try_inverse();
+        let Some(step) = inverse.map(|inverse| inverse * slopes.tr_mul(&acceleration)) else { return *y };
+        let mut coordinates = Coordinates::from_slice(rigid(&state));
+        coordinates.r -= step;
+        coordinates.write(rigid_mut(&mut state));
+        if step.norm() <= SETTLED * length {
+            return if sides(rotor, &state) == sides(rotor, y) { state } else { *y };
+        }
+    }
+    *y
 }
 
 /// On which side each indicator of an effect is in this state.

@@ -120,7 +120,7 @@ pub(super) const ROWS: &[AlwaysRow] = &[
         &ONE,
         Some(0.0),
         ABSOLUTE_TOLERANCES,
-        "least error of a step that is asked for, in nominals"
+        "lower limit of the step error tolerance, relative to the nominal values"
     ),
     output!("solver.steps", &ONE, "steps accepted so far", |_, r| super::constant(r.cost.steps)),
     output!("solver.rejected", &ONE, "steps rejected so far", |_, r| super::constant(r.cost.rejected)),
@@ -130,7 +130,7 @@ pub(super) const ROWS: &[AlwaysRow] = &[
         "evaluations of the right-hand side so far, those for outputs between two steps included",
         |_, r| super::constant(r.cost.evaluations)
     ),
-    output!("solver.next_step", &SECOND, "the step that the solver would like next; 0 before the run", |_, r| {
+    output!("solver.next_step", &SECOND, "proposed size of the next step; 0 before the run", |_, r| {
         super::constant(r.cost.next_step)
     }),
     output!(
@@ -161,7 +161,7 @@ pub(super) const ROWS: &[AlwaysRow] = &[
         &ONE,
         Some(1e7),
         Bound::Within(1e3, 1e12),
-        "evaluations of the right-hand side that one communication step may take"
+        "work that one communication step may take, in explicit evaluations of the right-hand side"
     ),
     Row {
         meta: Meta {
@@ -176,4 +176,10 @@ pub(super) const ROWS: &[AlwaysRow] = &[
             set: |s, value| s.solver.method_number = value as i32,
         },
     },
+    output!(
+        "solver.time",
+        &SECOND,
+        "time that the motion has reached; after a discarded step, the last successful time",
+        |_, r| { r.motion.t }
+    ),
 ];

@@ -6,6 +6,7 @@ use crate::harness::named::{Named, ROTOR, refusal};
 use crate::harness::within;
 use nalgebra::Vector3;
 use oracles::rigid_body::Moving;
+use split_rotor_model::scalar::ulp;
 use split_rotor_model::simulation::{Any, General, Integrator};
 use split_rotor_model::stored::{from_bytes, to_bytes};
 use split_rotor_model::variables::Parameters;
@@ -315,6 +316,49 @@ fn exact_a_sampled_speed_is_followed_point_by_point() {
     ramp(&[(Some(25.0), a, 26.0), (Some(25.0), a, 26.0), (Some(25.0), a, 27.0), (Some(20.0), a, 21.0)]);
     // Both at one point, in any order, and without a rate.
     ramp(&[(Some(21.0), None, 21.0), (Some(21.0), None, 21.0), (Some(21.0), None, 21.0), (None, Some(-10.0), 20.0)]);
+}
+
+/// fmpy interpolates: of a constant 20 it makes 20.000000000000004 now and then.
+#[test]
+fn regress_exact_a_speed_repeated_with_another_last_bit_leaves_the_ramp_alone() {
+    let [exact, above, below] = [20.0_f64, 20.0_f64.next_up(), 20.0_f64.next_down().next_down()].map(Some);
+    let a = Some(10.0);
+    ramp(&[(exact, a, 21.0), (above, a, 22.0), (exact, a, 23.0), (below, a, 24.0), (above, None, 25.0)]);
+    // It is compared with the last one that counted, so that a speed which creeps is followed in the end.
+    let creeping = |n: i32| Some(20.0 + f64::from(n) * 3.0 * ulp(20.0));
+    ramp(&[(creeping(1), a, 21.0), (creeping(2), a, 21.0), (creeping(3), a, 21.0), (creeping(3), a, 22.0)]);
+    // A sampled one is followed to its plateau, and no farther.
+    ramp(&[
+        (Some(25.0), a, 26.0),
+        (Some(25.0_f64.next_up()), a, 26.0),
+        (Some(25.0), a, 27.0),
+        (Some(25.0_f64.next_up()), a, 28.0),
+    ]);
+}
+
+/// What counted last is part of what is saved.
+#[test]
+fn exact_the_last_speed_that_counted_is_saved() {
+    let mut named = tilted(&format!("{IMPOSED}w = 20.0\n"));
+    named.set("imposed_speed.a", 10.0);
+    named.set("imposed_speed.w", 25.0);
+    named.simulation.advance(0.1).expect("a possible motion");
+    let saved = to_bytes(&mut *named.simulation);
+    let ends = [false, true].map(|restored| {
+        from_bytes(&mut *named.simulation, &saved).expect("bytes of the same kind");
+        if restored {
+            named.set("imposed_speed.w", 33.0);
+            from_bytes(&mut *named.simulation, &saved).expect("bytes of the same kind");
+        }
+        // The set before differed, so that this one counts, and the next does not.
+        for t in [0.2, 0.3] {
+            named.set("imposed_speed.w", 25.0_f64.next_up());
+            named.simulation.advance(t).expect("a possible motion");
+        }
+        named.get("omega_phi")
+    });
+    assert_eq!(ends[0].to_bits(), ends[1].to_bits());
+    within("speed", (ends[0] / 27.0 - 1.0).abs(), 4.0 * TOLD);
 }
 
 // ----------------------------------------------------------------------------------------- a partner that sends w alone

@@ -262,6 +262,7 @@ fn what_is_hardly_meant_is_warned_of() {
     let input = |times: &str| format!("[[input]]\nname = \"drive.tau\"\ntime = [{times}]\nvalue = [1, 2]\n");
     let unbalance = |mass: &str| format!("[[effects.unbalance]]\nmass = \"{mass}\"\nradius = 0.01\nposition = 0.1\n");
     let place = |x: &str| format!("[[effects.probe]]\nposition = {x}\n");
+    let bearing = |rest: &str| format!("[[effects.bearing]]\nposition = 0.1\n{rest}\n");
     for odd in [
         (place("-120"), "probe[1].position = -120.0 m is 960 radii of gyration, 0.125 m, from c: are these mm?"),
         (unbalance("40 kg"), "unbalance[1].mass = 40.0 kg is more than rotor.m = 5.0 kg: are these g?"),
@@ -272,12 +273,30 @@ fn what_is_hardly_meant_is_warned_of() {
             "[[effects.bearing]]\nposition = 0.1".into(),
             "bearing[1] does nothing: kyy, kyz, kzy, kzz, cyy, cyz, czy, czz, kxx, cxx, kt, ct are 0",
         ),
+        (
+            bearing("kxx = 1e6\nkyy = 1e6\ncxx = 1e3\ncyy = 1e3\nczz = 1e3"),
+            "bearing[1] has kxx, kyy and no kzz: here x is the axis of the rotor, and y and z lie across it; where the lateral directions \
+             are x and y (ROSS, API data sheets, DyRoBeS), write kyy, kzz for them",
+        ),
+        (
+            bearing("kxx = 1e6\ncxx = 1e3\nspeed = [0, 100]\nkyy = [0, 1e6]\ncyy = [1e3, 1e3]"),
+            "bearing[1] has kxx, kyy, cxx, cyy and no kzz, czz: here x is the axis of the rotor, and y and z lie across it; where the \
+             lateral directions are x and y (ROSS, API data sheets, DyRoBeS), write kyy, kzz, cyy, czz for them",
+        ),
         (input("3, 4"), "the input drive.tau begins at 3.0 s, and the run ends at 3.0 s"),
         (input("0, 1"), "the input drive.tau ends at 1.0 s, and the run begins at 1.0 s"),
     ] {
         assert_eq!(warnings(&odd.0), [odd.1], "{}", odd.0);
     }
-    for ordinary in [place("3.7"), unbalance("40 g") + "angle = 3\n", input("0, 2"), input("2.9, 9")] {
+    for ordinary in [
+        bearing("kxx = 1e6\nkyy = 1e6\nkzz = 1e5"),
+        bearing("kyy = 1e6"),
+        bearing("kxx = 1e6"),
+        place("3.7"),
+        unbalance("40 g") + "angle = 3\n",
+        input("0, 2"),
+        input("2.9, 9"),
+    ] {
         assert_eq!(warnings(&ordinary), [""; 0], "{ordinary}");
     }
     let imposed = |speed: &str| {

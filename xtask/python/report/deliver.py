@@ -16,6 +16,7 @@ def add_options(parser):
     view = parser.add_mutually_exclusive_group()
     view.add_argument("--linear", type=Path, metavar="FILE", help="the scene's campbell.json")
     view.add_argument("--no-linear", metavar="WHY", default="nobody asked for the linear view.", help="why there is none")
+    parser.add_argument("--unheld", default="", metavar="WORDS", help="in which directions nothing holds the rotor")
 
 
 def deliver(result, arguments, folder, brief=False):
@@ -25,7 +26,7 @@ def deliver(result, arguments, folder, brief=False):
     """
     view = linear.read(arguments.linear) if arguments.linear else arguments.no_linear
     report = folder / "report.html"
-    found = findings(result, view if isinstance(view, linear.Linear) else None)
+    found = findings(result, view if isinstance(view, linear.Linear) else None, arguments.unheld)
     report.write_text(render(result, view, found), encoding="utf-8")
     balance = energy_balance(result.columns, result.scene.relative_tolerance)
     for finding in found:

@@ -30,10 +30,10 @@ class Finding:
     judged: str = ""
 
 
-def findings(result, view):
-    """All that this run and its linear view have."""
+def findings(result, view, unheld=""):
+    """All that this run and its linear view have; `unheld` says in which directions nothing holds the rotor, "" where something does."""
     contact = _contact(result)
-    found = [_critical(view), *_passed(result, view), _stability(result, view, contact is not None), _rest(result), *_motion(result), contact]
+    found = [_critical(view), *_passed(result, view), _unheld(unheld), _stability(result, view, contact is not None, unheld), _rest(result), *_motion(result), contact]
     found += [_load(result), _time(result), _energy(result)]
     return [finding for finding in found if finding]
 
@@ -100,7 +100,11 @@ def _range(spin):
     return f"{rpm(spin.min())} to {rpm(spin.max())}" if np.ptp(spin) > 0.01 * spin.max() else rpm(spin.max())
 
 
-def _stability(result, view, touches=False):
+def _unheld(words):
+    return Finding("not held", words, "bad") if words else None
+
+
+def _stability(result, view, touches=False, unheld=""):
     if view is None:
         return None
     spin = np.abs(result.columns["omega_phi"])
@@ -129,6 +133,8 @@ def _stability(result, view, touches=False):
         grows = f"grows by e in {in_}" if in_ else "grows"
         return Finding("unstable", f"{row['direction']} mode {grows} {at}, {how}{bounds}", "bad")
     what = f"at {range_}; least {how}, {row['direction']} mode {at}"
+    if unheld:
+        return Finding("no mode grows", f"beside the directions in which nothing holds the rotor, {what}")
     return Finding("stable", f"while nothing touches, {what}") if touches else Finding("stable", what, "good")
 
 

@@ -21,8 +21,10 @@ pub struct Kind {
     pub index: u32,
     /// Its block of value references.
     pub block: u32,
-    /// Whether it has a switch.
+    /// Whether it has a switch, and what is said of that.
     pub switched: bool,
+    /// See `switched`.
+    pub switch: Meta,
     /// How many states of its own it has.
     pub own: usize,
     /// How many indicators of events it has.

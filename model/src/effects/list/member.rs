@@ -61,6 +61,7 @@ pub trait Member: Block + Clone + Default + Send + Stored + 'static {
         index: Self::INDEX,
         block: Place::effect_block(Self::Effect::NUMBER, Self::INDEX),
         switched: Self::SWITCHED,
+        switch: Self::Effect::SWITCH,
         own: Self::Effect::OWN,
         indicators: Self::Effect::INDICATORS,
         pushes: Self::Effect::PUSHES,

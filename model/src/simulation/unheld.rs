@@ -1,0 +1,171 @@
+//! In which directions nothing holds a rotor that is held in others: it drifts there, though no motion grows.
+
+use super::growth::PORT;
+use super::rest::{Spinning, UNKNOWNS, settled};
+use crate::effects::Effects;
+use crate::rotor::{Frame, Rotor};
+use crate::state::{Coordinates, rigid};
+use nalgebra::{SVector, Vector2, Vector3};
+use std::fmt::{self, Display, Formatter};
+
+/// What nothing holds, where something holds the rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unheld {
+    /// Directions of O along which nothing holds the rotor \[1].
+    pub along: Vec<Vector3<f64>>,
+    /// Directions of O about which it can tilt \[1].
+    pub about: Vec<Vector3<f64>>,
+    /// The force \[N] along the directions of `along`, and the moment [N·m] of a turn about those of `about`: what acts at the start and does not
+    /// balance.
+    pub load: [f64; 2],
+}
+
+/// A direction that is no other by more than this \[1].
+const SAME: f64 = 1e-6;
+
+/// Loads that are less than this part of all that acts are rounding \[1].
+const ROUNDING: f64 = 1e-9;
+
+/// What stops a rotor that has gone some way.
+const RING: &str = "rub";
+
+impl Unheld {
+    /// Of a rotor at time `t` \[s] and state `y`; None where something holds it in all directions, or nothing does in any, or other models
+    /// may, through ports.
+    ///
+    /// Stiffness is that where the forces balance, so far as springs hold the rotor: a weight on a point counts.
+    pub(super) fn of<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Option<Self> {
+        let is_active = |name: &str| rotor.effects.active().any(|block| block.kind().name == name);
+        if is_active(PORT) {
+            return None;
+        }
+        // The balanced rotor: what an unbalance adds turns with it.
+        let Frame { body, chart, turns, .. } = rotor.frame;
+        let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
+        let body = balanced.frame.body;
+        let (about_axis, speed) = (1.0 / (body.spin + body.per_jt), rotor.motion(t, y).axial_rate());
+        let spinning = Spinning { rotor: &balanced, own: *y, about_axis, speed, t };
+        let Coordinates { r, gamma, .. } = Coordinates::from_slice(rigid(&settled(&balanced, t, y)));
+        let balance = spinning.balance(r, gamma);
+        let (free, held) = balance.unheld()?;
+        if free.is_empty() || held == 0 {
+            return None;
+        }
+        let (inertia, length) = spinning.across();
+        let [mut about, mut along] = parted(free);
+        if is_active(RING) {
+            // A ring holds what touches it.
+            about.clear();
+            along.retain(is_axial);
+        }
+        // The power of what is left, for a unit of each direction.
+        let loads = |directions: &[SVector<f64, UNKNOWNS>], size: f64| {
+            let left = balance.left;
+            let of = |direction: &SVector<f64, UNKNOWNS>| {
+                let turn = balance.axis.cross(&(balance.turning * direction.fixed_rows::<2>(3)));
+                let force = left.fixed_rows::<3>(0).dot(&direction.fixed_rows::<3>(0));
+                (force + left.fixed_rows::<3>(3).dot(&turn)) * size
+            };
+            let all = directions.iter().map(of).map(|load| load * load).sum::<f64>().sqrt();
+            if all > ROUNDING * size * left.norm() { all } else { 0.0 }
+        };
+        let load = [loads(&along, length / body.per_m), loads(&about, inertia)];
+        let along: Vec<_> = along.iter().map(|direction| direction.fixed_rows::<3>(0).into_owned()).collect();
+        let about: Vec<_> = about.iter().map(|direction| Vector3::new(0.0, direction[3], direction[4])).collect();
+        let is_none = along.is_empty() && about.is_empty();
+        (!is_none).then_some(Self { along, about, load })
+    }
+
+    /// Whether it is nothing to warn of: the rotor is free along its axis, where nothing pushes it.
+    pub fn is_mere_axial(&self) -> bool {
+        let Self { along, about, load } = self;
+        about.is_empty() && load[0] == 0.0 && along.iter().all(|way| (way.x.abs() - 1.0).abs() < SAME)
+    }
+}
+
+fn is_axial(direction: &SVector<f64, UNKNOWNS>) -> bool {
+    (direction[0].abs() - 1.0).abs() < SAME
+}
+
+/// Directions in which something can go, as turns and ways along: turns first, of one radian each, with what goes along with them; each along y
+/// and z or x, y and z where it can be.
+fn parted(mut free: Vec<SVector<f64, UNKNOWNS>>) -> [Vec<SVector<f64, UNKNOWNS>>; 2] {
+    let (mut about, mut along) = (Vec::new(), Vec::new());
+    for (parts, found) in [([4, 3].as_slice(), &mut about), ([2, 1, 0].as_slice(), &mut along)] {
+        for part in parts {
+            // As in Gauss's elimination: one of them keeps this part, of 1.
+            let size = |n: &usize| free[*n][*part].abs();
+            let Some(first) = (0..free.len()).max_by(|a, b| size(a).total_cmp(&size(b))).filter(|n| size(n) > SAME)
+            else {
+                continue;
+            };
+            let kept = free.swap_remove(first);
+            let kept = kept / kept[*part];
+            let less = |other: &mut SVector<f64, UNKNOWNS>| *other -= kept * other[*part];
+            free.iter_mut().for_each(less);
+            found.iter_mut().for_each(less);
+            found.push(kept);
+        }
+    }
+    // What remains of a turn along a way that is free is no part of it.
+    for way in &along {
+        let pivot = way.iamax();
+        for turn in &mut about {
+            *turn -= way * (turn[pivot] / way[pivot]);
+        }
+    }
+    about.reverse();
+    along.reverse();
+    for way in &mut along {
+        way.normalize_mut();
+    }
+    for turn in &mut about {
+        *turn /= Vector2::new(turn[3], turn[4]).norm();
+    }
+    [about, along]
+}
+
+/// Directions in words: "y and z", or as a vector.
+fn words(directions: &[Vector3<f64>]) -> String {
+    let word = |way: &Vector3<f64>| match ["x", "y", "z"]
+        .iter()
+        .zip(way.iter())
+        .find(|(_, part)| (part.abs() - 1.0).abs() < SAME)
+    {
+        Some((name, _)) => (*name).to_owned(),
+        None => format!("({:.2}, {:.2}, {:.2})", way.x, way.y, way.z),
+    };
+    directions.iter().map(word).collect::<Vec<_>>().join(" and ")
+}
+
+impl Display for Unheld {
+    /// What to warn of.
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self { along, about, load } = self;
+        if self.is_mere_axial() {
+            return write!(
+                f,
+                "nothing holds the rotor along x, its axis, and no load acts there: it is free to move along x"
+            );
+        }
+        let pushed = |load: f64, unit: &str| match load {
+            0.0 => "any push there moves it away, though no motion grows".to_owned(),
+            _ => format!("a load of {load:.3} {unit} acts there"),
+        };
+        let ways = (!along.is_empty()).then(|| format!("along {} ({})", words(along), pushed(load[0], "N")));
+        let turns =
+            (!about.is_empty()).then(|| format!("against tilt about {} ({})", words(about), pushed(load[1], "N.m")));
+        let all: Vec<_> = ways.into_iter().chain(turns).collect();
+        let mut remedies = Vec::new();
+        if along.iter().any(|way| way.x.abs() > SAME) {
+            remedies.push("kxx of a bearing along x");
+        }
+        if along.iter().any(|way| way.yz().norm() > SAME) {
+            remedies.push("kyy and kzz of a bearing along y and z");
+        }
+        if !about.is_empty() {
+            remedies.push("a second bearing or kt of a bearing against tilt");
+        }
+        write!(f, "nothing holds the rotor {}: give it {}", all.join(" and "), remedies.join(", "))
+    }
+}
