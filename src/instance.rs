@@ -15,6 +15,7 @@ pub use state::{State, kind_name};
 pub use values::{Room, Type, fill};
 
 use crate::scene::{self, Effects, Simulation};
+use split_rotor_model::effects::Effects as _;
 use split_rotor_model::error::Invalid;
 use split_rotor_model::integrate::Cost;
 use split_rotor_model::log::{ALL, Category};
@@ -58,6 +59,8 @@ pub struct Memory {
     step_failed: bool,
     /// Whether it was said that the tilt is large, that the motion grows, which it does still, and that all inputs are 0.
     warned: [bool; 3],
+    /// Up to which ω_φ it was said that laws are doubtful: the lowest and the highest [rad/s].
+    doubted: Option<[f64; 2]>,
 }
 
 /// What the host said of the experiment, and what it set itself.
@@ -72,15 +75,16 @@ struct Experiment {
 
 impl Clone for Memory {
     fn clone(&self) -> Self {
-        let &Self { state, ref simulation, experiment, step_failed, warned } = self;
-        Self { state, simulation: simulation.clone(), experiment, step_failed, warned }
+        let &Self { state, ref simulation, experiment, step_failed, warned, doubted } = self;
+        Self { state, simulation: simulation.clone(), experiment, step_failed, warned, doubted }
     }
 
     /// In place, as that of a simulation.
     fn clone_from(&mut self, source: &Self) {
-        let Self { state, simulation, experiment, step_failed, warned } = source;
+        let Self { state, simulation, experiment, step_failed, warned, doubted } = source;
         self.simulation.clone_from(simulation);
         (self.state, self.experiment, self.step_failed, self.warned) = (*state, *experiment, *step_failed, *warned);
+        self.doubted = *doubted;
     }
 }
 
@@ -94,6 +98,7 @@ impl Memory {
             experiment: Experiment::default(),
             step_failed: false,
             warned: [false; 3],
+            doubted: None,
         }
     }
 
@@ -243,6 +248,19 @@ impl Instance {
         if !known && let Some(growth) = growth {
             let message = growth.to_string();
             self.logger.log(Severity::Warning, Category::Warning, &message);
+        }
+        self.warn_of_doubts();
+    }
+
+    /// Says once of each effect where its law is doubtful: a table is left, or a rotor turns backwards.
+    fn warn_of_doubts(&mut self) {
+        let Some(speeds) = self.memory.simulation.speeds_met() else { return };
+        let before = self.memory.doubted.replace(speeds);
+        if before != Some(speeds) {
+            let effects = &self.memory.simulation.parameters().effects;
+            effects.doubts(speeds, before, &mut |block, doubt| {
+                self.logger.log(Severity::Warning, Category::Warning, &doubt.words(block));
+            });
         }
     }
 

@@ -2,6 +2,7 @@
 
 use crate::course::Course;
 use anyhow::{Context, Error, Result, bail, ensure};
+use split_rotor_model::effects::{Doubt, Effects};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::simulation::{General, Growth};
@@ -52,6 +53,9 @@ pub struct Run<'s> {
     course: Course<'s>,
     scene: &'s Scene,
     grown: Vec<Growth>,
+    /// Up to which ω_φ doubts were told [rad/s], and they.
+    doubted: Option<[f64; 2]>,
+    doubts: Vec<(String, Doubt)>,
 }
 
 impl<'s> Run<'s> {
@@ -59,12 +63,35 @@ impl<'s> Run<'s> {
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, course: Course::of(scene), scene, grown: Vec::new() }
+        Self {
+            simulation,
+            outputs,
+            references,
+            values,
+            course: Course::of(scene),
+            scene,
+            grown: Vec::new(),
+            doubted: None,
+            doubts: Vec::new(),
+        }
     }
 
     /// What began to grow on the way.
     pub fn grown(&self) -> &[Growth] {
         &self.grown
+    }
+
+    /// What is doubtful of the laws at the speeds that were met, each with the name of its effect, as it was when it was seen first.
+    pub fn doubts(&self) -> &[(String, Doubt)] {
+        &self.doubts
+    }
+
+    fn look_for_doubts(&mut self) {
+        let Some(speeds) = self.simulation.speeds_met() else { return };
+        let before = self.doubted.replace(speeds);
+        let new = &mut self.doubts;
+        let effects = &self.simulation.parameters().effects;
+        effects.doubts(speeds, before, &mut |block, doubt| new.push((block.to_owned(), doubt)));
     }
 
     /// The outputs that are read.
@@ -83,6 +110,7 @@ impl<'s> Run<'s> {
         let started = self.simulation.start_until(start, Some(tolerance), Some(stop));
         started.map_err(|invalid| self.scene.refused(&invalid))?;
         self.grown.extend(self.simulation.growth());
+        self.look_for_doubts();
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {
@@ -92,6 +120,7 @@ impl<'s> Run<'s> {
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
                 self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
+                self.look_for_doubts();
                 seen(self, reached)?;
             }
             outcome.map_err(|fault| match self.grown.last() {

@@ -2,9 +2,10 @@
 
 use crate::numbers::rounded;
 use crate::progress::{Progress, program};
-use crate::{paths, python, report, scenes};
+use crate::{python, report, scenes, sheets};
 use anyhow::{Context, Result, ensure};
 use cpu_time::ThreadTime;
+use split_rotor_model::effects::Effects;
 use split_rotor_model::error::Invalid;
 use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::simulation::Growth;
@@ -20,14 +21,13 @@ use std::time::Duration;
 /// A report looks at a run so often, at least: it must see what goes on within a turn.
 const SEEN: f64 = 1e4;
 
-/// Runs a scene from start to stop of its experiment; leaves result.csv, with every output at each communication point, and the
+/// Runs a scene from start to stop of its experiment; leaves in the folder `out`, or target/run/SCENE, result.csv, with every output at each communication point, and the
 /// modelDescription.xml that says what these are. Where a step cannot be done, what was reached is left all the same.
-pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
+pub fn simulate(scene: &str, with_report: bool, out: Option<&Path>) -> Result<()> {
     let name = scene;
     let scene = scenes::find_warned(name)?;
     check_size(&scene)?;
-    let folder = paths::target().join("run").join(&scene.name);
-    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let folder = sheets::folder(out, &format!("run/{}", scene.name))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
     let table = folder.join(RESULT);
     let mut recorded = Recorded { tells: true, ..Recorded::of(&scene) };
@@ -101,6 +101,7 @@ impl<'s> Recorded<'s> {
         let progress = Progress::of(run::points(experiment));
         progress.set_message("simulating");
         let (watched, tells, mut writing, mut told) = (&mut self.watched, self.tells, Duration::ZERO, 0);
+        let mut doubts_told = 0;
         let began = ThreadTime::now();
         let outcome = self.run.follow(experiment, |run, t| {
             let began = ThreadTime::now();
@@ -110,6 +111,10 @@ impl<'s> Recorded<'s> {
             while let Some(growth) = run.grown().get(told).filter(|_| tells) {
                 progress.suspend(|| eprintln!("warning: {growth}"));
                 told += 1;
+            }
+            while let Some((block, doubt)) = run.doubts().get(doubts_told).filter(|_| tells) {
+                progress.suspend(|| eprintln!("warning: {}", doubt.words(block)));
+                doubts_told += 1;
             }
             writing += began.elapsed();
             Ok(())
@@ -145,6 +150,12 @@ impl<'s> Recorded<'s> {
                 _ if *largest == 0.0 => {}
                 _ => println!("  deflection {name} at most {largest:.4e} m off the x axis, at {} s", rounded(*at)),
             }
+        }
+        // With the speeds of the whole run; they were told as the first of them was met.
+        if let Some(speeds) = self.run.simulation.speeds_met() {
+            self.run.simulation.parameters().effects.doubts(speeds, None, &mut |block, doubt| {
+                println!("  doubtful   {}", doubt.words(block));
+            });
         }
         for Growth { rate, t, speed } in self.run.grown() {
             let (rpm, time) = (rounded(speed * 30.0 / PI), rounded(1.0 / rate));
@@ -182,7 +193,8 @@ fn watched(outputs: &[&Variable]) -> Vec<Watched> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Recorded, paths};
+    use super::Recorded;
+    use crate::paths;
     use split_rotor_model::scene::Scene;
     use std::path::Path;
 

@@ -3,6 +3,7 @@
 use super::ALWAYS_INDICATED;
 use super::events::{Events, indicators};
 use super::growth::{Growth, Watch};
+use super::met::Met;
 use super::start::Motion;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::energy::kinetic;
@@ -32,10 +33,11 @@ pub struct Exchange<const N: usize> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
     watch: Watch,
+    met: Met,
     events: Events,
 }
 
-stored!(Exchange<const N: usize> { frame, t, state, completed, at_event, total_at_start, tilted, watch, events });
+stored!(Exchange<const N: usize> { frame, t, state, completed, at_event, total_at_start, tilted, watch, met, events });
 
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
@@ -84,6 +86,7 @@ impl<const N: usize> Exchange<N> {
         exchange.at_event = Some(exchange.kinetic(effects));
         exchange.watch_tilt(effects);
         exchange.watch.look(&frame.under(effects), t, &state);
+        exchange.met.look(&frame.under(effects), t, &state);
         exchange
     }
 
@@ -98,6 +101,7 @@ impl<const N: usize> Exchange<N> {
             total_at_start: 0.0,
             tilted: false,
             watch: Watch::default(),
+            met: Met::default(),
             events: Events::default(),
         }
     }
@@ -120,6 +124,11 @@ impl<const N: usize> Exchange<N> {
     /// What grows, as it was when it was seen first.
     pub(super) fn growth(&self) -> Option<Growth> {
         self.watch.found()
+    }
+
+    /// The lowest and the highest ω_φ so far [rad/s], where a law may be doubtful at some.
+    pub(super) fn speeds_met(&self) -> Option<[f64; 2]> {
+        self.met.speeds()
     }
 
     /// The host's time \[s].
@@ -153,6 +162,7 @@ impl<const N: usize> Exchange<N> {
         self.count_turns(effects);
         self.watch_tilt(effects);
         self.watch.look(&self.frame.under(effects), self.t, &self.state);
+        self.met.look(&self.frame.under(effects), self.t, &self.state);
         let motion = self.frame.under(effects).motion(self.t, &self.state);
         self.events.would_change(effects, &motion, &self.state) || self.frame.chart.is_left_at(self.completed.gamma)
     }

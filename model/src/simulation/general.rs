@@ -72,5 +72,6 @@ passed_on! {
     read(&mut,) -> Result<&Reading, Invalid>;
     auto(&,) -> Option<String>;
     growth(&,) -> Option<Growth>;
+    speeds_met(&,) -> Option<[f64; 2]>;
     warns_of_tilt(&,) -> Option<&'static str>;
 }

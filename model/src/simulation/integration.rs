@@ -5,6 +5,7 @@ use super::by_series::BySeries;
 use super::closest::closest_to_origin;
 use super::events::{Events, indicators};
 use super::growth::{Growth, Watch};
+use super::met::Met;
 use super::method::Method;
 use super::plan::Plan;
 use super::start::{Motion, tolerance};
@@ -43,13 +44,14 @@ pub(super) struct Integration<const N: usize> {
     /// Whether |γ| ever exceeded π/2 under a law that has no limit at π.
     tilted: bool,
     watch: Watch,
+    met: Met,
     events: Events,
     /// Where an input was set since the last communication step.
     held: Option<Held<N>>,
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, events, held
+    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, met, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -174,6 +176,7 @@ impl<const N: usize> Integration<N> {
         };
         integration.watch_tilt(effects, last.gamma);
         integration.watch.look(&frame.under(effects), t, &y);
+        integration.met.look(&frame.under(effects), t, &y);
         integration
     }
 
@@ -192,6 +195,7 @@ impl<const N: usize> Integration<N> {
             total_at_start: 0.0,
             tilted: false,
             watch: Watch::default(),
+            met: Met::default(),
             events: Events::default(),
             held: None,
         }
@@ -221,6 +225,16 @@ impl<const N: usize> Integration<N> {
     /// What grows, as it was when it was seen first.
     pub(super) fn growth(&self) -> Option<Growth> {
         self.watch.found()
+    }
+
+    /// The lowest and the highest ω_φ so far [rad/s], where a law may be doubtful at some.
+    pub(super) fn speeds_met<E: Effects>(&self, effects: &E) -> Option<[f64; 2]> {
+        let mut met = self.met;
+        // Points within the last step are not looked at one by one.
+        if self.t == self.method.time() {
+            met.look(&self.frame.under(effects), self.t, self.method.state());
+        }
+        met.speeds()
     }
 
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {
@@ -338,6 +352,8 @@ impl<const N: usize> Integration<N> {
         self.method.limit_step(ahead * (t - self.t));
         let mut switched = 0;
         while self.method.time() < t {
+            // What lies ahead of the communication point may still come otherwise.
+            self.met.look(&self.frame.under(effects), self.method.time(), self.method.state());
             if let Some(auto) = &mut self.auto
                 && auto.is_due()
             {
@@ -383,6 +399,10 @@ impl<const N: usize> Integration<N> {
         }
         self.watch.look(&self.frame.under(effects), self.method.time(), self.method.state());
         self.t = t;
+        if Met::is_due(effects) {
+            let (y, chart, _) = self.shown(effects);
+            self.met = self.met.with(self.motion_in(effects, chart, &y).axial_rate());
+        }
         Ok(())
     }
 
