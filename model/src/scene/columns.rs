@@ -132,7 +132,8 @@ impl Wanted<'_> {
             (None, 1) => by_name().next().unwrap_or_default(),
             (None, 0) => {
                 let names = heads.iter().map(|head| head.name);
-                let right = did_you_mean(asked.name, names).unwrap_or_else(|| "give the name of one of its columns".into());
+                let right =
+                    did_you_mean(asked.name, names).unwrap_or_else(|| "give the name of one of its columns".into());
                 let is = format!("has no column `{column}`");
                 return Err(Wrong { known: of_columns(heads), of_scene: true, ..Wrong::of_line(is, right) });
             }

@@ -1,9 +1,10 @@
 //! Bearings against the speed: the table in closed form, Jeffcott's rotor in them, the order across nodes, the ledger.
 
-use crate::harness::named::{Named, refusal};
+use crate::harness::named::{Named, refusal, toml};
 use crate::harness::{Random, at, within};
-use nalgebra::{Complex, Normed};
+use nalgebra::{Complex, Normed, Vector3};
 use oracles::extrapolation::steps;
+use oracles::machine::{self, Bearing, Input, Node, Pace, Run, Start};
 use oracles::monotone::curve;
 use split_rotor_model::effects::Effects;
 use split_rotor_model::linear::{Direction, Machine, Mode};
@@ -230,6 +231,49 @@ fn exact_the_mirror_image_of_a_rotor_in_films_moves_as_its_mirror_image() {
             within(&format!("{speeds:?} rad/s: {} nodes", table.matches(',').count()), error / size, MIRRORED);
         }
     }
+}
+
+/// Of the place from that of the machine of all laws, over its size \[1].
+const OF_MACHINE: f64 = 1e-7;
+
+#[test]
+fn exact_a_rotor_driven_from_backward_to_forward_is_the_machine_of_all_laws() {
+    let node = |speed: f64, k: [[f64; 2]; 2], c: [[f64; 2]; 2]| Node { speed, k, c };
+    let below = vec![
+        node(20.0, [[4e4, 2e4], [-3e4, 9e4]], [[90.0, -15.0], [-12.0, 240.0]]),
+        node(60.0, [[3e4, 3e4], [-4e4, 5e4]], [[50.0, -9.0], [-6.0, 120.0]]),
+    ];
+    let jumps = vec![
+        node(0.0, [[4e4, 1e4], [-2e4, 9e4]], [[90.0, -30.0], [-20.0, 240.0]]),
+        node(50.0, [[3e4, 2e4], [-3e4, 5e4]], [[60.0, -15.0], [-12.0, 150.0]]),
+    ];
+    let bearing =
+        |position: f64, table: Vec<Node>| Bearing { position, table, axial: [1e4, 10.0], ..Bearing::default() };
+    let machine = machine::Machine {
+        m: 12.0,
+        Ja: 0.06,
+        Jt: 0.25,
+        gravity: Some(Vector3::z() * -9.81),
+        bearings: vec![bearing(-0.2, below), bearing(0.25, jumps)],
+        start: Start { omega: Vector3::x() * -40.0, r_c: Vector3::new(0.0, 1e-3, -2e-3), ..Start::default() },
+        drive: true,
+        inputs: vec![(Input::Torque, 24.0)],
+        ..machine::Machine::default()
+    };
+    let text = toml(&machine.settings()) + "[solver]\nrelative_tolerance = 1e-9\n";
+    let mut rotor = Named::started(&text);
+    let mut run = Run::new(&machine, Pace::Adaptive(1e-11));
+    let (mut size, mut error) = (0.0_f64, 0.0_f64);
+    for n in 1..=20 {
+        let t = 0.013 * f64::from(n);
+        at(&mut rotor.simulation, t);
+        assert!(run.advance(t), "at {t} s");
+        let place = run.show().r_c;
+        size = size.max(place.norm());
+        error = error.max(libm::hypot(rotor.get("r_c.y") - place.y, rotor.get("r_c.z") - place.z));
+    }
+    assert!(rotor.get("omega_phi") > 60.0);
+    within("place", error / size, OF_MACHINE);
 }
 
 /// Eigenvalues at one speed from those at the other, over their size \[1].
