@@ -59,6 +59,9 @@ pub type Coefficients<const NODES: usize> = Table<8, NODES, CROSS>;
 /// A symmetric damping that is within this of its bound \[1] is rounded.
 const ROUNDING: f64 = 1e-12;
 
+/// A rotor at rest that its springs shake may turn back and forth by this [rad/s].
+const TREMBLES: f64 = 0.1;
+
 /// Between two nodes, the damping is checked at so many speeds.
 const CHECKED_BETWEEN: u32 = 32;
 
@@ -371,8 +374,7 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
 
     fn doubts(&self, [low, high]: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS] {
         let [below, beyond] = self.table.known().map_or([None; 2], |known| Doubt::of_table(known, [low, high]));
-        // A rotor that is stopped may tremble.
-        let backward = low < 0.0 && self.circulation() != 0.0;
+        let backward = low < -TREMBLES && self.circulation() != 0.0;
         [below, beyond, backward.then_some(Doubt::Backward { speed: low })]
     }
 
