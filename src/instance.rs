@@ -59,6 +59,8 @@ pub struct Memory {
     step_failed: bool,
     /// What was said of this run.
     warned: [bool; warned::COUNT],
+    /// Up to which ω_φ it was said that laws are doubtful: the lowest and the highest [rad/s].
+    doubted: Option<[f64; 2]>,
 }
 
 /// What is said once of a run, by its place in [`Memory::warned`].
@@ -91,15 +93,16 @@ struct Experiment {
 
 impl Clone for Memory {
     fn clone(&self) -> Self {
-        let &Self { state, ref simulation, experiment, step_failed, warned } = self;
-        Self { state, simulation: simulation.clone(), experiment, step_failed, warned }
+        let &Self { state, ref simulation, experiment, step_failed, warned, doubted } = self;
+        Self { state, simulation: simulation.clone(), experiment, step_failed, warned, doubted }
     }
 
     /// In place, as that of a simulation.
     fn clone_from(&mut self, source: &Self) {
-        let Self { state, simulation, experiment, step_failed, warned } = source;
+        let Self { state, simulation, experiment, step_failed, warned, doubted } = source;
         self.simulation.clone_from(simulation);
         (self.state, self.experiment, self.step_failed, self.warned) = (*state, *experiment, *step_failed, *warned);
+        self.doubted = *doubted;
     }
 }
 
@@ -113,6 +116,7 @@ impl Memory {
             experiment: Experiment::default(),
             step_failed: false,
             warned: [false; warned::COUNT],
+            doubted: None,
         }
     }
 
@@ -273,6 +277,19 @@ impl Instance {
         {
             told[warned::OF_DIVERGENCE] = true;
             self.logger.log(Severity::Warning, Category::Warning, &divergence.to_string());
+        }
+        self.warn_of_doubts();
+    }
+
+    /// Says once of each effect where its law is doubtful: a table is left, or a rotor turns backwards.
+    fn warn_of_doubts(&mut self) {
+        let Some(speeds) = self.memory.simulation.speeds_met() else { return };
+        let before = self.memory.doubted.replace(speeds);
+        if before != Some(speeds) {
+            let effects = &self.memory.simulation.parameters().effects;
+            effects.doubts(speeds, before, &mut |block, doubt| {
+                self.logger.log(Severity::Warning, Category::Warning, &doubt.words(block));
+            });
         }
     }
 

@@ -5,6 +5,7 @@
 //! holds every effect behind a switch.
 
 mod act;
+mod doubt;
 mod list;
 pub mod load;
 mod motion;
@@ -14,6 +15,7 @@ mod terminal;
 mod wrench;
 
 pub use act::Act;
+pub use doubt::Doubt;
 pub use list::{Block, Called, Effects, Switched, follows_all_inputs};
 pub use load::{Change, MOST_LOADS, Pose};
 pub use motion::Motion;
@@ -42,6 +44,9 @@ pub const MOST_OWN: usize = 6;
 
 /// The effects of a list have at most so many indicators together.
 pub const MOST_INDICATORS: usize = 16;
+
+/// A law has at most so many doubts.
+pub const MOST_DOUBTS: usize = 3;
 
 /// A law and its variables. All vectors in the inertial frame O.
 pub trait Effect: Clone + Default + Send + 'static {
@@ -88,6 +93,9 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// How many inputs it can extrapolate at most.
     const MOST_EXTRAPOLATED: usize = usize::MAX;
+
+    /// Whether its law may be [doubtful](Effect::doubts) at some speeds.
+    const MAY_BE_DOUBTED: bool = false;
 
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
@@ -203,6 +211,16 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Whether it is [analytic](Effect::ANALYTIC) with its present parameters and in its present branch.
     fn is_analytic(&self) -> bool {
         Self::ANALYTIC
+    }
+
+    /// Whether, with its present parameters, its law is doubtful at some speeds: asked at each step, where the motion has begun.
+    fn is_doubtful(&self) -> bool {
+        Self::MAY_BE_DOUBTED
+    }
+
+    /// What is doubtful of its law at ω_φ from the first to the second of these [rad/s].
+    fn doubts(&self, _speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS] {
+        [None; MOST_DOUBTS]
     }
 
     /// Whether, with its present parameters, what it applies to the rotor depends on how fast that moves.

@@ -1,11 +1,14 @@
 //! A scene: which effects, which values, which method. Read from TOML and checked, so that all that is wrong is told with
 //! file, line, key, value and what would be right.
 
+mod columns;
 mod csv;
 mod experiment;
+mod given;
 mod input;
 mod moment;
 mod number;
+mod other_files;
 mod problem;
 mod reader;
 pub mod reference;
@@ -17,6 +20,7 @@ mod values;
 mod warnings;
 
 pub use experiment::Experiment;
+pub use given::Given;
 pub use input::Input;
 pub use problem::{Problem, SceneError};
 pub use similar::did_you_mean;
@@ -98,6 +102,9 @@ impl Scene {
     pub fn read(file: &Path) -> Result<Self, SceneError> {
         let bytes = std::fs::read(file);
         let bytes = bytes.map_err(|error| SceneError::of_file(file, format!("it cannot be read: {error}"), ""))?;
+        if let Some([is, right]) = other_files::recognised(file, &bytes, other_files::Purpose::Scene) {
+            return Err(SceneError::of_file(file, format!("this is {is}, not a scene"), right));
+        }
         let text = String::from_utf8_lossy(&bytes);
         match text.find(char::REPLACEMENT_CHARACTER).filter(|_| std::str::from_utf8(&bytes).is_err()) {
             None => Self::parse(file, &text),

@@ -12,6 +12,7 @@ mod general;
 mod growth;
 mod integration;
 mod largest;
+mod met;
 mod method;
 mod nominals;
 mod plan;
@@ -348,6 +349,15 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         match self.run.as_ref()? {
             Run::Method(integration) => Some(integration.time()),
             Run::Exchange(exchange) => Some(exchange.time()),
+        }
+    }
+
+    /// The lowest and the highest ω_φ so far [rad/s]; None where the laws of all effects are known at every speed, or before the start.
+    /// What is doubtful of them there: [`Effects::doubts`].
+    pub fn speeds_met(&self) -> Option<[f64; 2]> {
+        match self.run.as_ref()? {
+            Run::Method(integration) => integration.speeds_met(&self.parameters.effects),
+            Run::Exchange(exchange) => exchange.speeds_met(),
         }
     }
 

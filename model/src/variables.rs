@@ -169,9 +169,21 @@ pub static BLOCKS: [&[AlwaysRow]; 6] = [ROTOR, START, solver::ROWS, MOTION, ENER
 const SOLVER: u32 = 2;
 
 const ROTOR: &[AlwaysRow] = &[
-    parameter!(rotor.m, &KILOGRAM, None, Bound::Positive, "mass"),
-    parameter!(rotor.Ja, &KILOGRAM_METRE_SQUARED, None, Bound::Positive, "axial moment of inertia"),
-    parameter!(rotor.Jt, &KILOGRAM_METRE_SQUARED, None, Bound::Positive, "transverse moment of inertia about c"),
+    parameter!(rotor.m, &KILOGRAM, None, Bound::Positive, "mass of the balanced rotor"),
+    parameter!(
+        rotor.Ja,
+        &KILOGRAM_METRE_SQUARED,
+        None,
+        Bound::Positive,
+        "axial moment of inertia of the balanced rotor"
+    ),
+    parameter!(
+        rotor.Jt,
+        &KILOGRAM_METRE_SQUARED,
+        None,
+        Bound::Positive,
+        "transverse moment of inertia of the balanced rotor about c"
+    ),
     parameter!(rotor.l, &METRE, None, ANY, "distance from the support point a to the mass centre c"),
 ];
 

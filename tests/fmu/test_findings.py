@@ -156,3 +156,30 @@ def test_regress_a_rotor_that_nothing_holds_is_not_called_stable(findings):
     told = findings._unheld(words)
     assert (told.value, told.what, told.judged) == ("not held", words, "bad")
     assert findings._unheld("") is None
+
+
+def tabled(findings, *crossings, tables=(("bearing[1]", 10.0, 150.0),)):
+    """A linear view of a machine with a table that is known from 10 to 150 rad/s."""
+    rows = [{"speed_rad_s": 200.0, "damping_ratio": 0.05, "direction": "forward", "sense": 1.0} | crossing for crossing in crossings]
+    modes = [{"speed_rad_s": 600.0}]
+    return findings.linear.Linear(modes=modes, critical=rows, thresholds=[], floquet=False, tables=tables)
+
+
+def test_regress_a_critical_speed_beyond_a_table_is_not_judged(findings):
+    view = tabled(findings, {"speed_rad_s": 100.0, "held": []}, {"held": ["bearing[1]"]})
+    judged, unknown = findings._passed(run([0.0, 600.0]), view)
+    assert judged.value == "955\u00a0rpm" and "API 617)" in judged.what
+    assert unknown.value == "1\u202f910\u00a0rpm"
+    assert unknown.what == "critical speed beyond a table: coefficients of bearing[1] are held there, so API 617 does not judge them"
+    assert "where the coefficients of bearing[1] are held beyond a table" in findings._critical(view).what
+    assert "held" not in findings._critical(tabled(findings, {"held": []})).what
+
+
+def test_regress_a_run_that_leaves_a_table_is_told(findings):
+    def told(speeds):
+        return [found.what for found in findings._held(run(speeds), tabled(findings))]
+
+    assert told([10.0, 150.0]) == told([-150.0, -20.0]) == []
+    for speeds in ([0.0, 150.0], [20.0, 151.0], [-20.0, -151.0]):
+        (what,) = told(speeds)
+        assert what.startswith("coefficients of bearing[1], whose table is known from 95.5\u00a0rpm to 1\u202f432\u00a0rpm, are held at other speeds")

@@ -3,7 +3,7 @@
 mod table;
 mod turning;
 
-use crate::{rows, speeds};
+use crate::{doubts, rows, speeds};
 use anyhow::{Context, Result, ensure};
 use serde_json::{Value, json};
 use split_rotor_model::linear::{Campbell, Crossing, Machine, Obstacle, Point};
@@ -123,6 +123,7 @@ fn json(diagram: &Diagram) -> Value {
             "damping_ratio": crossing.mode.damping_ratio(),
             "direction": crossing.mode.direction.name(),
             "sense": crossing.mode.sense,
+            "held": doubts::held(diagram.scene, crossing.speed),
         })
     };
     let threshold = |one: &Crossing| {
@@ -143,6 +144,7 @@ fn json(diagram: &Diagram) -> Value {
     json!({
         "scene": diagram.scene.name,
         "title": diagram.scene.title,
+        "tables": doubts::tables(diagram.scene),
         "critical_speeds": critical.collect::<Vec<_>>(),
         "thresholds": diagram.thresholds.iter().map(threshold).collect::<Vec<_>>(),
         "steady_states": steady.collect::<Vec<_>>(),

@@ -5,6 +5,7 @@ pub mod accuracy;
 pub mod archive;
 pub mod campbell;
 pub mod course;
+pub mod doubts;
 pub mod fmu;
 pub mod general;
 pub mod numbers;

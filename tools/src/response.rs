@@ -4,7 +4,7 @@
 pub mod nonlinear;
 mod table;
 
-use crate::{peaks, rows, scenes, speeds};
+use crate::{doubts, peaks, rows, scenes, speeds};
 use anyhow::{Context, Result, bail, ensure};
 use nalgebra::ComplexField;
 use serde_json::{Value, json};
@@ -128,6 +128,7 @@ impl<'s> Found<'s> {
         json!({
             "scene": self.scene.name,
             "title": self.scene.title,
+            "tables": doubts::tables(self.scene),
             "responses": rows::objects(self.rows()),
             "nonlinear": rows::objects(nonlinear::rows(self)),
         })

@@ -3,6 +3,7 @@
 use crate::course::{Course, Driven};
 use crate::scenes;
 use anyhow::{Context, Error, Result, bail, ensure};
+use split_rotor_model::effects::{Doubt, Effects};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::simulation::{Deflection, General, Growth, Largest, Unheld};
@@ -69,6 +70,9 @@ pub struct Run<'s> {
     scene: &'s Scene,
     grown: Vec<Growth>,
     unheld: Option<Unheld>,
+    /// Up to which ω_φ doubts were told [rad/s], and they.
+    doubted: Option<[f64; 2]>,
+    doubts: Vec<(String, Doubt)>,
 }
 
 impl<'s> Run<'s> {
@@ -78,7 +82,7 @@ impl<'s> Run<'s> {
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
         let (stations, positions): (Vec<_>, Vec<_>) = stations(scene).into_iter().unzip();
         let (largest, course, grown) = (Some(Largest::at(positions)), Course::of(scene), Vec::new());
-        Self { simulation, stations, largest, outputs, references, values, course, scene, grown, unheld: None }
+        Self { simulation, stations, largest, outputs, references, values, course, scene, grown, unheld: None, doubted: None, doubts: Vec::new() }
     }
 
     /// The largest deflections of c (`r_c`) and of the probes from the x axis, static deflections included: between the communication
@@ -96,6 +100,19 @@ impl<'s> Run<'s> {
     /// What began to grow on the way.
     pub fn grown(&self) -> &[Growth] {
         &self.grown
+    }
+
+    /// What is doubtful of the laws at the speeds that were met, each with the name of its effect, as it was when it was seen first.
+    pub fn doubts(&self) -> &[(String, Doubt)] {
+        &self.doubts
+    }
+
+    fn look_for_doubts(&mut self) {
+        let Some(speeds) = self.simulation.speeds_met() else { return };
+        let before = self.doubted.replace(speeds);
+        let new = &mut self.doubts;
+        let effects = &self.simulation.parameters().effects;
+        effects.doubts(speeds, before, &mut |block, doubt| new.push((block.to_owned(), doubt)));
     }
 
     /// The outputs that are read.
@@ -124,6 +141,7 @@ impl<'s> Run<'s> {
         started.map_err(|invalid| self.scene.refused(&invalid))?;
         self.grown.extend(self.simulation.growth());
         self.unheld = self.simulation.unheld();
+        self.look_for_doubts();
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {
@@ -134,6 +152,7 @@ impl<'s> Run<'s> {
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
                 self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
+                self.look_for_doubts();
                 seen(self, reached)?;
             }
             if let Some(divergence) = self.simulation.divergence() {

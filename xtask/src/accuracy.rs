@@ -12,10 +12,11 @@ use crate::{package, scenes};
 use anyhow::Result;
 use split_rotor_tools::accuracy::run::Subject;
 use split_rotor_tools::accuracy::{measure, span, sweep};
+use std::path::Path;
 pub use tolerances::tolerances;
 
-/// Packages the scene, measures it, and writes target/accuracy/SCENE/; which peers were left out, and why.
-pub fn accuracy(scene: &str, with_peers: bool) -> Result<Vec<String>> {
+/// Packages the scene, measures it, and writes into the folder `out`, or target/accuracy/SCENE; which peers were left out, and why.
+pub fn accuracy(scene: &str, with_peers: bool, out: Option<&Path>) -> Result<Vec<String>> {
     let found = scenes::find(scene)?;
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let (scene, unpacked) = (found, unpack(&fmu)?);
@@ -38,6 +39,6 @@ pub fn accuracy(scene: &str, with_peers: bool) -> Result<Vec<String>> {
             if with_peers { peers::measure(&subject, reference, rows) } else { Vec::new() }
         },
     )?;
-    files::write(&scene, &result)?;
+    files::write(&scene, &result, out)?;
     Ok(result.left_out)
 }

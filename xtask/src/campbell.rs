@@ -9,9 +9,16 @@ use anyhow::Result;
 use split_rotor_model::linear::{Machine, Obstacle};
 use split_rotor_tools::campbell::View;
 pub use split_rotor_tools::campbell::{ORDERS, STEPS};
+use std::path::Path;
 
-/// Draws the diagram of a scene between these speeds [rad/s], at so many of them.
-pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64]) -> Result<sheets::Left> {
+/// Draws the diagram of a scene between these speeds [rad/s], at so many of them, into the folder `out`, or target/campbell/SCENE.
+pub fn campbell(
+    scene: &str,
+    speeds: Option<&[f64]>,
+    steps: u32,
+    orders: &[f64],
+    out: Option<&Path>,
+) -> Result<sheets::Left> {
     let scene = scenes::find(scene)?;
     let machine = Machine::of(&scene.parameters());
     let what = match machine {
@@ -23,6 +30,6 @@ pub fn campbell(scene: &str, speeds: Option<&[f64]>, steps: u32, orders: &[f64])
         View::Diagram(diagram) => picture::svg(diagram)?,
         View::Turning(turning) => turning::svg(turning)?,
     };
-    let folder = format!("campbell/{}", scene.name);
-    sheets::leave(&folder, "campbell", &view.table(), &view.rows(), &view.json(), &[("campbell.svg", svg)])
+    let folder = sheets::folder(out, &format!("campbell/{}", scene.name))?;
+    sheets::leave(folder, "campbell", &view.table(), &view.rows(), &view.json(), &[("campbell.svg", svg)])
 }

@@ -11,6 +11,7 @@ use nalgebra::{Complex, ComplexField};
 use serde_json::json;
 use split_rotor_model::linear::{Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
+use std::path::Path;
 
 /// What the command found.
 struct Found {
@@ -62,13 +63,14 @@ impl Found {
 }
 
 /// Finds the answer of an output of a scene to an input, both by their names, at a spin [rad/s] and so many frequencies between these
-/// [rad/s].
+/// [rad/s], into the folder `out`, or target/response/SCENE.
 pub fn frequency(
     scene: &str,
     speed: Option<f64>,
     [from, to]: [&str; 2],
     ends: Option<&[f64]>,
     steps: u32,
+    out: Option<&Path>,
 ) -> Result<()> {
     let scene = scenes::find(scene)?;
     let space = state_space::of(&scene, speed)?;
@@ -85,7 +87,7 @@ pub fn frequency(
     );
     let seen = |point: &Point| (point.frequency, point.size());
     found.peaks = peaks::of(&found.points, seen, |frequency, _| anyhow::Ok(found.at(frequency)))?;
-    write(&found)
+    write(&found, out)
 }
 
 /// The number of what has this name.
@@ -102,7 +104,7 @@ fn number(option: &str, name: &str, of: &[Quantity], kind: &str) -> Result<usize
     })
 }
 
-fn write(found: &Found) -> Result<()> {
+fn write(found: &Found, out: Option<&Path>) -> Result<()> {
     let (table, rows) = (table::table(found), rows(&found.points));
     let json = json!({
         "scene": found.scene.name,
@@ -115,7 +117,8 @@ fn write(found: &Found) -> Result<()> {
         "responses": sheets::objects(rows.clone()),
     });
     let pictures = [("frequency.svg", picture::bode(found)?), ("polar.svg", picture::polar(found)?)];
-    sheets::leave(&format!("response/{}", found.scene.name), "frequency", &table, &rows, &json, &pictures)?.show();
+    let folder = sheets::folder(out, &format!("response/{}", found.scene.name))?;
+    sheets::leave(folder, "frequency", &table, &rows, &json, &pictures)?.show();
     Ok(())
 }
 

@@ -43,10 +43,11 @@ mod test;
 mod unpacked;
 mod wheel;
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, anyhow, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
-use split_rotor_model::scene::SceneError;
+use split_rotor_model::scene::{Given, SceneError};
+use split_rotor_model::variable::units::RADIAN_PER_SECOND;
 use split_rotor_tools::{fmu, numbers, peaks, speeds};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -97,6 +98,9 @@ enum Command {
         /// Only the summary and the CSV
         #[arg(long)]
         no_report: bool,
+        /// Into this folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Measure error against time for every method: table, SVG, CSV and JSON in target/accuracy/SCENE
     Accuracy {
@@ -107,11 +111,14 @@ enum Command {
         #[arg(long)]
         peers: bool,
         /// Instead the error over the tolerance of all scenes, into docs/accuracy.md and docs/accuracy/tolerances.csv
-        #[arg(long, conflicts_with_all = ["scene", "peers"])]
+        #[arg(long, conflicts_with_all = ["scene", "peers", "out"])]
         tolerances: bool,
         /// With the FMUs as they were packaged last
         #[arg(long, requires = "tolerances")]
         packaged: bool,
+        /// Into this folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Run the gallery of hard cases, each against an exact or independent answer: table, CSV and JSON in target/hard-cases
     HardCases {
@@ -143,15 +150,18 @@ enum Command {
         /// The scene
         #[arg(default_value = "paper")]
         scene: String,
-        /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
-        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
-        speeds: Option<Vec<f64>>,
+        /// The first and the last speed, in rad/s or with a unit: 0 "3000 rpm"; else from 0 to half as much again as the scene reaches
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_hyphen_values = true)]
+        speeds: Option<Vec<String>>,
         /// How many speeds
         #[arg(long, default_value_t = campbell::STEPS)]
         steps: u32,
         /// Lines of the speed's multiples, whose crossings are critical speeds
         #[arg(long, num_args = 1.., value_name = "X", default_values_t = campbell::ORDERS)]
         orders: Vec<f64>,
+        /// Into this folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Find how an unbalance makes the machine whirl against the spin: half axes and phases of the orbits at its probes or bearings, by the
     /// linear equations and by the laws as they stand; with --from and --to how an output answers an input: table, SVG, CSV and JSON in
@@ -160,9 +170,9 @@ enum Command {
         /// The scene
         #[arg(default_value = "jeffcott")]
         scene: String,
-        /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
-        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
-        speeds: Option<Vec<f64>>,
+        /// The first and the last speed, in rad/s or with a unit: 0 "3000 rpm"; else from 0 to half as much again as the scene reaches
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_hyphen_values = true)]
+        speeds: Option<Vec<String>>,
         /// How many speeds, or frequencies
         #[arg(long, default_value_t = 401)]
         steps: u32,
@@ -179,12 +189,16 @@ enum Command {
         from: Option<String>,
         #[arg(long, help = "of this output, such as probe[1].r.y", value_name = "OUTPUT", requires = "from")]
         to: Option<String>,
-        /// at this spin [rad/s]; else at the one with which the scene starts
-        #[arg(long, value_name = "W", requires = "from", allow_negative_numbers = true)]
-        speed: Option<f64>,
-        /// from the first to the second frequency [rad/s]; else from a tenth of the lowest to ten times the highest of its modes
-        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], requires = "from")]
-        frequencies: Option<Vec<f64>>,
+        /// at this spin, in rad/s or with a unit; else at the one with which the scene starts
+        #[arg(long, value_name = "W", requires = "from", allow_hyphen_values = true)]
+        speed: Option<String>,
+        /// from the first to the second frequency, in rad/s or with a unit; else from a tenth of the lowest to ten times the highest of its
+        /// modes
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], requires = "from", allow_hyphen_values = true)]
+        frequencies: Option<Vec<String>>,
+        /// Into this folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Write a scene about its steady state as matrices A, B, C and D with names and units, drives off, the spin held: JSON, MATLAB's .mat
     /// and an FMU, SCENE_linear.fmu, in target/state-space/SCENE
@@ -192,9 +206,9 @@ enum Command {
         /// The scene
         #[arg(default_value = "coupled")]
         scene: String,
-        /// The spin [rad/s]; else the one with which the scene starts
-        #[arg(long, value_name = "W", allow_negative_numbers = true)]
-        speed: Option<f64>,
+        /// The spin, in rad/s or with a unit: "3000 rpm"; else the one with which the scene starts
+        #[arg(long, value_name = "W", allow_hyphen_values = true)]
+        speed: Option<String>,
         /// Into this folder
         #[arg(long)]
         out: Option<PathBuf>,
@@ -212,18 +226,21 @@ enum Command {
             value_name = "PARAMETER"
         )]
         against: Vec<String>,
-        /// Its first and its last value, in the unit of the scene
-        #[arg(long, required = true, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
-        values: Vec<f64>,
+        /// Its first and its last value, in the parameter's unit or with another one: "1 N/mm" "5 N/mm"
+        #[arg(long, required = true, num_args = 2, value_names = ["FROM", "TO"], allow_hyphen_values = true)]
+        values: Vec<String>,
         /// How many values of each
         #[arg(long, default_value_t = 61)]
         count: u32,
-        /// The first and the last speed [rad/s]; else from 0 to half as much again as the scene reaches
-        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
-        speeds: Option<Vec<f64>>,
+        /// The first and the last speed, in rad/s or with a unit: 0 "3000 rpm"; else from 0 to half as much again as the scene reaches
+        #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_hyphen_values = true)]
+        speeds: Option<Vec<String>>,
         /// At how many speeds modes are looked for; thresholds between them are found exactly
         #[arg(long, default_value_t = 61)]
         steps: u32,
+        /// Into this folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
     },
     /// Write a scene as a parameter set of SSP 1.0, with which the general FMU, `rotor`, is that scene: target/ssv/SCENE.ssv
     Ssv {
@@ -275,6 +292,19 @@ fn main() -> ExitCode {
     }
 }
 
+/// A speed that a user gives an option [rad/s].
+fn one(option: &str, given: Option<String>) -> Result<Option<f64>> {
+    let value = |text: String| Given::new(text).value(&RADIAN_PER_SECOND);
+    given.map(value).transpose().map_err(|wrong| anyhow!("{option} {wrong}"))
+}
+
+/// The first and the last speed that a user gives an option [rad/s].
+fn pair(option: &str, given: Option<&[String]>) -> Result<Option<[f64; 2]>> {
+    let Some([from, to]) = given else { return Ok(None) };
+    let both = Given::pair([&Given::new(from), &Given::new(to)], &RADIAN_PER_SECOND);
+    both.map(Some).map_err(|wrong| anyhow!("{option} {wrong}"))
+}
+
 fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Demo { scene } => demo::demo(&scene),
@@ -283,30 +313,39 @@ fn dispatch(command: Command) -> Result<()> {
             let platforms: Vec<_> = platforms.iter().map(String::as_str).collect();
             package::package_for(&scenes, &platforms, out.as_deref()).map(drop)
         }
-        Command::Run { scene, no_report } => simulate::simulate(&scene, !no_report),
+        Command::Run { scene, no_report, out } => simulate::simulate(&scene, !no_report, out.as_deref()),
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),
-        Command::Accuracy { scene, peers, .. } => accuracy::accuracy(&scene, peers).map(drop),
+        Command::Accuracy { scene, peers, out, .. } => accuracy::accuracy(&scene, peers, out.as_deref()).map(drop),
         Command::HardCases { part, short, mutants, packaged } => {
             let extent = Extent { part, whole: !short, mutants, ..Extent::default() };
             if packaged { hard_cases::run(&extent) } else { hard_cases::hard_cases(&extent) }
         }
         Command::Bench { part, seed } => bench::bench(&part, seed),
-        Command::Campbell { scene, speeds, steps, orders } => {
-            campbell::campbell(&scene, speeds.as_deref(), steps, &orders).map(|left| left.show())
+        Command::Campbell { scene, speeds, steps, orders, out } => {
+            let speeds = pair("--speeds", speeds.as_deref())?;
+            campbell::campbell(&scene, speeds.as_ref().map(|ends| &ends[..]), steps, &orders, out.as_deref())
+                .map(|left| left.show())
         }
-        Command::Response { scene, from: Some(from), to: Some(to), speed, frequencies, steps, .. } => {
-            frequency::frequency(&scene, speed, [&from, &to], frequencies.as_deref(), steps)
+        Command::Response { scene, from: Some(from), to: Some(to), speed, frequencies, steps, out, .. } => {
+            let (speed, ends) = (one("--speed", speed)?, pair("--frequencies", frequencies.as_deref())?);
+            let ends = ends.as_ref().map(|ends| &ends[..]);
+            frequency::frequency(&scene, speed, [&from, &to], ends, steps, out.as_deref())
         }
-        Command::Response { scene, speeds, steps, linear, .. } => {
-            response::response(&scene, speeds.as_deref(), steps, !linear)
+        Command::Response { scene, speeds, steps, linear, out, .. } => {
+            let speeds = pair("--speeds", speeds.as_deref())?;
+            response::response(&scene, speeds.as_ref().map(|ends| &ends[..]), steps, !linear, out.as_deref())
         }
-        Command::Stability { scene, against, values, count, speeds, steps } => {
+        Command::Stability { scene, against, values, count, speeds, steps, out } => {
             ensure!(against.len() == values.len() / 2, "--against: each parameter needs its own --values FROM TO");
-            let pairs = against.iter().zip(values.chunks(2)).map(|(name, ends)| (name, [ends[0], ends[1]]));
+            let ends = |ends: &[String]| [&ends[0], &ends[1]].map(Given::new);
+            let pairs = against.iter().zip(values.chunks(2)).map(|(name, values)| (name, ends(values)));
             let against: Vec<_> = pairs.map(|(name, values)| stability::Against { name, values, count }).collect();
-            stability::stability(&scene, &against, speeds.as_deref(), steps)
+            let speeds = pair("--speeds", speeds.as_deref())?;
+            stability::stability(&scene, &against, speeds.as_ref().map(|ends| &ends[..]), steps, out.as_deref())
         }
-        Command::StateSpace { scene, speed, out } => state_space::state_space(&scene, speed, out.as_deref()),
+        Command::StateSpace { scene, speed, out } => {
+            state_space::state_space(&scene, one("--speed", speed)?, out.as_deref())
+        }
         Command::Ssv { scene, out } => ssv::ssv(&scene, out.as_deref()),
         Command::Wheel => wheel::wheel().map(drop),
         Command::Docs => docs::docs(),

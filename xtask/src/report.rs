@@ -8,7 +8,7 @@ use std::ffi::OsString;
 
 /// The linear view of a scene, as options of the report's Python: where `campbell` left it, or why there is none.
 pub fn linear_view(scene: &str) -> [OsString; 2] {
-    match campbell::campbell(scene, None, campbell::STEPS, &campbell::ORDERS) {
+    match campbell::campbell(scene, None, campbell::STEPS, &campbell::ORDERS, None) {
         Ok(left) => ["--linear".into(), left.folder.join("campbell.json").into()],
         Err(error) => ["--no-linear".into(), error.root_cause().to_string().into()],
     }

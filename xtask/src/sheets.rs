@@ -1,25 +1,33 @@
-//! What a command leaves behind in target/.
+//! What a command leaves behind, in target/ or where the user says.
 
 use crate::paths;
 use anyhow::{Context, Result};
 use serde_json::Value;
 pub use split_rotor_tools::rows::{Row, csv, objects};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Writes these files, names and texts, into a folder of target/, which is made where it is not there.
-pub fn write(folder: &str, files: [(&str, &str); 3]) -> Result<PathBuf> {
-    let folder = paths::target().join(folder);
+/// The folder that the user names with --out, or this one of target/; it is made where it is not there.
+pub fn folder(out: Option<&Path>, usual: &str) -> Result<PathBuf> {
+    let folder = match out {
+        Some(out) => std::path::absolute(out)?,
+        None => paths::target().join(usual),
+    };
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    for (name, text) in files {
-        std::fs::write(folder.join(name), text)?;
-    }
     Ok(folder)
 }
 
-/// What a command that looks at a machine leaves in a folder of target/: its table, rows and all of it as NAME.md, .csv and .json, and
+/// Writes these files, names and texts, into a folder.
+pub fn write(folder: &Path, files: [(&str, &str); 3]) -> Result<()> {
+    for (name, text) in files {
+        std::fs::write(folder.join(name), text)?;
+    }
+    Ok(())
+}
+
+/// What a command that looks at a machine leaves in a folder: its table, rows and all of it as NAME.md, .csv and .json, and
 /// pictures by their files' names.
 pub fn leave(
-    folder: &str,
+    folder: PathBuf,
     name: &str,
     table: &str,
     rows: &[Row],
@@ -28,7 +36,7 @@ pub fn leave(
 ) -> Result<Left> {
     let [md, csv_name, json_name] = ["md", "csv", "json"].map(|form| format!("{name}.{form}"));
     let (csv, all) = (csv(rows), serde_json::to_string_pretty(all)? + "\n");
-    let folder = write(folder, [(&md, table), (&csv_name, &csv), (&json_name, &all)])?;
+    write(&folder, [(&md, table), (&csv_name, &csv), (&json_name, &all)])?;
     let mut files = Vec::new();
     for (name, picture) in pictures {
         files.push(folder.join(name));

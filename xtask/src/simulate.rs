@@ -2,10 +2,11 @@
 
 use crate::numbers::{micrometres, rounded};
 use crate::progress::{Progress, program};
-use crate::{paths, python, report, scenes};
+use crate::{python, report, scenes, sheets};
 use anyhow::{Context, Result, ensure};
 use cpu_time::ThreadTime;
 use serde_json::{Value, json};
+use split_rotor_model::effects::Effects;
 use split_rotor_model::error::Invalid;
 use split_rotor_model::scene::{Experiment, Scene};
 use split_rotor_model::simulation::{Deflection, Growth};
@@ -20,14 +21,14 @@ use std::time::Duration;
 /// A report looks at a run so often, at least: it must see what goes on within a turn.
 const SEEN: f64 = 1e4;
 
-/// Runs a scene from start to stop of its experiment; leaves result.csv, with every output at each communication point, the
-/// modelDescription.xml that says what these are, and the largest deflections in deflections.json. Where a step cannot be done, what was reached is left all the same.
-pub fn simulate(scene: &str, with_report: bool) -> Result<()> {
+/// Runs a scene from start to stop of its experiment; leaves in the folder `out`, or target/run/SCENE, result.csv, with every output at each
+/// communication point, the modelDescription.xml that says what these are, and the largest deflections in deflections.json. Where a step
+/// cannot be done, what was reached is left all the same.
+pub fn simulate(scene: &str, with_report: bool, out: Option<&Path>) -> Result<()> {
     let name = scene;
     let scene = scenes::find_warned(name)?;
     check_size(&scene)?;
-    let folder = paths::target().join("run").join(&scene.name);
-    std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let folder = sheets::folder(out, &format!("run/{}", scene.name))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
     let table = folder.join(RESULT);
     let mut recorded = Recorded { tells: true, ..Recorded::of(&scene) };
@@ -106,6 +107,7 @@ impl<'s> Recorded<'s> {
         let (tells, mut writing, mut told) = (self.tells, Duration::ZERO, 0);
         let (residual, largest) = (self.residual, &mut self.largest_residual);
         let mut told_of_unheld = false;
+        let mut doubts_told = 0;
         let began = ThreadTime::now();
         let outcome = self.run.follow(experiment, |run, t| {
             let began = ThreadTime::now();
@@ -122,6 +124,10 @@ impl<'s> Recorded<'s> {
             while let Some(growth) = run.grown().get(told).filter(|_| tells) {
                 progress.suspend(|| eprintln!("warning: {growth}"));
                 told += 1;
+            }
+            while let Some((block, doubt)) = run.doubts().get(doubts_told).filter(|_| tells) {
+                progress.suspend(|| eprintln!("warning: {}", doubt.words(block)));
+                doubts_told += 1;
             }
             writing += began.elapsed();
             Ok(())
@@ -159,6 +165,12 @@ impl<'s> Recorded<'s> {
             println!("             {words}");
         }
         println!("  energy     energy.residual at most {:.2e} J at the communication points", self.largest_residual);
+        // With the speeds of the whole run; they were told as the first of them was met.
+        if let Some(speeds) = self.run.simulation.speeds_met() {
+            self.run.simulation.parameters().effects.doubts(speeds, None, &mut |block, doubt| {
+                println!("  doubtful   {}", doubt.words(block));
+            });
+        }
         for (name, Deflection { largest, at, .. }) in self.run.largest() {
             println!(
                 "  deflection {name} at most {} µm off the x axis, static deflection included, at {} s",
@@ -186,7 +198,8 @@ fn write(values: &[f64], t: f64, table: &mut impl Write) -> Result<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Recorded, paths};
+    use super::Recorded;
+    use crate::paths;
     use split_rotor_model::scene::Scene;
     use std::path::Path;
 

@@ -5,12 +5,14 @@ mod plane;
 mod table;
 
 use crate::{known, scenes, sheets, speeds};
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, anyhow, ensure};
 use serde_json::json;
 use split_rotor_model::linear::{Campbell, Crossing, Machine};
-use split_rotor_model::scene::Scene;
+use split_rotor_model::scene::{Given, Scene};
 use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::Variable;
+use split_rotor_tools::doubts;
+use std::path::Path;
 
 /// What the command found against one parameter.
 struct Map {
@@ -41,13 +43,12 @@ struct Axis {
 
 impl Axis {
     /// `against` in this scene.
-    fn of(scene: &Scene, Against { name, values: [from, to], count }: &Against) -> Result<Self> {
-        ensure!(
-            from < to && from.is_finite() && to.is_finite(),
-            "--values {from} {to}: the second must be more than the first"
-        );
-        ensure!(*count >= 2, "--count {count}: at least 2 values are needed");
+    fn of(scene: &Scene, Against { name, values: [first, last], count }: &Against) -> Result<Self> {
         let variable = parameter(scene, name)?;
+        let values = Given::pair([first, last], variable.meta.unit);
+        let [from, to] = values.map_err(|wrong| anyhow!("--values {wrong}"))?;
+        ensure!(from < to, "--values {first} {last}: the second must be more than the first");
+        ensure!(*count >= 2, "--count {count}: at least 2 values are needed");
         let value = |n: u32| from + (to - from) * f64::from(n) / f64::from(count - 1);
         let values = (0..*count).map(value).collect();
         Ok(Self { name: (*name).to_owned(), unit: variable.meta.unit.name, place: variable.place, values })
@@ -62,38 +63,47 @@ impl Axis {
 /// The parameter of a map: its name, the first and the last value, and how many.
 pub struct Against<'a> {
     pub name: &'a str,
-    pub values: [f64; 2],
+    pub values: [Given; 2],
     pub count: u32,
 }
 
-/// Finds the map of a scene against one parameter or two, between these speeds [rad/s], looked at so many.
-pub fn stability(scene: &str, against: &[Against], ends: Option<&[f64]>, steps: u32) -> Result<()> {
+/// Finds the map of a scene against one parameter or two, between these speeds [rad/s], looked at so many. Into the folder `out`, or
+/// target/stability/SCENE.
+pub fn stability(scene: &str, against: &[Against], ends: Option<&[f64]>, steps: u32, out: Option<&Path>) -> Result<()> {
     let scene = scenes::find(scene)?;
     match against {
-        [one] => map(scene, one, ends, steps)?.leave(),
-        [one, other] => plane::plane(scene, [one, other], ends, steps)?.leave(),
+        [one] => map(scene, one, ends, steps)?.leave(out),
+        [one, other] => plane::plane(scene, [one, other], ends, steps)?.leave(out),
         _ => anyhow::bail!("--against: one parameter or two, each with its own --values FROM TO"),
     }
 }
 
 impl Map {
-    fn leave(&self) -> Result<()> {
+    fn leave(&self, out: Option<&Path>) -> Result<()> {
         let (table, rows) = (table::table(self), rows(self));
         let json = json!({
             "scene": self.scene.name,
             "title": self.scene.title,
             "parameter": self.against.name,
             "unit": self.against.unit,
+            "tables": doubts::tables(&self.scene),
             "thresholds": sheets::objects(rows.clone()),
         });
-        leave(&self.scene, &table, &rows, &json, picture::svg(self)?)
+        leave(&self.scene, out, &table, &rows, &json, picture::svg(self)?)
     }
 }
 
 /// Table, rows, all of it and the picture.
-fn leave(scene: &Scene, table: &str, rows: &[sheets::Row], all: &serde_json::Value, svg: String) -> Result<()> {
-    let folder = format!("stability/{}", scene.name);
-    sheets::leave(&folder, "stability", table, rows, all, &[("stability.svg", svg)])?.show();
+fn leave(
+    scene: &Scene,
+    out: Option<&Path>,
+    table: &str,
+    rows: &[sheets::Row],
+    all: &serde_json::Value,
+    svg: String,
+) -> Result<()> {
+    let folder = sheets::folder(out, &format!("stability/{}", scene.name))?;
+    sheets::leave(folder, "stability", table, rows, all, &[("stability.svg", svg)])?.show();
     Ok(())
 }
 
@@ -175,7 +185,7 @@ mod tests {
 
     #[test]
     fn thresholds_against_a_damper_are_those_of_the_closed_form() {
-        let against = Against { name: "support.d1", values: [10.0, 50.0], count: 9 };
+        let against = Against { name: "support.d1", values: [10.0, 50.0].map(Given::from), count: 9 };
         let map = map(scene(), &against, Some(&[0.0, 200.0]), 21).expect("a map");
         for column in &map.columns {
             // Beyond ω_n (1 + c_ext/c_int) it whirls by itself.
@@ -189,8 +199,24 @@ mod tests {
     }
 
     #[test]
+    fn exact_values_may_have_units() {
+        let axis = |name, values: [&str; 2]| {
+            let against = Against { name, values: values.map(Given::new), count: 2 };
+            Axis::of(&scene(), &against).map(|axis| axis.values).map_err(|error| error.to_string())
+        };
+        assert_eq!(axis("support.c1", ["1 N/mm", "2 kN/m"]), Ok(vec![1e3, 2e3]));
+        assert_eq!(
+            axis("support.c1", ["1", "2 kN/m"]),
+            Err("--values 1 \"2 kN/m\": 1 has no unit and \"2 kN/m\" has one: give both the same".into())
+        );
+        let wrong = axis("support.c1", ["1 kg", "2 kg"]).unwrap_err();
+        assert_eq!(wrong, "--values \"1 kg\" is a mass: a number in N/m is needed, or one with such a unit");
+    }
+
+    #[test]
     fn a_parameter_that_is_not_there_is_named_with_those_that_are() {
-        let error = |name, values| {
+        let error = |name, values: [f64; 2]| {
+            let values = values.map(Given::from);
             let against = Against { name, values, count: 3 };
             format!("{:#}", map(scene(), &against, None, 11).err().expect("no map"))
         };

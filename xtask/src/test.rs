@@ -160,7 +160,7 @@ fn long_runs() -> Result<()> {
 
 /// What a user would pick instead of us still runs, all of it.
 fn peers() -> Result<()> {
-    let left_out = accuracy::accuracy("paper", true)?;
+    let left_out = accuracy::accuracy("paper", true, None)?;
     if !left_out.is_empty() {
         bail!("{}", left_out.join(" "));
     }

@@ -1,7 +1,7 @@
 //! `bearing`: linear springs and dampers at a station, with cross coupling; against the speed where a table is given.
 
 use super::table::Table;
-use super::{Act, Change, Effect, MOST_LOADS, Motion, Pose, Row, Wrench};
+use super::{Act, Change, Doubt, Effect, MOST_DOUBTS, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{
@@ -40,8 +40,8 @@ pub struct Bearing<const NODES: usize = 0> {
     pub kt: f64,
     /// Damping of the tilt [N·m·s/rad].
     pub ct: f64,
-    /// What K and C have besides against |ω_φ|: kyy, kyz, kzy, kzz, cyy, cyz, czy, czz of each node.
-    table: Table<8, NODES>,
+    /// What K and C have besides against ω_φ: kyy, kyz, kzy, kzz, cyy, cyz, czy, czz of each node.
+    table: Coefficients<NODES>,
     /// [`Bearing::axial`] at the start \[m], and the number of the table's stretch.
     memory: [f64; 2],
 }
@@ -49,8 +49,18 @@ pub struct Bearing<const NODES: usize = 0> {
 /// The columns of the table after that of the speeds.
 const COLUMNS: [&str; 8] = ["kyy", "kyz", "kzy", "kzz", "cyy", "cyz", "czy", "czz"];
 
+/// Those that couple y and z, which change their sign with the speed: a rotor that turns backwards moves as the mirror image of one that
+/// turns forwards.
+const CROSS: u32 = 0b0110_0110;
+
+/// The table of a bearing: K [N/m] and C [N·s/m] of each node, row by row.
+pub type Coefficients<const NODES: usize> = Table<8, NODES, CROSS>;
+
 /// A symmetric damping that is within this of its bound \[1] is rounded.
 const ROUNDING: f64 = 1e-12;
+
+/// A rotor at rest that its springs shake may turn back and forth by this [rad/s].
+const TREMBLES: f64 = 0.1;
 
 /// Between two nodes, the damping is checked at so many speeds.
 const CHECKED_BETWEEN: u32 = 32;
@@ -77,8 +87,9 @@ impl<const NODES: usize> Bearing<NODES> {
         Self { position, kyy, kyz, kzy, kzz, cyy, cyz, czy, czz, ..Self::default() }
     }
 
-    /// The same with K and C against |ω_φ| besides: kyy, kyz, kzy, kzz [N/m] and cyy, cyz, czy, czz [N·s/m] of each node.
-    pub fn with_table(self, table: Table<8, NODES>) -> Self {
+    /// The same with K and C against ω_φ besides: kyy, kyz, kzy, kzz [N/m] and cyy, cyz, czy, czz [N·s/m] of each node, whose cross terms
+    /// change their sign with ω_φ.
+    pub fn with_table(self, table: Coefficients<NODES>) -> Self {
         Self { table, ..self }
     }
 
@@ -96,10 +107,10 @@ impl<const NODES: usize> Bearing<NODES> {
         if NODES == 0 {
             return None;
         }
-        let table = self.table.at(motion.omega_phi().abs())?;
+        let table = self.table.at(motion.omega_phi())?;
         let (q, rate) = (motion.station(self.position), motion.station_velocity(self.position));
         let across = |coefficients, v| -times(S::zero(), matrix(coefficients), v);
-        // eq. 101: F = −K(|ω_φ|) q − C(|ω_φ|) dq/dt
+        // eq. 101: F = −K(ω_φ) q − C(ω_φ) dq/dt
         Some([across(&table[..4], q), across(&table[4..], rate)])
     }
 
@@ -296,12 +307,14 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
         let (q, rate) = (change.station(self.position), change.station_velocity(self.position));
         let mut force = self.springs(q) + self.dampers(rate);
         if NODES > 0
-            && let Some(table) = self.table.at(at.speed.abs())
+            && let Some(table) = self.table.at(at.speed)
         {
             force += times(0.0, matrix(&table[..4]), q) + times(0.0, matrix(&table[4..]), rate);
         }
         [force.norm_squared(), 0.0]
     }
+
+    const MAY_BE_DOUBTED: bool = true;
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
@@ -358,11 +371,25 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
         }
         self.table.check(&COLUMNS)?;
         let damping = self.damping();
-        self.table.samples(CHECKED_BETWEEN).try_for_each(|(speed, table)| {
+        // Constants keep their sign where the rotor turns backwards.
+        let samples = self.table.samples(CHECKED_BETWEEN);
+        let both =
+            samples.flat_map(|(speed, table)| [(speed, table), (-speed, Coefficients::<NODES>::mirrored(table))]);
+        both.into_iter().try_for_each(|(speed, table)| {
             let (sums, at) = (std::array::from_fn(|n| damping[n] + table[4 + n]), format!(" at {speed:?} rad/s"));
             check_sums(sums, &at)?;
             check_damping(sums, &at)
         })
+    }
+
+    fn is_doubtful(&self) -> bool {
+        self.table.is_followed() || self.circulation() != 0.0
+    }
+
+    fn doubts(&self, [low, high]: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS] {
+        let [below, beyond] = self.table.known().map_or([None; 2], |known| Doubt::of_table(known, [low, high]));
+        let backward = low < -TREMBLES && self.circulation() != 0.0;
+        [below, beyond, backward.then_some(Doubt::Backward { speed: low })]
     }
 
     fn begin(&mut self, start: &Motion<f64>) {

@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Change, Effect, InputSet, MOST_OWN, Motion, Pose, Wrench};
+use super::{Act, Change, Doubt, Effect, InputSet, MOST_DOUBTS, MOST_OWN, Motion, Pose, Wrench};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
@@ -44,6 +44,8 @@ pub struct Facts {
     pub shapes: bool,
     /// Whether any of them can follow φ.
     pub follows_phi: bool,
+    /// Whether the law of any of them may be doubtful at some speeds.
+    pub may_be_doubted: bool,
     /// Whether any of them can impose a speed.
     pub imposes: bool,
     /// Whether any of them can extrapolate inputs.
@@ -145,6 +147,18 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Whether the laws of all of them are analytic as they are now.
     fn are_analytic(&self) -> bool {
         self.active().all(Block::is_analytic)
+    }
+
+    /// Tells what is doubtful of those that act, each by its name, at ω_φ from the first to the second of these [rad/s], and was not
+    /// between those before.
+    fn doubts(&self, speeds: [f64; 2], before: Option<[f64; 2]>, tell: &mut dyn FnMut(&str, Doubt)) {
+        for block in self.active() {
+            let known = before.map_or([None; MOST_DOUBTS], |before| block.doubts(before));
+            let is_new = |doubt: &Doubt| !known.iter().flatten().any(|known| known.is_like(doubt));
+            for doubt in block.doubts(speeds).iter().flatten().filter(|doubt| is_new(doubt)) {
+                tell(&block.kind().block_name(), *doubt);
+            }
+        }
     }
 
     /// Whether any of them extrapolates inputs.
@@ -316,6 +330,7 @@ impl Effects for () {
         could_work: false,
         shapes: false,
         follows_phi: false,
+        may_be_doubted: false,
         imposes: false,
         extrapolates: false,
         extrapolated: 0,
@@ -388,6 +403,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             could_work: H::Effect::COULD_WORK || rest.could_work,
             shapes: H::Effect::SHAPES || rest.shapes,
             follows_phi: H::Effect::FOLLOWS_PHI || rest.follows_phi,
+            may_be_doubted: H::Effect::MAY_BE_DOUBTED || rest.may_be_doubted,
             imposes: H::Effect::IMPOSES || rest.imposes,
             extrapolates: H::Effect::EXTRAPOLATES || rest.extrapolates,
             extrapolated: inputs_extrapolated::<H::Effect>() + rest.extrapolated,

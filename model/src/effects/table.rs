@@ -1,4 +1,5 @@
-//! Coefficients against a speed: monotone cubics between the nodes of a table, held beyond them.
+//! Coefficients against a speed: monotone cubics between the nodes of a table, held beyond them. A table is given for positive speeds; at
+//! negative ones some of its columns, the mirrored ones, have the other sign.
 
 use crate::error::Invalid;
 use crate::scalar::Scalar;
@@ -6,9 +7,10 @@ use crate::scalar::Scalar;
 /// A table has at most so many nodes.
 pub const MOST_NODES: usize = 16;
 
-/// Coefficients at the nodes of a speed, of which only the size counts.
+/// Coefficients at the nodes of a speed. The bits of `MIRRORED` are the columns that change their sign with the speed: below a first node
+/// above 0 they go to 0 with it; with a node at 0 they jump there, unless they are 0.
 #[derive(Clone, Debug)]
-pub struct Table<const COLUMNS: usize, const NODES: usize> {
+pub struct Table<const COLUMNS: usize, const NODES: usize, const MIRRORED: u32 = 0> {
     /// Speeds of the nodes [rad/s], ascending from at least 0.
     speed: [f64; NODES],
     /// The coefficients of each node.
@@ -17,20 +19,24 @@ pub struct Table<const COLUMNS: usize, const NODES: usize> {
     stretch: Option<Stretch<COLUMNS>>,
 }
 
-/// The speeds between two neighbouring nodes, below the first, or beyond the last.
+/// The speeds between two neighbouring nodes, about rest, or beyond the last node.
 #[derive(Clone, Debug)]
 struct Stretch<const COLUMNS: usize> {
+    /// Whether its speeds are negative: all else here is of the speed with the other sign then.
+    backward: bool,
     /// Its ends [rad/s].
     low: f64,
     high: f64,
-    /// Of each power of the speed beyond `low`, the coefficient in each column.
+    /// Where the powers count from [rad/s].
+    origin: f64,
+    /// Of each power of the speed beyond `origin`, the coefficient in each column.
     cubics: [[f64; COLUMNS]; 4],
 }
 
 /// A stretch is left where the speed is beyond its end by this part of it: rounding about a node is no event \[1].
 const EDGE: f64 = 1e-9;
 
-impl<const COLUMNS: usize, const NODES: usize> Default for Table<COLUMNS, NODES> {
+impl<const COLUMNS: usize, const NODES: usize, const MIRRORED: u32> Default for Table<COLUMNS, NODES, MIRRORED> {
     /// Nodes at speeds that nothing reaches, and sums of which do not overflow: what is held up to them is held for ever.
     fn default() -> Self {
         Self {
@@ -41,7 +47,7 @@ impl<const COLUMNS: usize, const NODES: usize> Default for Table<COLUMNS, NODES>
     }
 }
 
-impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
+impl<const COLUMNS: usize, const NODES: usize, const MIRRORED: u32> Table<COLUMNS, NODES, MIRRORED> {
     /// A table of these speeds [rad/s] and the coefficients there.
     pub fn new(speed: [f64; NODES], values: [[f64; COLUMNS]; NODES]) -> Self {
         Self { speed, values, stretch: None }
@@ -50,6 +56,11 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
     /// Whether any coefficient is given.
     pub fn is_given(&self) -> bool {
         self.values.as_flattened().iter().any(|value| *value != 0.0)
+    }
+
+    /// Whether a motion follows it.
+    pub fn is_followed(&self) -> bool {
+        self.stretch.is_some()
     }
 
     /// A number of a node, counted from 1: its speed in column 0, then its coefficients; 0 where there is no such node.
@@ -75,6 +86,11 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
         if let Some(n) = (1..NODES).find(|n| self.speed[*n] <= self.speed[n - 1]) {
             return Err(self.falling(n));
         }
+        let of_first = |column: &usize| self.stretch(0, false).cubics[1][*column].is_finite();
+        if let Some(column) = (0..COLUMNS).find(|column| !self.begins_at_rest() && !of_first(column)) {
+            let bound = format!("0 or larger: the line of {} from 0 to it overflows", names[column]);
+            return Err(Invalid::new("speed[1]", self.speed[0], bound));
+        }
         let mut all = (1..NODES).flat_map(|nodes| (0..COLUMNS).map(move |column| (nodes, column)));
         match all.find(|(nodes, column)| !self.is_finite(*nodes, *column)) {
             None => Ok(()),
@@ -95,7 +111,7 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
 
     /// Whether the curve of a column is finite above so many nodes, up to the next one.
     fn is_finite(&self, nodes: usize, column: usize) -> bool {
-        let stretch = self.stretch(nodes);
+        let stretch = self.stretch(nodes, false);
         let powers = stretch.cubics.iter().all(|of_power| of_power[column].is_finite());
         powers && stretch.at(stretch.high)[column].is_finite()
     }
@@ -126,25 +142,42 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
         Invalid::new(format!("{name}[{}]", n + 1), to, bound)
     }
 
-    /// The coefficients that a motion with a speed ≥ 0 [rad/s] meets; None where none is given.
+    /// The coefficients that a motion with a speed [rad/s] meets; None where none is given.
     #[inline(always)]
     pub fn at<S: Scalar>(&self, speed: S) -> Option<[S; COLUMNS]> {
         let stretch = self.stretch.as_ref()?;
-        if (stretch.low..=stretch.high).contains(&speed.re()) {
+        if stretch.holds(speed.re()) {
             return Some(stretch.at(speed));
         }
-        // A stage of a method, or a host that knows no events, may be further on than the motion.
-        Some(self.stretch(self.nodes_up_to(speed.re())).at(speed))
+        // A stage of a method, or a host that knows no events, may be further on than the motion. About a node at rest, where mirrored columns
+        // may jump, the motion keeps its side.
+        if self.begins_at_rest() && stretch.low == 0.0 && stretch.holds(-speed.re()) {
+            return Some(stretch.at(-speed));
+        }
+        Some(self.stretch(self.nodes_up_to(speed.re().abs()), speed.re() < 0.0).at(speed))
     }
 
-    /// Speeds [rad/s] and the coefficients there: at the nodes, and at so many speeds between two.
+    /// The first and the last speed for which coefficients are known [rad/s]; None where none is given.
+    pub fn known(&self) -> Option<[f64; 2]> {
+        // A node that nobody gave stands where no speed is.
+        let is_told = |n: &usize| self.speed[*n] < Self::default().speed[0];
+        let last = (0..NODES).rev().find(is_told)?;
+        self.is_given().then(|| [self.speed[0], self.speed[last]])
+    }
+
+    /// The coefficients of the speed with the other sign.
+    pub fn mirrored(of: [f64; COLUMNS]) -> [f64; COLUMNS] {
+        std::array::from_fn(|column| if is_mirrored(MIRRORED, column) { -of[column] } else { of[column] })
+    }
+
+    /// Speeds ≥ 0 [rad/s] and the coefficients there: at the nodes, and at so many speeds between two.
     pub fn samples(&self, between: u32) -> impl Iterator<Item = (f64, [f64; COLUMNS])> {
         let from_to = self.speed.iter().zip(self.speed.iter().skip(1));
         let speeds = from_to.flat_map(move |(from, to)| {
             (0..=between).map(move |k| from + (to - from) * (f64::from(k) / f64::from(between + 1)))
         });
         let speeds = speeds.chain(self.speed.last().copied());
-        speeds.map(|speed| (speed, self.stretch(self.nodes_up_to(speed)).at(speed)))
+        speeds.map(|speed| (speed, self.stretch(self.nodes_up_to(speed), false).at(speed)))
     }
 
     /// How many nodes are not above a speed.
@@ -177,15 +210,30 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
         [low, self.speed.get(nodes).copied().unwrap_or(f64::INFINITY)]
     }
 
-    /// The stretch above so many nodes.
-    fn stretch(&self, nodes: usize) -> Stretch<COLUMNS> {
+    /// The stretch above so many nodes, forward or backward.
+    fn stretch(&self, nodes: usize, backward: bool) -> Stretch<COLUMNS> {
         let [low, high] = self.ends(nodes);
         let mut cubics = [[0.0; COLUMNS]; 4];
         cubics[0] = self.values[nodes.saturating_sub(1)];
-        if nodes == 0 || nodes == NODES {
-            return Stretch { low, high, cubics };
+        if nodes == 0 {
+            // What is mirrored goes through 0.
+            for column in (0..COLUMNS).filter(|column| is_mirrored(MIRRORED, *column)) {
+                cubics[1][column] = cubics[0][column] / high;
+                cubics[0][column] = 0.0;
+            }
+            return Stretch { backward: false, low: -high, high, origin: 0.0, cubics };
         }
-        let h = high - low;
+        if nodes < NODES {
+            self.bend(nodes, high - low, &mut cubics);
+        }
+        if backward {
+            cubics = cubics.map(Self::mirrored);
+        }
+        Stretch { backward, low, high, origin: low, cubics }
+    }
+
+    /// The powers above the first of the cubics above so many nodes, which are `h` long [rad/s].
+    fn bend(&self, nodes: usize, h: f64, cubics: &mut [[f64; COLUMNS]; 4]) {
         let [from, to] = [nodes - 1, nodes].map(|n| self.slopes(n));
         for column in 0..COLUMNS {
             let rise = self.values[nodes][column] - self.values[nodes - 1][column];
@@ -195,7 +243,6 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
             cubics[2][column] = (3.0 * secant - 2.0 * d1 - d2) / h;
             cubics[3][column] = (d1 + d2 - 2.0 * secant) / h / h;
         }
-        Stretch { low, high, cubics }
     }
 
     /// Whether the first node is at rest: then what rises from there bends where the speed changes its sign.
@@ -231,7 +278,12 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
 
     /// So far beyond the end of a stretch at this speed, the next one begins [rad/s].
     fn edge(&self, end: f64) -> f64 {
-        EDGE * end.max(self.speed[usize::from(self.begins_at_rest() && NODES > 1)])
+        let least = match self.speed.get(usize::from(self.begins_at_rest())) {
+            Some(speed) => *speed,
+            // What jumps at its only node, at rest, has no other speed.
+            None => 1.0,
+        };
+        EDGE * end.max(least)
     }
 
     /// Goes on in the stretch of a speed [rad/s]; where [`within`](Self::within) of that is not as `positive` says, in the nearer of its
@@ -265,14 +317,27 @@ impl<const COLUMNS: usize, const NODES: usize> Table<COLUMNS, NODES> {
     }
 
     fn enter(&mut self, number: f64) {
-        self.stretch = self.is_given().then(|| self.stretch(self.nodes_below(number)));
+        self.stretch = self.is_given().then(|| self.stretch(self.nodes_below(number), number < 0.0));
     }
 }
 
+/// Whether a column is one of these, whose sign is that of the speed.
+const fn is_mirrored(these: u32, column: usize) -> bool {
+    (these >> column) & 1 == 1
+}
+
 impl<const COLUMNS: usize> Stretch<COLUMNS> {
+    /// Whether a speed [rad/s] is in it.
+    #[inline(always)]
+    fn holds(&self, speed: f64) -> bool {
+        let forward = if self.backward { -speed } else { speed };
+        (self.low..=self.high).contains(&forward)
+    }
+
     #[inline(always)]
     fn at<S: Scalar>(&self, speed: S) -> [S; COLUMNS] {
-        let x = speed - S::constant(self.low);
+        let forward = if self.backward { -speed } else { speed };
+        let x = forward - S::constant(self.origin);
         let [c0, c1, c2, c3] = &self.cubics;
         std::array::from_fn(|n| {
             let [c0, c1, c2, c3] = [c0[n], c1[n], c2[n], c3[n]].map(S::constant);

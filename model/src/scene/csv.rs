@@ -1,22 +1,10 @@
 //! The points of an input from a CSV: a time and a value in each line, below a line that may name the columns and their units.
 
-use super::number::brackets;
+use super::columns::{Column, Wanted, cells};
+use super::other_files::{Purpose, recognised};
 use super::problem::{Line, Problem};
-use super::units;
-use crate::variable::Role;
-use crate::variable::units::{SECOND, Unit};
-use crate::variables::Variable;
 use std::ops::Range;
 use std::path::Path;
-
-/// What the column of times is called.
-const TIMES: [&str; 2] = ["time", "t"];
-
-/// A column: the unit of the input's variable, and how the first line writes another one.
-struct Column<'l> {
-    unit: &'static Unit,
-    written: Option<&'l str>,
-}
 
 /// So many lines of a file are told; of a file of another kind every line is wrong.
 const MOST_TOLD: usize = 3;
@@ -39,8 +27,8 @@ pub(super) struct Csv<'f> {
 }
 
 impl Csv<'_> {
-    /// The points of this variable, one of `variables`; else what is wrong with the file.
-    pub fn points(&self, variable: &Variable, variables: &[Variable]) -> Result<Points, Vec<Problem>> {
+    /// The points of an input; else what is wrong with the file.
+    pub fn points(&self, wanted: &Wanted) -> Result<Points, Vec<Problem>> {
         let whole =
             |wrong: &str, right: &str| vec![Problem::at(self.place.clone(), format!("{} {wrong}", self.name), right)];
         if !self.path.is_file() {
@@ -48,30 +36,50 @@ impl Csv<'_> {
             return Err(whole(wrong, "the path counts from the folder of the scene"));
         }
         let bytes = std::fs::read(self.path).map_err(|error| whole(&format!("cannot be read: {error}"), ""))?;
+        if let Some([is, right]) = recognised(self.path, &bytes, Purpose::Input) {
+            return Err(whole(&format!("is {is}"), right));
+        }
         let text = String::from_utf8_lossy(&bytes);
         // Spreadsheets begin with a mark of the order of bytes.
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-        if let Some(separator) = other_separator(text) {
+        let numbered = || (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty());
+        let mut lines = numbered().filter(|(_, line)| !is_comment(line)).peekable();
+        let first = lines.peek().copied();
+        if let Some(separator) = first.and_then(|(_, line)| other_separator(line)) {
             let right = "write a comma between a time and its value, and decimals behind a point";
             return Err(whole(&format!("has {separator} between its columns"), right));
         }
-        let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty()).peekable();
-        let mut columns = [&SECOND, variable.meta.unit].map(|unit| Column { unit, written: None });
-        if let Some((number, line)) = lines.next_if(|(_, line)| names(line)) {
-            let (own, unit) = (&variable.name, brackets(variable.meta.unit));
-            let right = "the first line has a time in s and a value, or names both columns: time [s]";
-            let wrong = |is: String| vec![self.at((number, line), &is, &format!("{right},{own}{unit}"))];
-            columns = columns_of(line, variable, variables).map_err(wrong)?;
-        }
+        // As numpy writes it, behind a #.
+        let comments = || numbered().take_while(|(_, line)| is_comment(line));
+        let head = lines.next_if(|(_, line)| names(line)).or_else(|| head_of_comments(comments, first?.1));
+        let columns = match head {
+            Some(line) => wanted.columns(uncommented(line.1)).map_err(|wrong| {
+                let known = wrong.known;
+                vec![match &wanted.column {
+                    Some((_, place)) if wrong.of_scene => Problem {
+                        known,
+                        ..Problem::at(place.clone(), format!("{} {}", self.name, wrong.is), wrong.right)
+                    },
+                    _ => Problem { known, ..self.at(line, &wrong.is, &wrong.right) },
+                }]
+            })?,
+            None if wanted.column.is_some() => {
+                return Err(whole("does not name its columns", "its first line must name them, or leave `column` out"));
+            }
+            None => wanted.unnamed(),
+        };
+        let width = head.map_or(2, |(_, line)| cells(uncommented(line)).len());
         let (mut points, mut wrong, mut latest) = (Vec::new(), Vec::new(), f64::NEG_INFINITY);
         for line in lines {
-            match point(line.1, &columns) {
-                Some((time, _)) if time < latest => wrong.push((line, format!("comes after {latest:?} s"), DESCENDS)),
-                Some((time, value)) => {
+            match point(line.1, &columns, width) {
+                Ok((time, _)) if time < latest => {
+                    wrong.push((line, format!("comes after {latest:?} s"), DESCENDS.to_owned()));
+                }
+                Ok((time, value)) => {
                     latest = time;
                     points.push((time, value));
                 }
-                None => wrong.push((line, "is no point".into(), POINT)),
+                Err((is, right)) => wrong.push((line, is, right)),
             }
         }
         if points.is_empty() && wrong.is_empty() {
@@ -97,72 +105,64 @@ impl Csv<'_> {
     }
 }
 
-/// The time and value in a line.
-fn point(line: &str, columns: &[Column; 2]) -> Option<(f64, f64)> {
-    let (time, value) = line.split_once(',')?;
-    Some((columns[0].number(time)?, columns[1].number(value)?))
+/// The time and value in a line of so many cells; else what is wrong with it, and what would be right.
+fn point(line: &str, [time, value]: &[Column; 2], width: usize) -> Result<(f64, f64), (String, String)> {
+    let cells = cells(line);
+    let number = |column: &Column| column.number(cells.get(column.index)?);
+    if let Some(point) = number(time).zip(number(value)).filter(|_| cells.len() == width) {
+        return Ok(point);
+    }
+    let is_number = |cell: &&str| cell.parse::<f64>().is_ok();
+    let right = match cells.len() {
+        2 if width == 2 => POINT.into(),
+        given if given == width => {
+            format!("its cells 1 and {} must be a time and a value, two finite numbers", value.index + 1)
+        }
+        given if width > 2 => format!("it has {given} cells, the line of names {width}"),
+        given if given > 2 && cells.iter().all(is_number) => UNNAMED.into(),
+        _ => POINT.into(),
+    };
+    Err(("is no point".into(), right))
 }
 
-/// What a text has between its columns in place of commas.
-fn other_separator(text: &str) -> Option<&'static str> {
-    let line = text.lines().find(|line| !line.trim().is_empty())?.trim();
-    match line {
+/// What is said of several columns without names.
+const UNNAMED: &str =
+    "decimals stand behind a point, not a comma; where a file has more than two columns, its first line must name them";
+
+fn is_comment(line: &str) -> bool {
+    line.trim_start().starts_with('#')
+}
+
+fn uncommented(line: &str) -> &str {
+    line.trim_start().trim_start_matches('#').trim_start()
+}
+
+/// Of the comments above the first point, the one that names the columns: the last that begins with a time and has as many cells, or the
+/// line just above it where that has as many.
+fn head_of_comments<'l, C>(comments: impl Fn() -> C, point: &str) -> Option<(usize, &'l str)>
+where
+    C: Iterator<Item = (usize, &'l str)>,
+{
+    let width = cells(point).len();
+    let is_wide = |(_, line): &(usize, &str)| width > 1 && cells(uncommented(line)).len() == width;
+    let begins = |(_, line): &(usize, &str)| uncommented(line).to_lowercase().starts_with('t');
+    comments().filter(|line| is_wide(line) && begins(line)).last().or_else(|| comments().last().filter(is_wide))
+}
+
+/// What a line has between its columns in place of commas.
+fn other_separator(line: &str) -> Option<&'static str> {
+    match line.trim() {
         line if line.contains(';') => Some("semicolons"),
         line if line.contains(',') => None,
         line if line.contains('\t') => Some("tabs"),
-        line => (line.trim_start_matches('#').split_whitespace().count() == 2).then_some("blanks"),
+        line => (line.split_whitespace().count() == 2).then_some("blanks"),
     }
 }
 
 /// Whether a line names columns: what begins as a number is meant to be one.
 fn names(line: &str) -> bool {
-    line.trim_start().starts_with(|c: char| c.is_alphabetic() || c == '"' || c == '#')
-}
-
-/// The columns that this line names, or what it does instead.
-fn columns_of<'l>(line: &'l str, variable: &Variable, variables: &[Variable]) -> Result<[Column<'l>; 2], String> {
-    let unnamed = || "does not name the columns".to_owned();
-    // As numpy writes it, behind a #.
-    let (time, value) = line.trim_start().trim_start_matches('#').split_once(',').ok_or_else(unnamed)?;
-    let ((time, time_unit), (value, value_unit)) = (cell(time), cell(value));
-    let ends = |variable: &Variable| variable.name == value || variable.name.ends_with(&format!(".{value}"));
-    let other = |other: &Variable| other.name == value || matches!(other.meta.role, Role::Input { .. }) && ends(other);
-    let is_other = !ends(variable) && variables.iter().any(other);
-    let is_time = |name: &str| TIMES.iter().any(|known| known.eq_ignore_ascii_case(name));
-    if !is_time(time) || is_time(value) || !names(value) || value.contains(',') || is_other {
-        return Err(unnamed());
-    }
-    let columns = [(&SECOND, time_unit), (variable.meta.unit, value_unit)].map(|(unit, written)| {
-        let written = written.filter(|written| *written != unit.name);
-        Column { unit, written }
-    });
-    match columns.iter().find(|column| column.number("1").is_none()) {
-        None => Ok(columns),
-        Some(unfit) => Err(format!("has a unit that does not fit, [{}]", unfit.written.unwrap_or_default())),
-    }
-}
-
-/// The name and the unit in brackets of `name [unit]`.
-fn cell(text: &str) -> (&str, Option<&str>) {
-    let text = text.trim().trim_matches('"').trim();
-    let with_unit = |open, close| text.strip_suffix(close)?.split_once(open);
-    match with_unit('[', ']').or_else(|| with_unit('(', ')')) {
-        Some((name, unit)) => (name.trim(), Some(unit.trim())),
-        None => (text, None),
-    }
-}
-
-impl Column<'_> {
-    /// A finite number in a cell, in the unit of the variable.
-    fn number(&self, cell: &str) -> Option<f64> {
-        let number = match self.written {
-            None => cell.trim().parse().ok()?,
-            Some(unit) => {
-                let text = format!("{} {unit}", cell.trim());
-                let quantity = units::read(&text).ok()?;
-                (quantity.fits(self.unit) && !quantity.may_count_turns(self.unit)).then_some(quantity.value)?
-            }
-        };
-        number.is_finite().then_some(number)
-    }
+    let first = line.trim_start().trim_start_matches(['"', ' ']);
+    // As pandas writes it, with no name above the index.
+    let is_nameless = first.starts_with(',') && first.contains(char::is_alphabetic);
+    first.starts_with(char::is_alphabetic) || is_nameless
 }

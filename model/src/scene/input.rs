@@ -1,5 +1,6 @@
 //! `[[input]]`: an input over time, from the file of the scene or from a CSV beside it.
 
+use super::columns::Wanted;
 use super::csv::{Csv, DESCENDS};
 use super::problem::Problem;
 use super::reader::{Reader, Value};
@@ -14,7 +15,7 @@ use toml::de::DeTable;
 
 /// The key of the section in the file, and its keys.
 pub(super) const SECTION: &str = "input";
-const KEYS: [&str; 4] = ["name", "time", "value", "file"];
+const KEYS: [&str; 5] = ["name", "time", "value", "file", "column"];
 
 /// An input over time: linear between its points, held before and after them.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,8 +87,15 @@ impl Reader<'_> {
             Some(name) => self.variable(name, section, variables),
         };
         let unit = variable.map(|variable| variable.meta.unit);
+        if let Some(column) = table.get("column").filter(|_| table.get("file").is_none()) {
+            let right = "a column is one of a CSV: give `file = \"x.csv\"` too";
+            self.problems.push(Problem::at(self.place(column), format!("{section}.column without a file"), right));
+        }
         let points = match [table.get("file"), table.get("time"), table.get("value")] {
-            [Some(file), None, None] => variable.and_then(|variable| self.of_file(file, section, variable, variables)),
+            [Some(file), None, None] => {
+                let column = self.column(table, section);
+                variable.and_then(|variable| self.of_file(file, section, Wanted { variable, variables, column }))
+            }
             [None, Some(time), Some(value)] => {
                 let times = self.numbers(time, &SECOND, &format!("{section}.time"));
                 let values = unit.and_then(|unit| self.numbers(value, unit, &format!("{section}.value")));
@@ -158,20 +166,23 @@ impl Reader<'_> {
         }
     }
 
-    /// The points of this variable from a CSV.
-    fn of_file(
-        &mut self,
-        value: &Value,
-        section: &str,
-        variable: &Variable,
-        variables: &[Variable],
-    ) -> Option<(Vec<f64>, Vec<f64>, Range<usize>)> {
+    /// The column that the file of an input has for it, where the scene says which.
+    fn column<'t>(&mut self, table: &'t DeTable, section: &str) -> Option<(&'t str, Range<usize>)> {
+        let value = table.get("column")?;
+        match value.get_ref().as_str() {
+            Some(column) => Some((column.trim(), self.place(value))),
+            None => self.wrong_type(value, &format!("{section}.column"), "the name of a column in quotes"),
+        }
+    }
+
+    /// The points of an input from a CSV.
+    fn of_file(&mut self, value: &Value, section: &str, wanted: Wanted) -> Option<(Vec<f64>, Vec<f64>, Range<usize>)> {
         let Some(name) = value.get_ref().as_str() else {
             return self.wrong_type(value, &format!("{section}.file"), "the path of a CSV in quotes");
         };
         let place = self.place(value);
         let csv = Csv { path: &self.folder.join(name), name, place: place.clone() };
-        let points = csv.points(variable, variables).map_err(|wrong| self.problems.extend(wrong)).ok()?;
+        let points = csv.points(&wanted).map_err(|wrong| self.problems.extend(wrong)).ok()?;
         Some((points.0, points.1, place))
     }
 }

@@ -126,7 +126,7 @@ impl Reader<'_> {
             values.switch(&names);
         }
         values.measure_from_c(&names);
-        values.take_moments();
+        self.problems.extend(values.take_moments());
         self.nothing_missing(&values, &headings);
         self.problems.extend(values.columns.problems());
         let tolerance = values.find("solver.relative_tolerance");

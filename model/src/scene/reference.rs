@@ -115,7 +115,8 @@ fn key(variable: &Variable, within: &str, own: &[&Variable], starts: Option<&BTr
     };
     let (name, mut meaning) = (&name[within.len()..], meta.description.replace("node 1", "each node"));
     if meta.node().is_some_and(|(of, _)| of == SPEED) {
-        meaning += "; between nodes monotone cubics, level at both ends, beyond them constant";
+        meaning += "; between nodes monotone cubics, level at both ends, beyond them constant; at negative omega_phi kyz, kzy, cyz, czy of \
+                    the table change their sign";
     }
     let (name, default) = if is_array {
         (name.split('[').next().unwrap_or(name), Some("no table".to_owned()))

@@ -44,6 +44,7 @@ pub(super) const UNITS: &[Written] = &[
     si("rad", [0, 0, 0, 1]),
     si("N", [1, 1, -2, 0]),
     si("J", [1, 2, -2, 0]),
+    si("Nm", [1, 2, -2, 0]),
     si("W", [1, 2, -3, 0]),
     si("Pa", [1, -1, -2, 0]),
     Written { ten: -1, ..si("P", [1, -1, -1, 0]) },
@@ -57,6 +58,7 @@ pub(super) const UNITS: &[Written] = &[
     turn("°", [1.0, 180.0], [0, 0, 0, 1]),
     turn("rev", [2.0, 1.0], [0, 0, 0, 1]),
     turn("rpm", [2.0, 60.0], [0, 0, -1, 1]),
+    turn("RPM", [2.0, 60.0], [0, 0, -1, 1]),
     other("in", [254.0, 1e4], [0, 1, 0, 0]),
     other("ft", [3048.0, 1e4], [0, 1, 0, 0]),
     other("oz", [28_349_523_125.0, 1e12], [1, 0, 0, 0]),
@@ -344,6 +346,9 @@ mod tests {
             ("0.7 MPa", 7e5),
             ("2 mbar", 200.0),
             ("7 N.m.s/rad", 7.0),
+            ("5 Nm", 5.0),
+            ("2 mNm", 2e-3),
+            ("7 Nm s/rad", 7.0),
             ("7 N m s rad^-1", 7.0),
             ("7 N·m·s²/rad²", 7.0),
             ("7 kg/(m.s)", 7.0),
@@ -364,6 +369,7 @@ mod tests {
             ("180 deg", PI),
             ("90°", PI / 2.0),
             ("60 rpm", 2.0 * PI),
+            ("60 RPM", 2.0 * PI),
             ("50 Hz", 100.0 * PI),
             ("60 rev/min", 2.0 * PI),
             ("1 in", 0.0254),
@@ -406,7 +412,6 @@ mod tests {
             other => panic!("{text}: {other:?}"),
         };
         assert_eq!(unit("5 rmp"), ("rmp", "did you mean `rpm`?".into()));
-        assert_eq!(unit("5 Nm").1, "did you mean `N m`?");
         assert_eq!(unit("40 gmm").1, "did you mean `g mm`?");
         assert_eq!(unit("0.04 kgm2").1, "did you mean `kg m`?");
         assert_eq!(unit("5 sec").1, "did you mean `s`?");

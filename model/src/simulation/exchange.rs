@@ -4,6 +4,7 @@ use super::ALWAYS_INDICATED;
 use super::divergence::{Bounds, Divergence};
 use super::events::{Events, indicators};
 use super::growth::{Growth, Watch};
+use super::met::Met;
 use super::start::Motion;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::energy::kinetic;
@@ -34,10 +35,13 @@ pub struct Exchange<const N: usize> {
     tilted: bool,
     watch: Watch,
     bounds: Bounds,
+    met: Met,
     events: Events,
 }
 
-stored!(Exchange<const N: usize> { frame, t, state, completed, at_event, total_at_start, tilted, watch, bounds, events });
+stored!(Exchange<const N: usize> {
+    frame, t, state, completed, at_event, total_at_start, tilted, watch, bounds, met, events
+});
 
 /// The end of a completed step.
 #[derive(Clone, Copy, Default)]
@@ -87,6 +91,7 @@ impl<const N: usize> Exchange<N> {
         exchange.watch_tilt(effects);
         exchange.watch.look(&frame.under(effects), t, &state);
         exchange.bounds = Bounds::of(&frame.under(effects));
+        exchange.met.look(&frame.under(effects), t, &state);
         exchange
     }
 
@@ -102,6 +107,7 @@ impl<const N: usize> Exchange<N> {
             tilted: false,
             watch: Watch::default(),
             bounds: Bounds::default(),
+            met: Met::default(),
             events: Events::default(),
         }
     }
@@ -136,6 +142,11 @@ impl<const N: usize> Exchange<N> {
         (self.frame, self.t, &self.state)
     }
 
+    /// The lowest and the highest ω_φ so far [rad/s], where a law may be doubtful at some.
+    pub(super) fn speeds_met(&self) -> Option<[f64; 2]> {
+        self.met.speeds()
+    }
+
     /// The host's time \[s].
     pub fn set_time(&mut self, t: f64) {
         self.t = t;
@@ -168,6 +179,7 @@ impl<const N: usize> Exchange<N> {
         self.watch_tilt(effects);
         self.watch.look(&self.frame.under(effects), self.t, &self.state);
         self.bounds.look(&self.frame.under(effects), self.t, &self.state);
+        self.met.look(&self.frame.under(effects), self.t, &self.state);
         let motion = self.frame.under(effects).motion(self.t, &self.state);
         self.events.would_change(effects, &motion, &self.state) || self.frame.chart.is_left_at(self.completed.gamma)
     }

@@ -82,5 +82,6 @@ passed_on! {
     auto(&,) -> Option<String>;
     growth(&,) -> Option<Growth>;
     unheld(&,) -> Option<Unheld>;
+    speeds_met(&,) -> Option<[f64; 2]>;
     warns_of_tilt(&,) -> Option<&'static str>;
 }

@@ -7,6 +7,7 @@ use super::divergence::{Bounds, Divergence};
 use super::events::{Events, indicators};
 use super::growth::{Growth, Watch};
 use super::largest::Looks;
+use super::met::Met;
 use super::method::Method;
 use super::plan::Plan;
 use super::start::{Motion, tolerance};
@@ -46,13 +47,14 @@ pub(super) struct Integration<const N: usize> {
     tilted: bool,
     watch: Watch,
     bounds: Bounds,
+    met: Met,
     events: Events,
     /// Where an input was set since the last communication step.
     held: Option<Held<N>>,
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, bounds, events, held
+    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, bounds, met, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -180,6 +182,7 @@ impl<const N: usize> Integration<N> {
         };
         integration.watch_tilt(effects, last.gamma);
         integration.watch.look(&frame.under(effects), t, &y);
+        integration.met.look(&frame.under(effects), t, &y);
         integration
     }
 
@@ -199,6 +202,7 @@ impl<const N: usize> Integration<N> {
             tilted: false,
             watch: Watch::default(),
             bounds: Bounds::default(),
+            met: Met::default(),
             events: Events::default(),
             held: None,
         }
@@ -238,6 +242,16 @@ impl<const N: usize> Integration<N> {
     /// Where the method stands: time \[s] and state.
     pub(super) fn reached(&self) -> (Frame, f64, &[f64; N]) {
         (self.frame, self.method.time(), self.method.state())
+    }
+
+    /// The lowest and the highest ω_φ so far [rad/s], where a law may be doubtful at some.
+    pub(super) fn speeds_met<E: Effects>(&self, effects: &E) -> Option<[f64; 2]> {
+        let mut met = self.met;
+        // Points within the last step are not looked at one by one.
+        if self.t == self.method.time() {
+            met.look(&self.frame.under(effects), self.t, self.method.state());
+        }
+        met.speeds()
     }
 
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {
@@ -370,6 +384,8 @@ impl<const N: usize> Integration<N> {
         self.method.limit_step(ahead * (t - self.t));
         let mut switched = 0;
         while self.method.time() < t {
+            // What lies ahead of the communication point may still come otherwise.
+            self.met.look(&self.frame.under(effects), self.method.time(), self.method.state());
             if let Some(auto) = &mut self.auto
                 && auto.is_due()
             {
@@ -424,6 +440,10 @@ impl<const N: usize> Integration<N> {
         self.watch.look(&self.frame.under(effects), self.method.time(), self.method.state());
         self.bounds.look(&self.frame.under(effects), self.method.time(), self.method.state());
         self.t = t;
+        if Met::is_due(effects) {
+            let (y, chart, _) = self.shown(effects);
+            self.met = self.met.with(self.motion_in(effects, chart, &y).axial_rate());
+        }
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! What scenes mean: several effects of a kind, numbers with units, what is left out.
 
 use crate::harness::named::{Named, ROTOR, refusal};
-use crate::harness::within;
+use crate::harness::{at, within};
 use split_rotor_model::scene::Scene;
 use std::path::Path;
 
@@ -161,27 +161,69 @@ fn exact_gravity_that_is_empty_is_that_of_the_earth() {
     assert_eq!([general("[effects.gravity]\n"), general("")], [-9.81, 0.0]);
 }
 
-/// The eccentricity of the mass centre and the axial inertia of a rotor with a moment of unbalance, relative: rounding.
+/// What a moment makes of the whole, relative \[1]: rounding.
 const OF_A_MOMENT: f64 = 1e-15;
 
 #[test]
 fn exact_moment_of_an_unbalance() {
-    let [moment, m, axial] = [4e-5, 5.0, 0.15625];
+    let [moment, m, axial, across] = [4e-5, 5.0, 0.15625, 0.078125];
     let rest = "[[effects.unbalance]]\nmoment = \"40 g mm\"\nangle = \"90 deg\"\nposition = \"5 cm\"\n";
-    let [mass, radius] = ["mass", "radius"].map(|key| value(rest, &format!("unbalance[1].{key}")));
+    // A disk that is no thin one: a point mass beside it is part of it.
+    let (thick, across) = (ROTOR.replace("Jt = 0.078125", "Jt = 0.09"), across + 0.011875);
+    let values = |rest: &str| {
+        let mut scene = Named::written(&format!("{thick}{rest}"));
+        let names = ["unbalance[1].mass", "unbalance[1].radius", "rotor.m", "rotor.Ja", "rotor.Jt"];
+        names.map(|name| scene.get(name))
+    };
+    let [mass, radius, balanced, balanced_axial, balanced_across] = values(rest);
     within("moment", (mass * radius / moment - 1.0).abs(), OF_A_MOMENT);
-    // It changes the mass and the axial inertia by the same part, moment/(m k).
-    let part = moment / (m * (axial / m).sqrt());
-    within("mass", (mass / m / part - 1.0).abs(), OF_A_MOMENT);
-    within("inertia", (mass * radius * radius / axial / part - 1.0).abs(), OF_A_MOMENT);
+    // The scene's mass and inertias are those of the whole, about c and in the mean of both directions across.
+    within("mass", ((balanced + mass) / m - 1.0).abs(), OF_A_MOMENT);
+    within("axial", ((balanced_axial + mass * radius * radius) / axial - 1.0).abs(), OF_A_MOMENT);
+    let of_point = mass * (0.05 * 0.05 + 0.5 * radius * radius);
+    within("across", ((balanced_across + of_point) / across - 1.0).abs(), OF_A_MOMENT);
     // Not at all in the limit.
-    assert_eq!(value(&rest.replace("40", "0"), "unbalance[1].mass"), 0.0);
+    assert_eq!(values(&rest.replace("40", "0"))[0], 0.0);
     assert_eq!(
         refusal(&format!("{ROTOR}{}mass = 0.1\n", rest)),
         "line 10: `mass` beside a moment: a moment is mass times radius: give either the moment or both of these"
     );
     let negative = refusal(&format!("{ROTOR}{}", rest.replace("40", "-40")));
     assert!(negative.starts_with("line 7: effects.unbalance[1].moment = \"-40 g mm\" is not possible"), "{negative}");
+    // Nothing is left of a rotor lighter than what the moment stands for, nor of a thin disk with a mass beside it.
+    for (rotor, moment) in [(&thick, "40 kg m"), (&ROTOR.to_owned(), "40 g mm")] {
+        let nothing = refusal(&format!("{rotor}{}", rest.replace("40 g mm", moment)));
+        assert!(
+            nothing.starts_with("line 7: [rotor] has m, Ja and Jt of the whole: no rotor is left without"),
+            "{nothing}"
+        );
+        assert_eq!(nothing.lines().count(), 1, "{nothing}");
+    }
+}
+
+/// The largest difference of two whirls, over the larger of them \[1]: measured 1e-11.
+const SAME_WHIRL: f64 = 1e-9;
+
+#[test]
+fn regress_a_moment_adds_no_mass() {
+    let run = |rotor: &str, unbalance: &str| {
+        let mut rotor = Named::started(&format!(
+            "[rotor]\n{rotor}\n[start]\nat_rest = true\n[effects.gravity]\n[[effects.bearing]]\nposition = 0.0\nkyy = 10000.0\n\
+             kzz = 10000.0\nkxx = 1e4\nkt = 100.0\n[[effects.unbalance]]\n{unbalance}\nposition = 0.0\n[effects.imposed_speed]\nw = 0.0\n\
+             a = 237.17082451262849\n[solver]\nrelative_tolerance = 1e-12\n"
+        ));
+        let places = (1..=200).map(|n| {
+            at(&mut rotor.simulation, 0.01 * f64::from(n));
+            [rotor.get("r_c.y"), rotor.get("r_c.z")]
+        });
+        places.collect::<Vec<_>>()
+    };
+    // The same mass and axial inertia of the whole, by another point mass. It was 4.4 % away.
+    let given = run("m = 0.1\nJa = 1e-5\nJt = 1e-4", "moment = 5e-7");
+    let other = run("m = 0.09999\nJa = 9.975e-6\nJt = 9.99875e-5", "mass = 1e-5\nradius = 0.05");
+    let largest = given.iter().flatten().fold(0.0, |most: f64, place| most.max(place.abs()));
+    let off = given.iter().flatten().zip(other.iter().flatten()).map(|(one, other)| (one - other).abs());
+    within("whirl", off.fold(0.0, f64::max) / largest, SAME_WHIRL);
 }
 
 #[test]
@@ -204,13 +246,22 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         "# time,tau\n0,0\n0.1,1\n0.1,2.5\n",
         // Bits of the shifted point, as in a scene.
         "t [ms],drive.tau [kN.mm]\n0,0\n100,1\n100,2.5\n",
+        "t [ms],Torque [mNm]\n0,0\n100,1000\n100,2500\n",
+        "\"time\",\"drive.tau\"\n\"0\",\"0\"\n\"0.1\",\"1\"\n\"0.1\",\"2.5\"\n",
+        "# bench 3\ntime,tau\n# warm\n0,0\n0.1,1\n  # a jump\n0.1,2.5\n# end\n",
+        "# Measured in May, at 20 degrees, by us\n# Time [s],Torque [Nm]\n0,0\n0.1,1\n0.1,2.5\n",
+        // Of several columns that with the input's name, or the only one with a unit that fits.
+        "time,drive.w,drive.tau,phi\n0,7,0,1\n0.1,8,1,2\n0.1,9,2.5,3\n",
+        "Time [s],Speed [rpm],\"Torque, left [Nm]\"\n0,1500,0\n0.1,1502,1\n0.1,1504,2.5\n",
+        "Zeit [ms],n [rpm],M (Nm),Name\n0,0,0,a\n100,0,1,b\n100,0,2.5,\"c,d\"\n",
+        "time,motor.tau,tau\n0,7,0\n0.1,8,1\n0.1,9,2.5\n",
     ] {
         std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
         assert_eq!(parse("file = \"x.csv\"").expect("a scene"), told);
     }
     let columns = "line 1 of x.csv does not name the columns";
     for (csv, wrong) in [
-        ("t,x\n0,1\n1\n", "line 3 of x.csv is no point"),
+        ("t,tau\n0,1\n1\n", "line 3 of x.csv is no point"),
         ("0,1\n1,nan\n", "line 2 of x.csv is no point"),
         ("0,1\n2,1\n1,1\n", "line 3 of x.csv comes after 2.0 s"),
         ("", "x.csv has no points"),
@@ -227,7 +278,18 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         ("tau,time\n1,2\n", columns),
         ("time,time\n1,2\n", columns),
         ("time,turns\n1,2\n", columns),
-        ("time,tau,speed\n1,2\n", columns),
+        ("time,tau,speed\n1,2\n", "line 2 of x.csv is no point"),
+        ("0,1,2\n1,2,3\n", "line 1 of x.csv is no point"),
+        ("t,x\n0,1\n1,2\n", columns),
+        (",tau\n0,1\n1,2\n", columns),
+        ("time_ms,tau\n0,1\n1,2\n", columns),
+        ("time,port[1].m.x [N.m]\n0,1\n1,2\n", columns),
+        ("time,tau,tau\n0,1,2\n", "line 1 of x.csv names tau more than once"),
+        ("time,a [Nm],b [kN.mm]\n0,1,2\n", "line 1 of x.csv has several columns that may be drive.tau"),
+        ("time,torque_Nm\n0,1\n", "line 1 of x.csv has a unit without brackets, torque_Nm"),
+        ("time,speed_rpm\n0,1\n", "line 1 of x.csv has a unit without brackets, speed_rpm"),
+        ("time,n,torque Nm\n0,1,2\n", "line 1 of x.csv has a unit without brackets, torque Nm"),
+        ("# t_s;tau\n0;30\n", "x.csv has semicolons between its columns"),
         ("time [m],tau\n1,2\n", "line 1 of x.csv has a unit that does not fit, [m]"),
         ("time,tau [N]\n1,2\n", "line 1 of x.csv has a unit that does not fit, [N]"),
         ("time,tau [ ]\n1,2\n", "line 1 of x.csv has a unit that does not fit, []"),
@@ -250,6 +312,119 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
     std::fs::write(&file, [b"title = \"".as_slice(), b"Kr\xfcmmung\"\n"].concat()).expect("the folder can be written");
     let error = Scene::read(&file).expect_err("no UTF-8").to_string();
     assert!(error.contains("latin.toml:1:12") && error.contains("save the file as UTF-8"), "{error}");
+    std::fs::remove_dir_all(&folder).expect("it is there");
+}
+
+/// The torque that a CSV has in its column, or what is wrong with it and what would be right.
+fn torque_of(csv: &str, input: &str, rest: &str) -> Result<Vec<f64>, [String; 2]> {
+    static NEXT: std::sync::atomic::AtomicU32 = std::sync::atomic::AtomicU32::new(0);
+    let number = NEXT.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    let folder = std::env::temp_dir().join(format!("split_rotor_columns_{}_{number}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder for what is tried");
+    std::fs::write(folder.join("x.csv"), csv).expect("the folder can be written");
+    let text = format!("{ROTOR}[[input]]\nname = \"{input}\"\nfile = \"x.csv\"\n{rest}\n");
+    let block = input.split(['.', '[']).next().unwrap_or_default();
+    let keys = if block == "motor" { "synchronous_speed = 100.0" } else { "" };
+    let scene = Scene::parse(&folder.join("any.toml"), &format!("{text}[effects.{block}]\n{keys}\n"));
+    std::fs::remove_dir_all(&folder).expect("it is there");
+    scene.map(|mut scene| scene.inputs.remove(0).value).map_err(|error| {
+        let problem = &error.problems[0];
+        [problem.wrong.clone(), problem.right.clone()]
+    })
+}
+
+#[test]
+fn regress_a_column_is_never_read_as_another_quantity() {
+    let rpm = |n: f64| n * 2.0 / 60.0 * std::f64::consts::PI;
+    let wrong = |is: &str, right: &str| Err([format!("line 1 of x.csv {is}"), right.to_owned()]);
+    // It ran at 3000 rad/s.
+    let bare = "time,speed_rpm\n0,0\n1,3000\n2,3000\n";
+    assert_eq!(
+        torque_of(bare, "imposed_speed.w", ""),
+        wrong(
+            "has a unit without brackets, speed_rpm",
+            "write speed [rpm], or column = \"speed_rpm [rpm]\" in the scene"
+        )
+    );
+    assert_eq!(
+        torque_of(bare, "imposed_speed.w", "column = \"speed_rpm\"").map_err(|wrong| wrong[0].clone()),
+        Err("line 1 of x.csv has a unit without brackets, speed_rpm".into())
+    );
+    let speeds = [0.0, rpm(3000.0), rpm(3000.0)].to_vec();
+    assert_eq!(torque_of(bare, "imposed_speed.w", "column = \"speed_rpm [rpm]\""), Ok(speeds.clone()));
+    assert_eq!(torque_of(&bare.replace("speed_rpm", "speed [RPM]"), "imposed_speed.w", ""), Ok(speeds));
+    // A test bench's.
+    let bench = "Time [s],Speed [rpm],Torque [Nm]\n0.00,1500,210\n0.01,1502,211\n0.02,1504,212\n";
+    let torques = Ok(vec![210.0, 211.0, 212.0]);
+    assert_eq!(torque_of(bench, "drive.tau", ""), torques);
+    assert_eq!(torque_of(bench, "drive.tau", "column = \"Torque\""), torques);
+    assert_eq!(torque_of(bench, "drive.tau", "column = \"Torque [Nm]\""), torques);
+    assert_eq!(torque_of(bench, "imposed_speed.w", ""), Ok([1500.0, 1502.0, 1504.0].map(rpm).to_vec()));
+    assert_eq!(
+        torque_of(bench, "drive.tau", "column = \"Speed\""),
+        wrong("has a unit that does not fit, [rpm]", "the column must hold a torque, in [N.m] or another unit of it")
+    );
+    assert_eq!(
+        torque_of(bench, "drive.tau", "column = \"Torqe\""),
+        Err(["x.csv has no column `Torqe`".into(), "did you mean `Torque`?".into()])
+    );
+    // The product's own table: units are those of the variables.
+    let result = "time,phi,omega_phi,energy.total\n0,0,1,7\n1,1,2,7\n";
+    assert_eq!(torque_of(result, "imposed_speed.w", "column = \"omega_phi\""), Ok(vec![1.0, 2.0]));
+    assert_eq!(
+        torque_of(result, "imposed_speed.w", "column = \"energy.total\""),
+        wrong(
+            "has a unit that does not fit, [J]",
+            "the column must hold an angular speed, in [rad/s] or another unit of it"
+        )
+    );
+    assert_eq!(
+        torque_of(result, "imposed_speed.w", ""),
+        wrong(
+            "does not name the columns",
+            "name the column imposed_speed.w [rad/s], or say column = \"...\" in the scene"
+        )
+    );
+    // Another input's name.
+    let other = "time,imposed_speed.a [rad/s2],imposed_speed.w [rpm]\n0,1,30\n1,1,60\n";
+    assert_eq!(torque_of(other, "imposed_speed.w", ""), Ok(vec![rpm(30.0), rpm(60.0)]));
+    assert_eq!(
+        torque_of("0,1\n1,2\n", "drive.tau", "column = \"tau\""),
+        Err(["x.csv does not name its columns".into(), "its first line must name them, or leave `column` out".into()])
+    );
+    // A pure number.
+    assert_eq!(torque_of("t,motor.command [-]\n0,0.5\n1,1\n", "motor.command", ""), Ok(vec![0.5, 1.0]));
+}
+
+#[test]
+fn other_files_are_named_for_what_they_are() {
+    let folder = std::env::temp_dir().join(format!("split_rotor_other_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder for what is tried");
+    let ssv = "<?xml version=\"1.0\"?>\n<ssv:ParameterSet xmlns:ssv=\"http://ssp-standard.org/SSP1/SystemStructureParameterValues\"/>";
+    for (name, bytes, is) in [
+        ("x.xlsx", &b"PK\x03\x04rest"[..], "a workbook of Excel or LibreOffice"),
+        ("x.xls", b"\xd0\xcf\x11\xe0", "a workbook of Excel or LibreOffice"),
+        ("x.fmu", b"PK\x03\x04rest", "a zip archive, as an FMU and an SSP are"),
+        ("x.dat", b"    -1\n    58\nA response\n", "a universal file (UFF)"),
+        ("x.ssv", ssv.as_bytes(), "a parameter set of SSP (.ssv) for the general FMU, `rotor`"),
+        ("x.xml", ssv.as_bytes(), "a parameter set of SSP (.ssv) for the general FMU, `rotor`"),
+        ("ross.toml", b"[\"ShaftElement_0\"]\nL = 0.25\n", "a rotor or element of ROSS"),
+        ("ross.json", b"{\"DiskElement_0\": {}}", "a rotor or element of ROSS"),
+        ("x.mat", b"MATLAB 5.0 MAT-file", "a file of MATLAB"),
+        ("x.parquet", b"PAR1\x15", "a binary table (Parquet, HDF5, TDMS or NumPy)"),
+        ("x.txt", b"\xff\xfet\0,\0", "text in UTF-16"),
+        ("x.json", b"{\"time\": [0]}", "JSON"),
+        ("modelDescription.xml", b"<?xml version=\"1.0\"?><fmiModelDescription/>", "XML"),
+    ] {
+        let file = folder.join(name);
+        std::fs::write(&file, bytes).expect("the folder can be written");
+        let as_scene = Scene::read(&file).expect_err(name);
+        assert_eq!(as_scene.problems[0].wrong, format!("this is {is}, not a scene"));
+        let text = format!("{ROTOR}[effects.drive]\n[[input]]\nname = \"drive.tau\"\nfile = \"{name}\"\n");
+        let as_input = Scene::parse(&folder.join("good.toml"), &text).expect_err(name);
+        assert_eq!(as_input.problems[0].wrong, format!("{name} is {is}"));
+        assert!(!as_scene.problems[0].right.is_empty() && !as_input.problems[0].right.is_empty(), "{name}");
+    }
     std::fs::remove_dir_all(&folder).expect("it is there");
 }
 

@@ -1,10 +1,13 @@
 //! Bearings against the speed: the table in closed form, Jeffcott's rotor in them, the order across nodes, the ledger.
 
-use crate::harness::named::{Named, refusal};
+use crate::harness::named::{Named, refusal, toml};
 use crate::harness::{Random, at, within};
-use nalgebra::{Complex, Normed};
+use nalgebra::{Complex, Normed, Vector3};
 use oracles::extrapolation::steps;
+use oracles::machine::{self, Bearing, Input, Node, Pace, Run, Start};
 use oracles::monotone::curve;
+use split_rotor_model::effects::Effects;
+use split_rotor_model::linear::{Direction, Machine, Mode};
 
 const ROTOR: &str = "[rotor]\nm = 5.0\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n";
 
@@ -30,9 +33,13 @@ fn bearing(speeds: &[f64], columns: &[(&str, [f64; 5])]) -> String {
     text
 }
 
-/// What each column has at a speed.
-fn expected(speed: f64) -> [f64; 8] {
-    COLUMNS.map(|(_, values)| curve(&std::array::from_fn::<_, 5, _>(|n| (SPEEDS[n], values[n])), speed.abs()))
+/// What each column has at a speed of this direction, 1 or -1: where the rotor turns backwards, cross terms have the other sign.
+fn expected(speed: f64, direction: f64) -> [f64; 8] {
+    COLUMNS.map(|(name, values)| {
+        let value = curve(&std::array::from_fn::<_, 5, _>(|n| (SPEEDS[n], values[n])), speed.abs());
+        let is_cross = ["kyz", "kzy", "cyz", "czy"].contains(&name);
+        if is_cross { direction * value } else { value }
+    })
 }
 
 /// Force over its size \[1]: measured 2.1e-16.
@@ -53,7 +60,7 @@ fn exact_force_against_the_speed_forward_and_backward() {
         );
         let mut rotor = Named::written(&format!("{ROTOR}{start}{}", bearing(&SPEEDS, &COLUMNS)));
         rotor.start();
-        let [kyy, kyz, kzy, kzz, cyy, cyz, czy, czz] = expected(speed);
+        let [kyy, kyz, kzy, kzz, cyy, cyz, czy, czz] = expected(speed, if speed < 0.0 { -1.0 } else { 1.0 });
         let force = [kyy * y + kyz * z + cyy * vy + cyz * vz, kzy * y + kzz * z + czy * vy + czz * vz].map(|f| -f);
         let size = (kyy + kzz) * (y.abs() + z.abs()) + (cyy + czz) * (vy.abs() + vz.abs());
         for (name, force) in ["bearing[1].F.y", "bearing[1].F.z"].into_iter().zip(force) {
@@ -113,8 +120,8 @@ fn run_up(solver: &str) -> Named {
 
 /// The same from node to node by extrapolation: y, z [m], and their rates [m/s].
 fn ran_up(end: f64) -> [f64; 4] {
-    let f = |t: f64, s: &[f64; 4]| {
-        let [kyy, kyz, kzy, kzz, cyy, cyz, czy, czz] = expected(RATE * t - 60.0);
+    let f = |direction: f64, t: f64, s: &[f64; 4]| {
+        let [kyy, kyz, kzy, kzz, cyy, cyz, czy, czz] = expected(RATE * t - 60.0, direction);
         let [y, z, vy, vz] = *s;
         let of = |a: f64| -a / 5.0;
         [vy, vz, of(kyy * y + kyz * z + cyy * vy + cyz * vz), of(kzy * y + kzz * z + czy * vy + czz * vz)]
@@ -123,7 +130,11 @@ fn ran_up(end: f64) -> [f64; 4] {
     let mut times: Vec<f64> = nodes.filter(|t| *t > 0.0 && *t < end).chain([end]).collect();
     times.sort_by(f64::total_cmp);
     times.dedup();
-    times.iter().fold((0.0, [0.01, 0.0, 0.0, 0.0]), |(t, y), next| (*next, steps(f, t, &y, next - t, 40))).1
+    let go = |(t, y): (f64, [f64; 4]), next: &f64| {
+        let direction = (0.5 * RATE * (t + next) - 60.0).signum();
+        (*next, steps(|t, s| f(direction, t, s), t, &y, next - t, 40))
+    };
+    times.iter().fold((0.0, [0.01, 0.0, 0.0, 0.0]), go).1
 }
 
 /// Place over the size of the motion \[1], in tolerances: measured 17.5 with stiff, 13.5 with dopri5, 5.3 with the others.
@@ -166,6 +177,173 @@ fn order_is_kept_across_nodes() {
         println!("{method}: {coarse:.2e}, {fine:.2e}: order {order:.2}");
         assert!(order >= least, "{method}: {order}");
     }
+}
+
+/// A rotor that turns backwards, and its mirror image in the plane of x and z: y, the spin, and what turns about x or z change sign.
+fn mirror_images(table: &str, speeds: [f64; 2]) -> [String; 2] {
+    [1.0, -1.0].map(|side| {
+        let [from, to] = speeds.map(|speed| side * speed);
+        let (angle, turned) = (if side > 0.0 { 0.4 } else { std::f64::consts::PI - 0.4 }, 3e-3 * side);
+        format!(
+            "[rotor]\nm = 12.0\nJa = 0.06\nJt = 0.25\nl = 0.0\n[effects.gravity]\n[start]\n\
+             r_c = {{ y = {:?}, z = 2e-4 }}\nv_c = {{ y = {:?} }}\ngamma = {{ y = 1e-3, z = {turned:?} }}\n\
+             omega = {{ x = {from:?}, y = 0.2, z = {:?} }}\n\
+             [[effects.unbalance]]\nmass = 0.01\nradius = 0.05\nangle = {angle:?}\nposition = 0.1\n\
+             [[effects.bearing]]\nposition = -0.2\nkxx = 1e5\n{table}\
+             [[effects.bearing]]\nposition = 0.25\nkt = 50.0\nct = 0.5\n{table}\
+             [effects.imposed_speed]\nw = {from:?}\na = {:?}\n[solver]\nrelative_tolerance = 1e-8\n",
+            1e-4 * side,
+            0.02 * side,
+            -0.3 * side,
+            (to - from) / 0.5
+        )
+    })
+}
+
+/// With a first node above 0, with one at rest where cross terms are not 0, and with that node alone.
+const FILMS: [&str; 3] = [
+    "speed = [100.0, 250.0]\nkyy = [4e5, 3e5]\nkzz = [9e5, 5e5]\nkyz = [5e4, 9e4]\nkzy = [-8e4, -2e5]\ncyy = [900, 500]\n\
+     czz = [2400, 1200]\ncyz = [-150, -90]\nczy = [-120, -60]\n",
+    "speed = [0.0, 100.0, 250.0]\nkyy = [4e5, 3.5e5, 3e5]\nkzz = [9e5, 6e5, 5e5]\nkyz = [2e4, 5e4, 9e4]\nkzy = [-6e4, -8e4, -2e5]\n\
+     cyy = [900, 700, 500]\nczz = [2400, 2000, 1200]\ncyz = [-300, -150, -90]\nczy = [-200, -120, -60]\n",
+    "speed = [0.0]\nkyy = [4e5]\nkzz = [9e5]\nkyz = [2e4]\nkzy = [-6e4]\ncyy = [900]\nczz = [2400]\ncyz = [-300]\nczy = [-200]\n",
+];
+
+/// Of a motion from its mirror image, over its size \[1]: measured 7.1e-10.
+const MIRRORED: f64 = 3e-9;
+
+#[test]
+fn exact_the_mirror_image_of_a_rotor_in_films_moves_as_its_mirror_image() {
+    for table in FILMS {
+        // Backward, forward, and through rest both ways.
+        for speeds in [[-300.0, -150.0], [-60.0, -90.0], [-80.0, 160.0], [130.0, -40.0]] {
+            let [mut one, mut other] = mirror_images(table, speeds).map(|text| Named::started(&text));
+            let (mut size, mut error) = (0.0_f64, 0.0_f64);
+            for n in 1..=50 {
+                let t = 0.01 * f64::from(n);
+                at(&mut one.simulation, t);
+                at(&mut other.simulation, t);
+                for (name, sign) in [("r_c.y", -1.0), ("r_c.z", 1.0)] {
+                    size = size.max(one.get(name).abs());
+                    error = error.max((one.get(name) - sign * other.get(name)).abs());
+                }
+            }
+            within(&format!("{speeds:?} rad/s: {} nodes", table.matches(',').count()), error / size, MIRRORED);
+        }
+    }
+}
+
+/// Of the place from that of the machine of all laws, over its size \[1]: measured 6.8e-10.
+const OF_MACHINE: f64 = 3e-9;
+
+#[test]
+fn exact_a_rotor_driven_from_backward_to_forward_is_the_machine_of_all_laws() {
+    let node = |speed: f64, k: [[f64; 2]; 2], c: [[f64; 2]; 2]| Node { speed, k, c };
+    let below = vec![
+        node(20.0, [[4e4, 2e4], [-3e4, 9e4]], [[90.0, -15.0], [-12.0, 240.0]]),
+        node(60.0, [[3e4, 3e4], [-4e4, 5e4]], [[50.0, -9.0], [-6.0, 120.0]]),
+    ];
+    let jumps = vec![
+        node(0.0, [[4e4, 1e4], [-2e4, 9e4]], [[90.0, -30.0], [-20.0, 240.0]]),
+        node(50.0, [[3e4, 2e4], [-3e4, 5e4]], [[60.0, -15.0], [-12.0, 150.0]]),
+    ];
+    let bearing =
+        |position: f64, table: Vec<Node>| Bearing { position, table, axial: [1e4, 10.0], ..Bearing::default() };
+    let machine = machine::Machine {
+        m: 12.0,
+        Ja: 0.06,
+        Jt: 0.25,
+        gravity: Some(Vector3::z() * -9.81),
+        bearings: vec![bearing(-0.2, below), bearing(0.25, jumps)],
+        start: Start { omega: Vector3::x() * -40.0, r_c: Vector3::new(0.0, 1e-3, -2e-3), ..Start::default() },
+        drive: true,
+        inputs: vec![(Input::Torque, 24.0)],
+        ..machine::Machine::default()
+    };
+    let text = toml(&machine.settings()) + "[solver]\nrelative_tolerance = 1e-9\n";
+    let mut rotor = Named::started(&text);
+    let mut run = Run::new(&machine, Pace::Adaptive(1e-11));
+    let (mut size, mut error) = (0.0_f64, 0.0_f64);
+    for n in 1..=20 {
+        let t = 0.013 * f64::from(n);
+        at(&mut rotor.simulation, t);
+        assert!(run.advance(t), "at {t} s");
+        let place = run.show().r_c;
+        size = size.max(place.norm());
+        error = error.max(libm::hypot(rotor.get("r_c.y") - place.y, rotor.get("r_c.z") - place.z));
+    }
+    assert!(rotor.get("omega_phi") > 60.0);
+    within("place", error / size, OF_MACHINE);
+}
+
+/// Eigenvalues at one speed from those at the other, over their size \[1].
+const ALIKE: f64 = 1e-12;
+
+#[test]
+fn exact_a_film_drives_the_whirl_that_goes_with_the_spin() {
+    let film = "speed = [0, 500]\nkyy = [1e6, 1e6]\nkzz = [2e6, 2e6]\nkyz = [0, 1e6]\nkzy = [0, -2e6]\ncyy = [2e3, 2e3]\n\
+                cyz = [-500, -500]\nczy = [-500, -500]\nczz = [3e3, 3e3]\nkxx = 1e6\ncxx = 1e3\nkt = 1e5\nct = 100.0\n";
+    let text = format!("[rotor]\nm = 10.0\nJa = 0.1\nJt = 0.2\nl = 0.0\n[[effects.bearing]]\nposition = 0.0\n{film}");
+    let machine = Machine::of(Named::written(&text).simulation.parameters()).unwrap_or_else(|error| panic!("{error}"));
+    let modes = |speed: f64| machine.modes(speed, None).unwrap_or_else(|error| panic!("{error}")).1;
+    for speed in [30.0, 200.0, 400.0, 700.0] {
+        let (forward, backward) = (modes(speed), modes(-speed));
+        assert_eq!(forward.len(), backward.len());
+        for mode in &forward {
+            let off = |other: &Mode| (other.eigenvalue - mode.eigenvalue).norm() / mode.eigenvalue.norm();
+            let other = backward.iter().min_by(|a, b| off(a).total_cmp(&off(b))).expect("modes");
+            within(&format!("at {speed} rad/s"), off(other), ALIKE);
+            assert_eq!(other.direction, mode.direction, "at {speed} rad/s");
+        }
+        // It was said to be backward at the negative speed.
+        let growing = backward.iter().filter(|mode| mode.grows());
+        let directions: Vec<_> = growing.map(|mode| mode.direction).collect();
+        assert_eq!(directions, if speed > 319.0 { vec![Direction::Forward] } else { vec![] }, "at {speed} rad/s");
+    }
+}
+
+/// What is said of a run at ω_φ from the first to the second of these speeds.
+fn doubts(text: &str, speeds: [f64; 2]) -> Vec<String> {
+    let [from, to] = speeds;
+    let mut rotor = Named::started(&format!(
+        "{ROTOR}{text}[effects.imposed_speed]\nw = {from:?}\na = {:?}\n[start]\nomega = {{ x = {from:?} }}\n",
+        to - from
+    ));
+    at(&mut rotor.simulation, 1.0);
+    let mut all = Vec::new();
+    if let Some(met) = rotor.simulation.speeds_met() {
+        rotor.simulation.parameters().effects.doubts(met, None, &mut |name, doubt| all.push(doubt.words(name)));
+        // Once said, nothing of it is new.
+        rotor.simulation.parameters().effects.doubts(met, Some(met), &mut |name, _| panic!("{name} again"));
+    }
+    all
+}
+
+#[test]
+fn regress_speeds_for_which_no_coefficient_is_known_are_told() {
+    let table = format!("[[effects.bearing]]\nposition = 0.0\n{}", FILMS[0]);
+    let below = "bearing[1]: speeds down to 50.0 rad/s (477.46 rpm) are below its table, which is known from 100.0 rad/s \
+                 (954.93 rpm) to 250.0 rad/s (2387.3 rpm): there the coefficients of its first node are held, and cross terms go to 0 with \
+                 the speed";
+    let beyond = "bearing[1]: speeds up to 260.0 rad/s (2482.8 rpm) are beyond its table, which is known from 100.0 rad/s \
+                  (954.93 rpm) to 250.0 rad/s (2387.3 rpm): there the coefficients of its last node are held";
+    assert_eq!(doubts(&table, [100.0, 250.0]), [""; 0]);
+    assert_eq!(doubts(&table, [-250.0, -120.0]), [""; 0]);
+    assert_eq!(doubts(&table, [50.0, 90.0]), [below]);
+    assert_eq!(doubts(&table, [240.0, 260.0]), [beyond]);
+    assert_eq!(doubts(&table, [-240.0, -260.0]), [beyond]);
+    let both = doubts(&table, [-50.0, 260.0]);
+    assert!(both.len() == 2 && both[0].starts_with("bearing[1]: speeds down to ") && both[1] == beyond, "{both:?}");
+    // Constants keep their sign; where kyz = kzy nothing is driven either way.
+    let constant =
+        |kzy: f64| format!("[[effects.bearing]]\nposition = 0.0\nkyy = 1e4\nkzz = 1e4\nkyz = 5.0\nkzy = {kzy:?}\n");
+    assert_eq!(doubts(&constant(-5.0), [0.0, 100.0]), [""; 0]);
+    assert_eq!(doubts(&constant(5.0), [-100.0, 100.0]), [""; 0]);
+    let backward = doubts(&constant(-5.0), [20.0, -40.0]);
+    assert!(
+        backward.len() == 1 && backward[0].contains("turns backwards, at -40.0 rad/s (-381.97 rpm)"),
+        "{backward:?}"
+    );
 }
 
 /// An ordinary rotor in two film bearings, drawn: from 1 to 50 kg, at rest or at speed, at a node or between two, run up or down.
@@ -273,6 +451,15 @@ fn tables_that_are_not_right_are_refused() {
             "speed = [0.0, 1e-300]\nkyy = [1.0, 2e9]\n",
             "line 8: bearing[1].speed[2] = 1e-300 is not possible: it must be nearer to or further from that of the node before, \
              0.0: the curve of kyy between them overflows",
+        ),
+        (
+            // With the sign that it has where the rotor turns backwards, besides a constant.
+            "speed = [0.0, 100.0]\ncyy = [4.0, 4.0]\nczz = [4.0, 4.0]\ncyz = [-6.0, -6.0]\nczy = [-6.0, -6.0]\n",
+            "in size at 0.0 rad/s, or the bearing would drive what it damps",
+        ),
+        (
+            "speed = [1e-300, 1.0]\nkyz = [1e9, 1e9]\n",
+            "bearing[1].speed[1] = 1e-300 is not possible: it must be 0 or larger",
         ),
         ("speed = [0.0, 1e-160, 1.0]\nczz = [1.0, 2.0, 3.0]\n", "bearing[1].speed[2] = 1e-160 is not possible"),
         ("speed = [0.0, 1.0, 1e308]\nkyy = [1.0, 2.0, 3.0]\n", "bearing[1].speed[3] = 1e308 is not possible"),

@@ -1,4 +1,5 @@
-//! What a bearing has against the speed: a curve over ω_φ of both signs, of which one piece at a time is followed.
+//! What a bearing has against the speed: a curve over ω_φ of both signs, of which one piece at a time is followed. Cross terms change
+//! their sign with it.
 
 use super::Bearing;
 use crate::monotone::piece;
@@ -45,10 +46,24 @@ impl Tabled {
         [low + edge, high + edge]
     }
 
+    /// What the cross terms have of those of the size of the speed \[1]: the sign of the piece, and of one about rest a line through 0.
+    fn sign(&self, speed: f64) -> f64 {
+        let count = self.curves[0].len();
+        if self.below == 0 || (self.below < count && self.speed(self.below) <= 0.0) {
+            -1.0
+        } else if self.speed(self.below - 1) >= 0.0 {
+            1.0
+        } else {
+            speed / self.speed(self.below)
+        }
+    }
+
     /// Force on the rotor at its station, of this place and velocity \[N].
     pub fn force(&self, [r, v]: &[Vector3<f64>; 2], speed: f64) -> Vector3<f64> {
         let [kyy, kyz, kzy, kzz, cyy, cyz, czy, czz] =
             std::array::from_fn(|n| piece(&self.curves[n], self.below, speed));
+        let sign = self.sign(speed);
+        let [kyz, kzy, cyz, czy] = [kyz, kzy, cyz, czy].map(|cross| cross * sign);
         let y = kyy * r.y + kyz * r.z + cyy * v.y + cyz * v.z;
         let z = kzy * r.y + kzz * r.z + czy * v.y + czz * v.z;
         Vector3::new(0.0, -y, -z)

@@ -1,6 +1,7 @@
 //! The table: critical speeds, thresholds, and the modes at a few speeds.
 
 use super::{Diagram, number};
+use crate::doubts::{mark, words};
 use crate::numbers::{SHOWN, rounded, rpm, spread};
 use split_rotor_model::linear::{Branch, Crossing, Direction, Mode};
 use std::fmt::Write;
@@ -12,7 +13,8 @@ pub fn table(diagram: &Diagram) -> String {
     critical_speeds(diagram, &mut text);
     stability(diagram, &mut text);
     modes(diagram, &mut text);
-    text
+    let speeds: Vec<_> = diagram.campbell.steady.iter().map(|steady| steady.speed).collect();
+    text + &words(diagram.scene, &speeds)
 }
 
 fn critical_speeds(diagram: &Diagram, text: &mut String) {
@@ -26,8 +28,8 @@ fn critical_speeds(diagram: &Diagram, text: &mut String) {
         "| critical speed [rad/s] | [rpm] | line | mode | direction | damping ratio |\n|--:|--:|--:|--:|---|--:|\n";
     for (order, Crossing { branch, speed, mode }) in rows {
         let (number, direction, ratio) = (number(*branch), mode.direction.name(), ratio(mode, 4));
-        let (speed, rpm) = (rounded(*speed), rounded(rpm(*speed)));
-        let _ = writeln!(text, "| {speed} | {rpm} | {order}X | {number} | {direction} | {ratio:.4} |");
+        let (mark, speed, rpm) = (mark(diagram.scene, *speed), rounded(*speed), rounded(rpm(*speed)));
+        let _ = writeln!(text, "| {speed}{mark} | {rpm} | {order}X | {number} | {direction} | {ratio:.4} |");
     }
     if diagram
         .critical
@@ -43,13 +45,14 @@ fn stability(diagram: &Diagram, text: &mut String) {
     for threshold @ Crossing { branch, speed, mode } in &diagram.thresholds {
         let _ = writeln!(
             text,
-            "Mode {} ({}, {} rad/s) grows {} {} rad/s ({} rpm).",
+            "Mode {} ({}, {} rad/s) grows {} {} rad/s ({} rpm){}.",
             number(*branch),
             mode.direction.name(),
             rounded(mode.eigenvalue.im),
             diagram.grows(threshold),
             rounded(*speed),
-            rounded(rpm(*speed))
+            rounded(rpm(*speed)),
+            mark(diagram.scene, *speed)
         );
     }
     let grows_always = |(_, branch): &(usize, &Branch)| branch.points.iter().all(|point| point.mode.grows());

@@ -2,7 +2,7 @@
 //! motions are multiplied by in a revolution (Floquet) tells how they grow, and their frequencies but for whole multiples of the spin.
 
 use crate::numbers::{SHOWN, rounded, rpm, spread};
-use crate::{rows, speeds};
+use crate::{doubts, rows, speeds};
 use anyhow::{Context, Result, bail};
 use nalgebra::{Complex, ComplexField};
 use serde_json::{Value, json};
@@ -57,6 +57,7 @@ impl<'s> Turning<'s> {
             "title": self.scene.title,
             "floquet": true,
             "thresholds": self.thresholds,
+            "tables": doubts::tables(self.scene),
             "growing": self.orbits.iter().filter(|orbit| orbit.loss().is_some()).map(|orbit| orbit.speed).collect::<Vec<_>>(),
             "modes": rows::objects(self.rows()),
         })
@@ -110,7 +111,9 @@ impl<'s> Turning<'s> {
             text +=
                 &format!("| {} | {} | {} | {largest} |\n", rounded(orbit.speed), rounded(growth), rounded(frequency));
         }
-        text
+        let speeds: Vec<_> = self.orbits.iter().map(|orbit| orbit.speed).collect();
+        let below = doubts::words(self.scene, &speeds);
+        if below.is_empty() { text } else { text + "\n" + &below }
     }
 }
 

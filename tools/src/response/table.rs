@@ -1,6 +1,7 @@
 //! The table: where the orbits are largest, and how large they are at a few speeds.
 
 use super::{Found, Linear, lag, nonlinear};
+use crate::doubts::{mark, words};
 use crate::numbers::{SHOWN, micrometres, rounded, rpm, spread};
 use std::fmt::Write;
 
@@ -17,7 +18,11 @@ pub fn table(found: &Found) -> String {
         Err(obstacle) => text += &format!("No linear response: {obstacle}.\n"),
     }
     nonlinear::words(found, &mut text);
-    text
+    let below = words(found.scene, &found.speeds);
+    if !below.is_empty() {
+        text += "\n";
+    }
+    text + &below
 }
 
 fn peaks(found: &Found, linear: &Linear, text: &mut String) {
@@ -29,7 +34,8 @@ fn peaks(found: &Found, linear: &Linear, text: &mut String) {
     for (station, peaks) in found.stations.iter().zip(&linear.peaks) {
         for peak in peaks {
             let (speed, name) = (peak.speed, station.title());
-            let _ = write!(text, "| {} | {} | {name} | ", rounded(speed), rounded(rpm(speed)));
+            let mark = mark(found.scene, speed);
+            let _ = write!(text, "| {}{mark} | {} | {name} | ", rounded(speed), rounded(rpm(speed)));
             let _ = match peak.orbit(station) {
                 Some(orbit) => {
                     let [major, minor] = [orbit.major(), orbit.minor()].map(micrometres);

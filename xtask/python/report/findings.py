@@ -14,6 +14,9 @@ MOST = 5
 SHARP = 2.5
 """From this amplification factor on a resonance counts as a critical speed (API Std 617 and RP 684); below it is critically damped."""
 
+ROUNDING = 1e-9
+"""A speed that is beyond a table by less than this part of it is not."""
+
 LEANS = 10.0
 """A rotor at rest that leans by more [°] was hardly meant to."""
 
@@ -33,7 +36,7 @@ class Finding:
 def findings(result, view, unheld=""):
     """All that this run and its linear view have; `unheld` says in which directions nothing holds the rotor, "" where something does."""
     contact = _contact(result)
-    found = [_critical(view), *_passed(result, view), _unheld(unheld), _stability(result, view, contact is not None, unheld), _rest(result), *_motion(result), contact]
+    found = [_critical(view), *_passed(result, view), *_held(result, view), _unheld(unheld), _stability(result, view, contact is not None, unheld), _rest(result), *_motion(result), contact]
     found += [_load(result), _time(result), _energy(result)]
     return [finding for finding in found if finding]
 
@@ -47,7 +50,25 @@ def _critical(view):
     # Modes in two planes of a round machine cross at one speed.
     speeds = list(dict.fromkeys(_numbers(view.critical)))
     more = f", the first {MOST} of {len(speeds)}" if len(speeds) > MOST else f", up to {rpm(highest)}"
-    return Finding(_in_rpm(speeds[:MOST]), f"critical speeds (1×){more}")
+    held = _names(crossing for crossing in view.critical if crossing.get("held"))
+    doubt = f"; not known but extrapolated, where the coefficients of {held} are held beyond a table" if held else ""
+    return Finding(_in_rpm(speeds[:MOST]), f"critical speeds (1×){more}{doubt}")
+
+
+def _names(crossings):
+    """The effects whose coefficients are held at these crossings."""
+    return ", ".join(sorted({name for crossing in crossings for name in crossing.get("held", [])}))
+
+
+def _held(result, view):
+    """Tables that the run leaves: coefficients are held there, and nobody knows them."""
+    if view is None:
+        return
+    spin = np.abs(result.columns["omega_phi"])
+    for effect, first, last in view.tables:
+        if spin.min() < first * (1.0 - ROUNDING) or spin.max() > last * (1.0 + ROUNDING):
+            known = f"whose table is known from {rpm(first)} to {rpm(last)}"
+            yield Finding("beyond a table", f"coefficients of {effect}, {known}, are held at other speeds; this run, {_range(spin)}", "bad")
 
 
 def _passed(result, view):
@@ -55,7 +76,7 @@ def _passed(result, view):
     if view is None or view.floquet:
         return
     spin = np.abs(result.columns["omega_phi"])
-    alike = {}
+    alike, unknown = {}, []
     for crossing in view.critical:
         speed, ratio = crossing["speed_rad_s"], crossing["damping_ratio"]
         away = max(spin.min() - speed, speed - spin.max())
@@ -63,6 +84,9 @@ def _passed(result, view):
         # An unbalance goes round forward: it does not drive a mode whose orbits are circles backward, as those of a round machine are.
         is_driven = crossing["sense"] > CIRCLE_BACKWARD
         if allowed is not None and away <= allowed and is_driven:
+            if crossing.get("held"):
+                unknown.append(crossing)
+                continue
             where, how = "within" if away <= 0.0 else "nearer than API 617 allows to", None
             if ratio <= linear.NEITHER:
                 how = "its mode grows by itself" if ratio < -linear.NEITHER else "without damping"
@@ -74,6 +98,10 @@ def _passed(result, view):
             how = f"amplification factor{several} {factors} (from {SHARP} on it counts as critical, API 617)"
         what = f"critical speed{several} that an unbalance drives, {where} the speeds of this run, {_range(spin)}; {how}"
         yield Finding(_in_rpm(_numbers(crossings)), what, "bad")
+    if unknown:
+        several = "s" if len(unknown) > 1 else ""
+        what = f"critical speed{several} beyond a table: coefficients of {_names(unknown)} are held there, so API 617 does not judge them"
+        yield Finding(_in_rpm(_numbers(unknown)), what, "bad")
 
 
 def _margin(ratio, spin, speed):

@@ -24,6 +24,8 @@ class Linear:
     """Of a body that is not symmetric: exponents of its revolutions in place of modes."""
     growing: tuple[float, ...] = ()
     """Speeds [rad/s] at which small motions of such a body grow."""
+    tables: tuple[tuple[str, float, float], ...] = ()
+    """Effects with tables, each with the speeds [rad/s] between which it is known: beyond them coefficients are held."""
 
     def branches(self):
         """Of each mode its number and its rows, ascending speeds; those along the axis and those that never swing left out."""
@@ -80,6 +82,7 @@ def read(file):
         thresholds=thresholds,
         floquet=found.get("floquet", False),
         growing=tuple(growing),
+        tables=tuple((t["effect"], t["from_rad_s"], t["to_rad_s"]) for t in found.get("tables", [])),
     )
 
 

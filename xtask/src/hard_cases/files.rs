@@ -13,7 +13,8 @@ pub fn write(rows: &[Row], extent: &Extent) -> Result<()> {
     let (json, table) = (serde_json::to_string_pretty(&json)? + "\n", table::markdown(rows));
     let csv = sheets::csv(&rows.iter().map(Row::columns).collect::<Vec<_>>());
     let files = [("hard-cases.md", &*table), ("hard-cases.csv", &csv), ("hard-cases.json", &json)];
-    let folder = sheets::write("hard-cases", files)?;
+    let folder = sheets::folder(None, "hard-cases")?;
+    sheets::write(&folder, files)?;
     println!("\n{table}\n{}", folder.join("hard-cases.md").display());
     Ok(())
 }

@@ -7,6 +7,8 @@ use anyhow::{Context, Result, ensure};
 use plotters::prelude::*;
 use serde_json::json;
 use split_rotor_model::scene::Scene;
+use split_rotor_tools::doubts;
+use std::path::Path;
 
 /// What the command found.
 pub(super) struct Plane {
@@ -47,15 +49,16 @@ fn lowest(column: &Column, speeds: &[f64]) -> Option<f64> {
 }
 
 impl Plane {
-    pub(super) fn leave(&self) -> Result<()> {
+    pub(super) fn leave(&self, out: Option<&Path>) -> Result<()> {
         let rows = self.cells();
         let json = json!({
             "scene": self.scene.name,
             "title": self.scene.title,
             "parameters": self.axes.each_ref().map(|axis| json!({ "name": axis.name, "unit": axis.unit })),
+            "tables": doubts::tables(&self.scene),
             "lowest_unstable": sheets::objects(rows.clone()),
         });
-        leave(&self.scene, &self.table(), &rows, &json, self.svg()?)
+        leave(&self.scene, out, &self.table(), &rows, &json, self.svg()?)
     }
 
     /// A row for each pair of values.
@@ -88,7 +91,8 @@ impl Plane {
             let cell = |&m: &usize| self.rows[n][m].map_or("none".into(), rounded);
             text += &line(rounded(y.values[n]), &mut columns.iter().map(cell));
         }
-        text
+        let below = doubts::words(scene, ends);
+        if below.is_empty() { text } else { text + "\n" + &below }
     }
 
     /// As SVG: a shade for each range of speeds.
@@ -135,11 +139,12 @@ fn around(axis: &Axis, n: usize) -> [f64; 2] {
 mod tests {
     use super::super::tests::scene;
     use super::*;
+    use split_rotor_model::scene::Given;
 
     #[test]
     fn the_lowest_unstable_speed_is_that_of_the_closed_form() {
         let [outer, inner] = [("support.d1", [10.0, 50.0]), ("rotating_damping.d", [5.0, 20.0])]
-            .map(|(name, values)| Against { name, values, count: 4 });
+            .map(|(name, values)| Against { name, values: values.map(Given::from), count: 4 });
         let plane = plane(scene(), [&outer, &inner], Some(&[0.0, 150.0]), 21).expect("a map");
         let mut stable = 0;
         for (inner, row) in plane.axes[1].values.iter().zip(&plane.rows) {

@@ -2,6 +2,7 @@
 
 use super::{Column, Map};
 use crate::numbers::{rounded, rpm, spread};
+use split_rotor_tools::doubts::{mark, words};
 
 /// So many values are shown.
 const SHOWN: usize = 12;
@@ -22,10 +23,12 @@ pub fn table(map: &Map) -> String {
         }
         for at in &column.thresholds {
             let (speed, rpm, whirl) = (rounded(at.speed), rounded(rpm(at.speed)), rounded(at.mode.frequency()));
-            text += &format!("| {value} | {} | {speed} | {rpm} | {whirl} |\n", side(column, map, at.speed));
+            let mark = mark(&map.scene, at.speed);
+            text += &format!("| {value} | {} | {speed}{mark} | {rpm} | {whirl} |\n", side(column, map, at.speed));
         }
     }
-    text
+    let below = words(&map.scene, &map.speeds);
+    if below.is_empty() { text } else { text + "\n" + &below }
 }
 
 /// On which side of a threshold [rad/s] the machine is unstable.

@@ -2,7 +2,7 @@
 
 use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
-use crate::effects::{MOST_OWN, block_name, full_name, switch_name};
+use crate::effects::{Doubt, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
 use crate::error::Invalid;
 use crate::signal::Signal;
 use crate::state::Rates;
@@ -78,6 +78,10 @@ pub trait Block {
     fn is_analytic(&self) -> bool;
     /// Whether what it applies depends on how fast the rotor moves.
     fn follows_speed(&self) -> bool;
+    /// Whether its law is doubtful at some speeds.
+    fn is_doubtful(&self) -> bool;
+    /// What is doubtful of it at ω_φ from the first to the second of these [rad/s].
+    fn doubts(&self, speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS];
     /// The first of its parameters whose value is not possible.
     fn check(&self) -> Result<(), Invalid>;
     /// Whether it has events.

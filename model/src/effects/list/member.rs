@@ -1,6 +1,6 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Effect, Entry, InputSet, MOST_OWN, Motion, Row};
+use super::super::{Doubt, Effect, Entry, InputSet, MOST_DOUBTS, MOST_OWN, Motion, Row};
 use super::{Block, Kind, Tangent};
 use crate::body::Shape;
 use crate::error::Invalid;
@@ -204,6 +204,14 @@ impl<M: Member> Block for M {
 
     fn follows_speed(&self) -> bool {
         self.effect().follows_speed()
+    }
+
+    fn is_doubtful(&self) -> bool {
+        M::Effect::MAY_BE_DOUBTED && self.effect().is_doubtful()
+    }
+
+    fn doubts(&self, speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS] {
+        self.effect().doubts(speeds)
     }
 
     fn check(&self) -> Result<(), Invalid> {
