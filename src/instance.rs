@@ -57,7 +57,7 @@ pub struct Memory {
     /// Whether the last step could not be done.
     step_failed: bool,
     /// Whether it was said that the tilt is large, that the motion grows, which it does still, and that all inputs are 0.
-    warned: [bool; 3],
+    warned: [bool; 4],
 }
 
 /// What the host said of the experiment, and what it set itself.
@@ -93,7 +93,7 @@ impl Memory {
             simulation: Simulation::with(integrator, parameters),
             experiment: Experiment::default(),
             step_failed: false,
-            warned: [false; 3],
+            warned: [false; 4],
         }
     }
 
@@ -231,9 +231,9 @@ impl Instance {
         Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once that the tilt is large, where that matters, and whenever the linear motion begins to grow.
+    /// Says once that the tilt is large, where that matters, whenever the linear motion begins to grow, and once where that is not known.
     fn warn(&mut self) {
-        let [of_tilt, of_growth, _] = &mut self.memory.warned;
+        let [of_tilt, of_growth, _, of_unjudged] = &mut self.memory.warned;
         if !*of_tilt && let Some(message) = self.memory.simulation.warns_of_tilt() {
             *of_tilt = true;
             self.logger.log(Severity::Warning, Category::Warning, message);
@@ -242,6 +242,11 @@ impl Instance {
         let known = std::mem::replace(of_growth, growth.is_some());
         if !known && let Some(growth) = growth {
             let message = growth.to_string();
+            self.logger.log(Severity::Warning, Category::Warning, &message);
+        }
+        if !*of_unjudged && let Some(unjudged) = self.memory.simulation.unjudged() {
+            *of_unjudged = true;
+            let message = unjudged.to_string();
             self.logger.log(Severity::Warning, Category::Warning, &message);
         }
     }

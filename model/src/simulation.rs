@@ -21,7 +21,7 @@ use exchange::Exchange;
 pub use exchange::Settled;
 #[cfg(feature = "general")]
 pub use general::General;
-pub use growth::Growth;
+pub use growth::{Growth, Unjudged};
 pub use tangents::Tangents;
 
 use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
@@ -336,6 +336,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         match self.run.as_ref()? {
             Run::Method(integration) => integration.growth(),
             Run::Exchange(exchange) => exchange.growth(),
+        }
+    }
+
+    /// Where the search for what grows last failed, so that nobody knows whether the rotor is stable; None where a later one succeeded.
+    pub fn unjudged(&self) -> Option<Unjudged> {
+        match self.run.as_ref()? {
+            Run::Method(integration) => integration.unjudged(),
+            Run::Exchange(exchange) => exchange.unjudged(),
         }
     }
 

@@ -55,8 +55,9 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     result.set_item("solver", solver)?;
     result.set_item("log", run.simulation.auto().into_iter().collect::<Vec<_>>())?;
     let of_tilt = run.simulation.warns_of_tilt().map(str::to_owned);
-    let warnings: Vec<_> =
-        scene.warnings().into_iter().chain(of_tilt).chain(run.grown().iter().map(Growth::to_string)).collect();
+    let of_unjudged = run.unjudged().map(|unjudged| unjudged.to_string());
+    let of_growth = run.grown().iter().map(Growth::to_string);
+    let warnings: Vec<_> = scene.warnings().into_iter().chain(of_tilt).chain(of_growth).chain(of_unjudged).collect();
     result.set_item("warnings", warnings)?;
     result.set_item("error", error)?;
     Ok(result)

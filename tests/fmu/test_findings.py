@@ -78,6 +78,13 @@ def test_exact_no_alarm_where_it_is_damped_or_goes_backward(findings):
     assert len(passed(findings, [0.0, 600.0], direction="backward", sense=-0.999)) == 1, "an ellipse holds a circle forward"
 
 
+def test_regress_no_unbalance_is_said_to_drive_a_critical_speed_where_there_is_none(findings):
+    result = run([0.0, 600.0])
+    result.scene.blocks = lambda *kinds: []
+    (found,) = findings._passed(result, view(findings))
+    assert found.what.startswith("critical speed that an unbalance would drive (this scene has none), within") and found.judged == ""
+
+
 def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(findings):
     """A mode that swings at 20 rad/s and grows by 0.4 1/s, above 40 rad/s."""
     rate, swing = 0.4, 20.0

@@ -4,7 +4,7 @@ use crate::course::Course;
 use anyhow::{Context, Error, Result, bail, ensure};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Scene};
-use split_rotor_model::simulation::{General, Growth};
+use split_rotor_model::simulation::{General, Growth, Unjudged};
 use split_rotor_model::variable::Role;
 use split_rotor_model::variables::{METHODS, Variable};
 
@@ -52,6 +52,7 @@ pub struct Run<'s> {
     course: Course<'s>,
     scene: &'s Scene,
     grown: Vec<Growth>,
+    unjudged: Option<Unjudged>,
 }
 
 impl<'s> Run<'s> {
@@ -59,12 +60,26 @@ impl<'s> Run<'s> {
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        Self { simulation, outputs, references, values, course: Course::of(scene), scene, grown: Vec::new() }
+        Self {
+            simulation,
+            outputs,
+            references,
+            values,
+            course: Course::of(scene),
+            scene,
+            grown: Vec::new(),
+            unjudged: None,
+        }
     }
 
     /// What began to grow on the way.
     pub fn grown(&self) -> &[Growth] {
         &self.grown
+    }
+
+    /// Where it first was not found whether anything grows.
+    pub fn unjudged(&self) -> Option<Unjudged> {
+        self.unjudged
     }
 
     /// The outputs that are read.
@@ -83,6 +98,7 @@ impl<'s> Run<'s> {
         let started = self.simulation.start_until(start, Some(tolerance), Some(stop));
         started.map_err(|invalid| self.scene.refused(&invalid))?;
         self.grown.extend(self.simulation.growth());
+        self.unjudged = self.simulation.unjudged();
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {
@@ -92,6 +108,7 @@ impl<'s> Run<'s> {
             let reached = if outcome.is_ok() { next } else { self.simulation.time().unwrap_or(from) };
             if reached > from {
                 self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
+                self.unjudged = self.unjudged.or_else(|| self.simulation.unjudged());
                 seen(self, reached)?;
             }
             outcome.map_err(|fault| match self.grown.last() {

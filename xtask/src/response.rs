@@ -19,6 +19,7 @@ pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32, exact: bool) -> R
     let (folder, pictures) = (format!("response/{}", scene.name), [("response.svg", picture::svg(&found)?)]);
     let left = sheets::leave(&folder, "response", &found.table(), &found.rows(), &found.json(), &pictures)?;
     std::fs::write(left.folder.join("nonlinear.csv"), sheets::csv(&nonlinear::rows(&found)))?;
+    std::fs::write(left.folder.join("peaks.csv"), sheets::csv(&found.peaks()))?;
     left.show();
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::ALWAYS_INDICATED;
 use super::events::{Events, indicators};
-use super::growth::{Growth, Watch};
+use super::growth::{Growth, Unjudged, Watch};
 use super::start::Motion;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::energy::kinetic;
@@ -120,6 +120,11 @@ impl<const N: usize> Exchange<N> {
     /// What grows, as it was when it was seen first.
     pub(super) fn growth(&self) -> Option<Growth> {
         self.watch.found()
+    }
+
+    /// Where the search for what grows last failed.
+    pub(super) fn unjudged(&self) -> Option<Unjudged> {
+        self.watch.unjudged()
     }
 
     /// The host's time \[s].

@@ -1,6 +1,6 @@
 //! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
 
-use super::{Any, Growth, Integrator};
+use super::{Any, Growth, Integrator, Unjudged};
 use crate::effects::All;
 use crate::error::Invalid;
 use crate::integrate::Fault;
@@ -72,5 +72,6 @@ passed_on! {
     read(&mut,) -> Result<&Reading, Invalid>;
     auto(&,) -> Option<String>;
     growth(&,) -> Option<Growth>;
+    unjudged(&,) -> Option<Unjudged>;
     warns_of_tilt(&,) -> Option<&'static str>;
 }

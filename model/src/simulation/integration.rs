@@ -4,7 +4,7 @@ use super::auto::Auto;
 use super::by_series::BySeries;
 use super::closest::closest_to_origin;
 use super::events::{Events, indicators};
-use super::growth::{Growth, Watch};
+use super::growth::{Growth, Unjudged, Watch};
 use super::method::Method;
 use super::plan::Plan;
 use super::start::{Motion, tolerance};
@@ -221,6 +221,11 @@ impl<const N: usize> Integration<N> {
     /// What grows, as it was when it was seen first.
     pub(super) fn growth(&self) -> Option<Growth> {
         self.watch.found()
+    }
+
+    /// Where the search for what grows last failed.
+    pub(super) fn unjudged(&self) -> Option<Unjudged> {
+        self.watch.unjudged()
     }
 
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {

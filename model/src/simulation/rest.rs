@@ -1,6 +1,7 @@
 //! Where a rotor stands while it spins steadily: what acts on it balances, but for what drives its spin.
 
 use super::start::Motion;
+use crate::decompositions::singular_values;
 use crate::dual::Dual;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::error::Invalid;
@@ -10,7 +11,7 @@ use crate::rotation::Tilt;
 use crate::rotor::Rotor;
 use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
 use crate::variables::{Parameters, Start};
-use nalgebra::{Const, Matrix3, Matrix3x2, SMatrix, SVD, SVector, Vector2, Vector3};
+use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 
 /// Place (3) and tilt (2), which are sought.
 const UNKNOWNS: usize = 5;
@@ -39,9 +40,6 @@ const BEYOND: f64 = 1e-3;
 
 /// The chart of γ is asked for again beyond this \[rad].
 const FAR: f64 = 2.0;
-
-/// Singular values take a few rotations each, and never so many.
-const MOST_ROTATIONS: usize = 1000;
 
 /// A contact on the way is found by so many bisections.
 const BISECTIONS: u32 = 40;
@@ -155,7 +153,7 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
         let (mut before, mut at_first) = (f64::INFINITY, None);
         for _ in 0..MOST_STEPS {
             let balance = self.balance(r, gamma);
-            let all = parted(balance.slopes)?;
+            let all = singular_values(&balance.slopes)?;
             let largest = all.singular_values[0];
             let first = *at_first.get_or_insert(balance.left.norm());
             let step = all.solve(&balance.left, UNHELD * largest).ok()?;
@@ -188,7 +186,7 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
             let mut rows = matrix.fixed_view_mut::<3, 1>(3, 3 + column);
             rows += turned;
         }
-        let all = parted(matrix)?;
+        let all = singular_values(&matrix)?;
         let step = all.solve(&balance.left, UNHELD * all.singular_values[0]).ok()?;
         step.iter().all(|part| part.is_finite()).then_some(step)
     }
@@ -225,12 +223,6 @@ impl<const N: usize> Block<'_, N> {
     fn rates_of<const D: usize>(&self, first: usize) -> SMatrix<f64, 3, D> {
         SMatrix::from_fn(|row, column| self.jacobian[own(N) + first + row][own(N) + self.of.start + column])
     }
-}
-
-/// Its singular values; None of what is not finite, with which their search does not end.
-fn parted(matrix: SMatrix<f64, BALANCES, UNKNOWNS>) -> Option<SVD<f64, Const<BALANCES>, Const<UNKNOWNS>>> {
-    let is_finite = matrix.iter().all(|part| part.is_finite());
-    is_finite.then(|| matrix.try_svd(true, true, 5.0 * f64::EPSILON, MOST_ROTATIONS)).flatten()
 }
 
 /// On which side each indicator of an effect is in this state.

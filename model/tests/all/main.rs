@@ -32,6 +32,7 @@ mod linear;
 mod machines;
 mod motion;
 mod motor;
+mod negative_springs;
 mod order;
 mod ordinary;
 mod paper;
