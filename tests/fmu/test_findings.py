@@ -1,5 +1,6 @@
 """What the report's results warn of, from runs and linear views that are known."""
 
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -132,3 +133,22 @@ def test_exact_a_body_that_is_not_symmetric_is_unstable_where_its_revolutions_sa
     modes = [{"speed_rad_s": speed, "growth_rate_1_s": 2e-6} for speed in (50.0, 90.0)]
     linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=True, growing=(90.0,))
     assert [findings._stability(run([speed, speed]), linear).judged for speed in (50.0, 90.0)] == ["", "bad"]
+
+
+def test_regress_no_picture_is_drawn_of_a_run_up_in_which_nothing_whirls(monkeypatch):
+    """0/0 stood in its decibels, of which numpy warned."""
+    monkeypatch.syspath_prepend(str(project.ROOT / "xtask" / "python"))
+    from report import vibration
+
+    time = np.linspace(0.0, 1.0, 4001)
+    names = [f"{name}.{c}" for name in ("r_c", "v_c", "axis", "omega") for c in "xyz"]
+    table = np.zeros(len(time), dtype=[(name, float) for name in ["time", "phi", "omega_phi", *names]])
+    table["time"], table["phi"], table["omega_phi"], table["axis.x"] = time, 300.0 * time**2, 600.0 * time, 1.0
+    scene = SimpleNamespace(blocks=lambda *kinds: [], parameters={}, outputs={}, value=lambda name: 0.0)
+    result = SimpleNamespace(columns=table, scene=scene)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert vibration.waterfall(result, None) is None
+        table["r_c.y"] = 1e-5 * np.cos(table["phi"])
+        table["v_c.y"] = -1e-5 * np.sin(table["phi"]) * table["omega_phi"]
+        assert vibration.waterfall(result, None)["kind"] == "waterfall"

@@ -1,7 +1,8 @@
 //! Where a rotor stands while it spins steadily: what acts on it balances, but for what drives its spin.
 
+use super::growth::Watch;
 use super::start::Motion;
-use crate::decompositions::singular_values;
+use crate::decompositions::{eigenvalues, singular_values};
 use crate::dual::Dual;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::error::Invalid;
@@ -11,7 +12,7 @@ use crate::rotation::Tilt;
 use crate::rotor::Rotor;
 use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
 use crate::variables::{Parameters, Start};
-use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 
 /// Place (3) and tilt (2), which are sought.
 const UNKNOWNS: usize = 5;
@@ -37,6 +38,14 @@ const GROWS: f64 = 4.0;
 /// Where it creeps by less than this it is handed to Newton's method, which moves it by no more than that much \[1, rad].
 const NEAR: f64 = 1e-7;
 const BEYOND: f64 = 1e-3;
+
+/// From a place that is not stable it is moved by this along what leaves there \[1, rad]; it then creeps in steps of at most this part of the
+/// time in which that grows by e: the implicit rule would lead longer ones back.
+const BESIDE: f64 = 1e-2;
+const LEAVES: f64 = 0.5;
+
+/// What leaves does so by more than this part of the largest rate \[1].
+const UNSTABLE: f64 = 1e-9;
 
 /// The chart of γ is asked for again beyond this \[rad].
 const FAR: f64 = 2.0;
@@ -191,6 +200,27 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
         step.iter().all(|part| part.is_finite()).then_some(step)
     }
 
+    /// What leaves a place fastest without inertia: by which rate [1/s²], and where to, of length 1; None where it is stable, or where that is not
+    /// known.
+    fn leaving(&self, balance: &Balance<N>) -> Option<(f64, SVector<f64, UNKNOWNS>)> {
+        let turned = (0..2).map(|column| balance.axis.cross(&balance.turning.column(column).into_owned()));
+        // A tilt's rate is the part of the moment along its turn of the axis.
+        let turned: [Vector3<f64>; 2] = [turned.clone().next()?, turned.last()?];
+        let mut rates = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+        rates.fixed_rows_mut::<3>(0).copy_from(&balance.slopes.fixed_rows::<3>(0));
+        let [a, b] = turned;
+        let inner = Matrix2::new(a.dot(&a), a.dot(&b), b.dot(&a), b.dot(&b)).try_inverse()?;
+        let moments = balance.slopes.fixed_rows::<3>(3).into_owned();
+        let parts = Matrix3x2::from_columns(&turned).transpose() * moments;
+        rates.fixed_rows_mut::<2>(3).copy_from(&(inner * parts));
+        let rate = eigenvalues(&rates)?.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
+        if rate <= UNSTABLE * rates.amax() {
+            return None;
+        }
+        let rows = singular_values(&(rates - SMatrix::identity() * rate))?.v_t?;
+        Some((rate, rows.row(UNKNOWNS - 1).transpose()))
+    }
+
     /// Where a step ends, or all but where a contact on the way begins or ends, and whether one does.
     fn moved(
         &self,
@@ -244,7 +274,8 @@ pub(crate) fn put_on_axis<E: Effects>(effects: &mut E) {
 }
 
 /// Where a machine with `start.at_rest` begins at time `t` \[s]: at the spin of its start, which is along the axis then, where the balanced
-/// machine stands. From its start it creeps there without inertia, so to where it is stable, and through contacts one after another.
+/// machine stands. From its start it creeps there without inertia, so to where it is stable, and through contacts one after another. A place
+/// that it leaves at this spin by itself, such as that of an upright top, it gets only where it creeps to none that is stable.
 pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f64) -> Result<Start, Invalid> {
     let given = &parameters.setup.start;
     let mut balanced = parameters.clone();
@@ -262,6 +293,7 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
     let mut remains = (0, 0.0);
     let mut begun = Motion::<N>::at_start(&mut balanced, t);
     let mut span = None;
+    let mut unstable = None;
     for _ in 0..MOST_CREEPING {
         let at = Coordinates::from_slice(rigid(&begun.state));
         let rotor = begun.frame.under(&balanced.effects);
@@ -275,20 +307,39 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
         let here = spinning.balance(at.r, at.gamma);
         remains = spinning.largest_load(&here);
         let size = here.left.norm();
-        let over = *span.get_or_insert(if size > 0.0 { FARTHEST / size } else { f64::MAX });
-        let step = spinning.creep(&here, over).ok_or_else(|| lost(remains))?;
+        let mut over = *span.get_or_insert(if size > 0.0 { FARTHEST / size } else { f64::MAX });
+        if unstable.is_some()
+            && let Some((rate, _)) = spinning.leaving(&here)
+        {
+            over = over.min(LEAVES / rate);
+        }
+        let Some(step) = spinning.creep(&here, over) else { break };
         if step.norm() > FARTHEST {
             span = Some(over / GROWS);
             continue;
         }
         let (r, gamma, switches) = spinning.moved(at.r, at.gamma, &step);
         if step.norm() < NEAR && !switches {
-            let rest = spinning.rest(r, gamma).ok_or_else(|| lost(remains))?;
+            let Some(rest) = spinning.rest(r, gamma) else { break };
             let (_, length) = spinning.across();
             let moved = (rest.r - r).norm() / length + (rest.gamma - gamma).norm();
             let stays = sides(&rotor, &spinning.state(rest.r, rest.gamma)) == sides(&rotor, &spinning.state(r, gamma));
             if stays && moved < BEYOND {
-                return Ok(start_at(rest.r, rest.gamma));
+                let found = start_at(rest.r, rest.gamma);
+                let leaving = spinning.leaving(&rest.balance).filter(|_| {
+                    let mut watch = Watch::default();
+                    watch.look(&rotor, t, &spinning.state(rest.r, rest.gamma));
+                    watch.found().is_some()
+                });
+                let Some((rate, along)) = leaving.filter(|_| unstable.is_none()) else { return Ok(found) };
+                unstable = Some(found);
+                // Where the start lies, if it lies on one side.
+                let given = Coordinates::from_slice(rigid(&spinning.own));
+                let side = along.fixed_rows::<2>(3).dot(&(given.gamma - rest.gamma))
+                    + along.fixed_rows::<3>(0).dot(&(given.r - rest.r)) / length;
+                let (r, gamma, _) = spinning.moved(rest.r, rest.gamma, &(along * BESIDE.copysign(side)));
+                (begun.state, span) = (spinning.state(r, gamma), Some(LEAVES / rate));
+                continue;
             }
         }
         span = Some((over * GROWS).min(f64::MAX));
@@ -301,5 +352,5 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
             begun.state = spinning.state(r, gamma);
         }
     }
-    Err(lost(remains))
+    unstable.ok_or_else(|| lost(remains))
 }

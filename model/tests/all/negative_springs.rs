@@ -14,6 +14,9 @@ const ROTORS: u64 = 300;
 /// Growth by less than this part of a mode's size need not be found \[1].
 const GROWS: f64 = 1e-5;
 
+/// Eigenvalues below this part of the largest are those of directions in which nothing holds the rotor \[1].
+const UNHELD: f64 = 1e-6;
+
 /// A mode against an eigenvalue of the textbook's equations, of its size \[1]: measured 2.1e-9, where two of them nearly agree.
 const MODES: f64 = 1e-7;
 
@@ -73,6 +76,9 @@ fn exact_every_mode_that_grows_is_found_in_springs_of_either_sign() {
         let (_, modes) = machine.modes(whirl.speed, None).unwrap_or_else(|obstacle| panic!("{obstacle}\n{text}"));
         // Of a pair the linear view shows one.
         let counted = |values: &mut dyn Iterator<Item = &Complex<f64>>| values.filter(|value| grows(value)).count();
+        // What nothing holds stays where it is: its eigenvalues are 0 but for the root of rounding.
+        let fastest = exact.iter().map(|value| value.modulus()).fold(0.0, f64::max);
+        let exact: Vec<_> = exact.into_iter().filter(|value| value.modulus() > UNHELD * fastest).collect();
         let upper: Vec<_> = exact.iter().copied().filter(|value| value.im >= -1e-7 * value.modulus()).collect();
         let expected = counted(&mut upper.iter());
         assert_eq!(counted(&mut modes.iter().map(|mode| &mode.eigenvalue)), expected, "{modes:?}\n{exact:?}\n{text}");
@@ -113,7 +119,7 @@ fn regress_an_unstable_rotor_is_not_called_stable() {
     let machine = Machine::of(named.simulation.parameters()).expect("a machine");
     let (_, modes) = machine.modes(100.0, None).expect("modes");
     let found = modes.iter().map(|mode| mode.eigenvalue.re).fold(0.0, f64::max);
-    within("mode", (found / exact - 1.0).abs(), 1e-9);
+    within("mode", (found / exact - 1.0).abs(), 1e-8);
 }
 
 #[test]
