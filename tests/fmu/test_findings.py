@@ -152,3 +152,14 @@ def test_regress_no_picture_is_drawn_of_a_run_up_in_which_nothing_whirls(monkeyp
         table["r_c.y"] = 1e-5 * np.cos(table["phi"])
         table["v_c.y"] = -1e-5 * np.sin(table["phi"]) * table["omega_phi"]
         assert vibration.waterfall(result, None)["kind"] == "waterfall"
+
+
+def test_exact_a_verdict_says_at_how_many_speeds_it_was_looked_at(findings):
+    speeds = np.linspace(0.0, 90.0, 10)
+    modes = [{"mode": 1, "direction": "forward", "speed_rad_s": speed, "frequency_rad_s": 100.0, "damping_ratio": 0.1} for speed in speeds]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
+    assert findings._stability(run([0.0, 45.0]), linear).what.endswith("; looked at 5 speeds within those of the run")
+    modes = [{"speed_rad_s": speed, "growth_rate_1_s": -1.0} for speed in speeds]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=True)
+    assert findings._stability(run([0.0, 45.0]), linear).what.endswith("; looked at 5 speeds within those of the run")
+    assert findings._stability(run([45.0, 45.0]), linear).what.endswith("; looked at the speeds nearest to that of the run")

@@ -112,7 +112,9 @@ def _stability(result, view, touches=False):
         bounds = ", ".join(rpm(threshold) + _when(result, threshold) for threshold, *_ in view.thresholds)
         bounds = f"; begins or ceases at {bounds}" if bounds else ""
         what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet){bounds}"
-        return Finding("unstable", what, "bad") if speed in view.growing else Finding("nothing grows", what)
+        if speed in view.growing:
+            return Finding("unstable", what, "bad")
+        return Finding("nothing grows", f"{what}; {_looked(view, spin)}")
     # Nothing is said of speeds at which nobody looked.
     looked = [row["speed_rad_s"] for row in view.modes]
     spin = np.clip(spin, min(looked), max(looked))
@@ -120,7 +122,7 @@ def _stability(result, view, touches=False):
     ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
     range_ = _range(spin)
     if abs(ratio) <= linear.NEITHER:
-        return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}")
+        return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}; {_looked(view, spin)}")
     size = linear.decrement(ratio)
     how = f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
     if ratio < 0.0:
@@ -131,8 +133,15 @@ def _stability(result, view, touches=False):
         in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
         grows = f"grows by e in {in_}" if in_ else "grows"
         return Finding("unstable", f"{row['direction']} mode {grows} {at}, {how}{bounds}", "bad")
-    what = f"at {range_}; least {how}, {row['direction']} mode {at}"
+    what = f"at {range_}; least {how}, {row['direction']} mode {at}; {_looked(view, spin)}"
     return Finding("stable", f"while nothing touches, {what}") if touches else Finding("stable", what, "good")
+
+
+def _looked(view, spin):
+    """At how many speeds of the linear view, of those of a run [rad/s], this was looked at."""
+    speeds = np.unique([row["speed_rad_s"] for row in view.modes])
+    within = int(np.count_nonzero((speeds >= spin.min()) & (speeds <= spin.max())))
+    return f"looked at {within} speeds within those of the run" if within > 1 else "looked at the speeds nearest to that of the run"
 
 
 def _when(result, threshold):
