@@ -263,7 +263,7 @@ mod tests {
     const TEXT: &str = "[rotor]\nm = 1000.0\nJa = 60.0\nJt = 150.0\n\
         [[effects.bearing]]\nposition = -0.8\nkyy = 0.9e7\nkzz = 1.4e7\ncyy = 2e4\nczz = 2e4\nkxx = 1e7\ncxx = 1e4\n\
         [[effects.bearing]]\nposition = 0.8\nkyy = 0.9e7\nkzz = 1.4e7\ncyy = 2e4\nczz = 2e4\n\
-        [[effects.unbalance]]\nmoment = \"40 kg mm\"\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n";
+        [[effects.unbalance]]\nmass = 1e-3\nradius = 40.0\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n";
 
     #[test]
     fn regress_each_direction_of_a_probe_has_its_peak() {
@@ -277,17 +277,17 @@ mod tests {
             };
             // Of U ω²/(k − m ω² + 2icω) the largest is where ω² = k²/(m k − 2c²), c being of one bearing.
             let exact = k / (1000.0 * k - 2.0 * 2e4 * 2e4_f64).sqrt();
-            assert!((peak.point.speed / exact - 1.0).abs() < 1e-6, "{} {exact}", peak.point.speed);
-            assert!((exact - at).abs() < 0.005, "{exact} {at}");
+            assert!((peak.point.speed / exact - 1.0).abs() < 2e-6, "{} {exact}", peak.point.speed);
+            assert!((exact - at).abs() < 0.02, "{exact} {at}");
             let largest = 0.04 * exact * exact / Complex::new(k - 1000.0 * exact * exact, 4e4 * exact).modulus();
             let seen = peak.point.seen(&found.stations[probe], sight);
-            // The mass of the unbalance adds to the rotor's by a part of 1e-9.
+            // The mass of the unbalance adds to the rotor's by a part of 1e-6.
             assert!((seen / largest - 1.0).abs() < 1e-5 && (seen / size - 1.0).abs() < 1e-3, "{seen} {largest} {size}");
         }
         assert!(linear.peaks[probe].iter().any(|peak| peak.sight == Sight::Major), "the larger semi-axis is kept");
         let table = found.table();
         assert!(
-            table.contains("0-to-peak") && table.contains("| y | 135.7") && table.contains("| z | 168."),
+            table.contains("0-to-peak") && table.contains("| y | 135.68") && table.contains("| z | 168.54"),
             "{table}"
         );
         assert!(found.peaks().iter().any(|row| row.contains(&("seen_along", "y".into()))));

@@ -203,9 +203,8 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
     /// What leaves a place fastest without inertia: by which rate [1/s²], and where to, of length 1; None where it is stable, or where that is not
     /// known.
     fn leaving(&self, balance: &Balance<N>) -> Option<(f64, SVector<f64, UNKNOWNS>)> {
-        let turned = (0..2).map(|column| balance.axis.cross(&balance.turning.column(column).into_owned()));
         // A tilt's rate is the part of the moment along its turn of the axis.
-        let turned: [Vector3<f64>; 2] = [turned.clone().next()?, turned.last()?];
+        let turned = [0, 1].map(|column| balance.axis.cross(&balance.turning.column(column).into_owned()));
         let mut rates = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
         rates.fixed_rows_mut::<3>(0).copy_from(&balance.slopes.fixed_rows::<3>(0));
         let [a, b] = turned;

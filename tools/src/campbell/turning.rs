@@ -177,11 +177,11 @@ impl<'s> Turning<'s> {
     }
 }
 
-/// By which part of their sum the transverse moments of inertia differ \[1].
+/// By which part of their sum the transverse moments of inertia of the balanced body differ \[1].
 fn part_apart(scene: &Scene) -> f64 {
-    let shape = scene.parameters().shape();
-    let [first, second] = [shape.rotor.Jt, shape.Jt2.unwrap_or(shape.rotor.Jt)];
-    (first - second).abs() / (first + second)
+    let body = balanced(&scene.parameters()).shape().inertia();
+    let excess = body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
+    excess / (2.0 * body.per_jt)
 }
 
 /// The motion at a speed [rad/s] at which two whirl frequencies add up to twice the spin, and where that does not grow, the one that grows
@@ -190,6 +190,9 @@ fn beside_a_sum(rotating: &Rotating, known: &[Orbit], sum: f64, far: f64) -> Res
     let near = known.iter().min_by(|a, b| (a.speed - sum).abs().total_cmp(&(b.speed - sum).abs()));
     let at = |speed: f64| rotating.orbit(speed, near);
     let mut found = vec![at(sum)?];
+    if far <= 0.0 {
+        return Ok(found);
+    }
     let steps = (1..=BESIDE).flat_map(|n| [1.0, -1.0].map(|side| side * far * f64::from(n) / f64::from(BESIDE)));
     for step in steps {
         if found.iter().any(|orbit| orbit.loss().is_some()) {
@@ -260,6 +263,9 @@ mod tests {
     /// them lies within.
     const BAND: [f64; 2] = [377.726, 380.980];
 
+    /// Of its ends [rad/s]: growth counts from a multiplier of 1 + 1e-5 on.
+    const BOUND: f64 = 0.02;
+
     #[test]
     fn regress_a_band_between_two_speeds_is_found() {
         let text = "[rotor]\nm = 0.66179\nJa = 3.157e-4\nJt = 1.88504e-3\n[effects.asymmetry]\nJt2 = 2.01272e-3\n\
@@ -271,7 +277,7 @@ mod tests {
         assert!(!table.contains("None grows"), "{table}");
         assert_eq!(turning.thresholds.len(), 2, "{table}");
         for (found, exact) in turning.thresholds.iter().zip(BAND) {
-            assert!((found - exact).abs() < 2e-3, "{found} {exact}");
+            assert!((found - exact).abs() < BOUND, "{found} {exact}");
         }
         assert!(table.contains("closer where two whirl frequencies add up to twice the spin"), "{table}");
         // Below the band there is a sum of frequencies too, or none; nothing is said of speeds at which nobody looked.
