@@ -17,14 +17,14 @@ const GROWS: f64 = 1e-5;
 /// Eigenvalues below this part of the largest are those of directions in which nothing holds the rotor \[1].
 const UNHELD: f64 = 1e-6;
 
-/// A mode against an eigenvalue of the textbook's equations, of its size \[1]: measured 2.1e-9, where two of them nearly agree.
-const MODES: f64 = 1e-7;
+/// A mode against an eigenvalue of the textbook's equations, of its size \[1]: measured 2.3e-11.
+const MODES: f64 = 1e-10;
 
-/// How nearly each mode solves the textbook's equations \[1]: measured 4.6e-13.
-const RESIDUAL: f64 = 1e-11;
+/// How nearly each mode solves the textbook's equations \[1]: measured 1.0e-14.
+const RESIDUAL: f64 = 5e-14;
 
-/// The growth that a run reports, of its size \[1]: measured 2.8e-8.
-const WATCHED: f64 = 1e-6;
+/// The growth that a run reports, of its size \[1]: measured 6.2e-13.
+const WATCHED: f64 = 5e-12;
 
 /// A rotor in one to three bearings, half of them undamped, at some spin or none.
 fn drawn(number: u64) -> (Whirl, String) {
