@@ -77,8 +77,10 @@ mod warned {
     pub const OF_ITS_CLOCK: usize = 4;
     /// That the motion diverges.
     pub const OF_DIVERGENCE: usize = 5;
+    /// That it is not known whether the motion grows.
+    pub const OF_UNJUDGED: usize = 6;
     /// How many there are.
-    pub const COUNT: usize = 6;
+    pub const COUNT: usize = 7;
 }
 
 /// What the host said of the experiment, and what it set itself.
@@ -272,6 +274,12 @@ impl Instance {
             self.logger.log(Severity::Warning, Category::Warning, &message);
         }
         let told = &mut self.memory.warned;
+        if !told[warned::OF_UNJUDGED]
+            && let Some(unjudged) = self.memory.simulation.unjudged()
+        {
+            told[warned::OF_UNJUDGED] = true;
+            self.logger.log(Severity::Warning, Category::Warning, &unjudged.to_string());
+        }
         if !told[warned::OF_DIVERGENCE]
             && let Some(divergence) = self.memory.simulation.divergence()
         {

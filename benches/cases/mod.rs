@@ -9,6 +9,7 @@ use harness::Instance;
 use split_rotor::abi::Status;
 use split_rotor::scene::{self, Effects, Simulation};
 use split_rotor_model::integrate::explicit::Explicit;
+use split_rotor_model::integrate::sizes::MOST_GROUPS;
 use split_rotor_model::integrate::tableau::Tableau;
 use split_rotor_model::integrate::taylor::{Scratch, Taylor};
 use split_rotor_model::integrate::{Refusal, System, Tolerance};
@@ -63,7 +64,7 @@ pub fn rotor<const N: usize>() -> At<Rotor<'static, Effects>, N> {
         system: Rotor::new(parameters.shape().inertia(), Box::leak(Box::new(parameters.effects)), chart, 0.0),
         t: MOVED,
         y: std::array::from_fn(|n| state[n]),
-        tolerance: Tolerance { relative: TOLERANCE, nominal: [LEAST; N], ..Tolerance::default() },
+        tolerance: Tolerance { relative: TOLERANCE, nominal: [LEAST; MOST_GROUPS], ..Tolerance::default() },
     }
 }
 

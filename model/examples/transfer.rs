@@ -27,7 +27,7 @@ fn main() -> Result<(), Obstacle> {
     println!("A is {} by {}, B {} by {}", space.a.nrows(), space.a.ncols(), space.b.nrows(), space.b.ncols());
     println!("frequency [rad/s]   answer [µm/N]   phase [°]");
     for frequency in [0.0, 100.0, 300.0, 500.0, 700.0, 1000.0] {
-        let Some(answer) = space.response(from, to, frequency) else { continue };
+        let Some(answer) = space.response(from, to, frequency)? else { continue };
         println!("{frequency:17}   {:13.4}   {:9.1}", 1e6 * answer.modulus(), answer.argument().to_degrees());
     }
     Ok(())
@@ -37,7 +37,7 @@ fn main() -> Result<(), Obstacle> {
 fn far_above_its_resonances_it_is_a_mass() {
     let space = spindle().expect("it is held");
     let [from, to] = [number(&space.inputs, "port[1].f.y"), number(&space.outputs, "r_c.y")];
-    let answer = space.response(from, to, 1e5).expect("it is damped");
+    let answer = space.response(from, to, 1e5).expect("eigenvalues").expect("it is damped");
     // −1/(m Ω²)
     assert!((answer.re * -12.0 * 1e10 - 1.0).abs() < 1e-3, "{answer:e} m/N");
 }

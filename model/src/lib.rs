@@ -7,6 +7,7 @@
 
 // Floor 0: mathematics and records that know no rotor.
 pub mod coefficient;
+pub mod decompositions;
 pub mod dual;
 pub mod error;
 pub mod integrate;

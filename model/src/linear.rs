@@ -12,7 +12,6 @@ mod state_space;
 pub use campbell::{Branch, Campbell, Crossing, Point};
 pub(crate) use machine::stop_drives;
 pub use machine::{Machine, Obstacle, STATES, Steady, balanced};
-pub(crate) use modes::eigenvalues;
 pub use modes::{Direction, Mode, Shape};
 pub use response::{Orbit, Response};
 pub use state_space::{Quantity, StateSpace};

@@ -26,7 +26,7 @@ use exchange::Exchange;
 pub use exchange::Settled;
 #[cfg(feature = "general")]
 pub use general::General;
-pub use growth::Growth;
+pub use growth::{Growth, Unjudged};
 pub use largest::{Deflection, Largest};
 pub use tangents::Tangents;
 pub use unheld::Unheld;
@@ -394,6 +394,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             Run::Exchange(exchange) => exchange.reached(),
         };
         Unheld::of(&frame.under(&self.parameters.effects), t, state)
+    }
+
+    /// Where the search for what grows last failed, so that nobody knows whether the rotor is stable; None where a later one succeeded.
+    pub fn unjudged(&self) -> Option<Unjudged> {
+        match self.run.as_ref()? {
+            Run::Method(integration) => integration.unjudged(),
+            Run::Exchange(exchange) => exchange.unjudged(),
+        }
     }
 
     /// What to warn of where the tilt ever was large and that matters ([`Simulation::has_tilted`]).

@@ -7,7 +7,7 @@ pub use tumbling::{Beside, Tumbling};
 
 use crate::effects::{Effects, Motion};
 use crate::integrate::composition::{Composition, Split, Splitting};
-use crate::integrate::sizes::Squares;
+use crate::integrate::sizes::{MOST_GROUPS, Squares};
 use crate::integrate::stiff::Differentiable;
 use crate::integrate::stiff::spectrum::spectral_radius;
 use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
@@ -123,6 +123,9 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
         let angle = if self.inertia().asymmetric.is_some() { PI * PI } else { 1.0 };
         squares[own(N) + groups::GAMMA] = angle;
         squares[own(N) + groups::PHI] += angle;
+        let mut of_turns = [0.0; MOST_GROUPS];
+        self.round_loads::<N>(&Coordinates::from_slice(rigid(y)), [0.0, 0.0, angle.sqrt(), 0.0], &mut of_turns);
+        (0..MOST_GROUPS).for_each(|group| squares[group] += of_turns[group]);
         squares
     }
 

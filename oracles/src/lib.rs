@@ -18,4 +18,5 @@ pub mod rigid_body;
 pub mod rotation;
 pub mod top;
 pub mod trees;
+pub mod whirl;
 pub mod words;

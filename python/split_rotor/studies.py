@@ -96,6 +96,11 @@ class Response(Study):
         return Columns(self.data["responses"])
 
     @property
+    def peaks(self) -> Columns:
+        """A row for each linear resonance peak of a station, 0-to-peak: as a fixed probe along y or z sees it, and of the larger semi-axis."""
+        return Columns(self.data["peaks"])
+
+    @property
     def nonlinear(self) -> Columns:
         """A row for each station in each motion that repeats with the revolution, by the laws as they stand."""
         return Columns(self.data["nonlinear"])
@@ -130,7 +135,8 @@ def campbell(
 ) -> Campbell:
     """Whirl frequencies and damping, critical speeds and thresholds of stability of a scene.
 
-    speeds: the first and the last [rad/s], else from 0 to half as much again as the scene reaches.
+    speeds: the first and the last [rad/s], else from 0 to half as much again as the scene reaches; or as its fastest mode, where the scene
+        reaches no speed or only one that is small beside its lowest mode. The table begins with the range.
     steps: at how many speeds.
     orders: multiples of the speed whose crossings are critical speeds.
     """

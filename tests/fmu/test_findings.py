@@ -1,5 +1,6 @@
 """What the report's results warn of, from runs and linear views that are known."""
 
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -76,6 +77,13 @@ def test_exact_no_alarm_where_it_is_damped_or_goes_backward(findings):
     assert passed(findings, [0.0, 600.0], damping_ratio=0.201) == []
     assert passed(findings, [0.0, 600.0], direction="backward", sense=-1.0) == []
     assert len(passed(findings, [0.0, 600.0], direction="backward", sense=-0.999)) == 1, "an ellipse holds a circle forward"
+
+
+def test_regress_no_unbalance_is_said_to_drive_a_critical_speed_where_there_is_none(findings):
+    result = run([0.0, 600.0])
+    result.scene.blocks = lambda *kinds: []
+    (found,) = findings._passed(result, view(findings))
+    assert found.what.startswith("critical speed that an unbalance would drive (this scene has none), within") and found.judged == ""
 
 
 def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(findings):
@@ -183,3 +191,33 @@ def test_regress_a_run_that_leaves_a_table_is_told(findings):
     for speeds in ([0.0, 150.0], [20.0, 151.0], [-20.0, -151.0]):
         (what,) = told(speeds)
         assert what.startswith("coefficients of bearing[1], whose table is known from 95.5\u00a0rpm to 1\u202f432\u00a0rpm, are held at other speeds")
+
+
+def test_regress_no_picture_is_drawn_of_a_run_up_in_which_nothing_whirls(monkeypatch):
+    """0/0 stood in its decibels, of which numpy warned."""
+    monkeypatch.syspath_prepend(str(project.ROOT / "xtask" / "python"))
+    from report import vibration
+
+    time = np.linspace(0.0, 1.0, 4001)
+    names = [f"{name}.{c}" for name in ("r_c", "v_c", "axis", "omega") for c in "xyz"]
+    table = np.zeros(len(time), dtype=[(name, float) for name in ["time", "phi", "omega_phi", *names]])
+    table["time"], table["phi"], table["omega_phi"], table["axis.x"] = time, 300.0 * time**2, 600.0 * time, 1.0
+    scene = SimpleNamespace(blocks=lambda *kinds: [], parameters={}, outputs={}, value=lambda name: 0.0)
+    result = SimpleNamespace(columns=table, scene=scene)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert vibration.waterfall(result, None) is None
+        table["r_c.y"] = 1e-5 * np.cos(table["phi"])
+        table["v_c.y"] = -1e-5 * np.sin(table["phi"]) * table["omega_phi"]
+        assert vibration.waterfall(result, None)["kind"] == "waterfall"
+
+
+def test_exact_a_verdict_says_at_how_many_speeds_it_was_looked_at(findings):
+    speeds = np.linspace(0.0, 90.0, 10)
+    modes = [{"mode": 1, "direction": "forward", "speed_rad_s": speed, "frequency_rad_s": 100.0, "damping_ratio": 0.1} for speed in speeds]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
+    assert findings._stability(run([0.0, 45.0]), linear).what.endswith("; looked at 5 speeds within those of the run")
+    modes = [{"speed_rad_s": speed, "growth_rate_1_s": -1.0} for speed in speeds]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=True)
+    assert findings._stability(run([0.0, 45.0]), linear).what.endswith("; looked at 5 speeds within those of the run")
+    assert findings._stability(run([45.0, 45.0]), linear).what.endswith("; looked at the speeds nearest to that of the run")

@@ -1,5 +1,6 @@
 //! Whirl frequencies and damping against the spin, critical speeds, and where the machine begins to whirl by itself.
 
+mod sums;
 mod table;
 mod turning;
 
@@ -150,4 +151,29 @@ fn json(diagram: &Diagram) -> Value {
         "steady_states": steady.collect::<Vec<_>>(),
         "modes": rows::objects(modes(diagram)),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::View;
+    use split_rotor_model::linear::Machine;
+    use split_rotor_model::scene::Scene;
+    use std::path::Path;
+
+    #[test]
+    fn regress_an_unstable_rotor_is_not_called_stable() {
+        let text = "[rotor]\nm = 6.0\nJa = 0.01\nJt = 0.06\n[start]\nomega.x = 100.0\n\
+            [[effects.bearing]]\nposition = 0.15\nkyy = -2e5\nkzz = -2e5\n";
+        let scene = Scene::parse(Path::new("unseen.toml"), text).expect("a scene");
+        let machine = Machine::of(&scene.parameters());
+        let view = View::of(&scene, &machine, Some(&[50.0, 500.0]), 201, &[1.0]).expect("a view");
+        let table = view.table();
+        assert!(!table.contains("No mode grows") && table.contains("grows from 50.0000 to 500.000 rad/s"), "{table}");
+        let View::Diagram(diagram) = &view else { panic!("it is symmetric") };
+        let at_100 = diagram.campbell.branches.iter().flat_map(|branch| &branch.points);
+        let at_100 = at_100.filter(|point| (point.speed - 100.0).abs() < 2.3);
+        let fastest = at_100.map(|point| point.mode.eigenvalue.re).fold(0.0, f64::max);
+        assert!((fastest / 329.0 - 1.0).abs() < 0.01, "{fastest}");
+        assert!(table.contains("Looked at 201 speeds from 50.0000 to 500.000 rad/s"), "{table}");
+    }
 }

@@ -30,8 +30,51 @@ pub struct Found<'s> {
 pub struct Linear {
     /// By speed.
     pub points: Vec<Point>,
-    /// Of each station, where its orbit is larger than beside it.
-    pub peaks: Vec<Vec<Point>>,
+    /// Of each station, where what is seen of its orbit is larger than beside it.
+    pub peaks: Vec<Vec<Peak>>,
+}
+
+/// What of a station's orbit is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sight {
+    /// What a fixed probe along y sees.
+    Y,
+    /// What a fixed probe along z sees.
+    Z,
+    /// The larger semi-axis, which no fixed probe sees unless it stands along that.
+    Major,
+}
+
+impl Sight {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Y, Self::Z, Self::Major];
+
+    /// As tables call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Y => "y",
+            Self::Z => "z",
+            Self::Major => "larger semi-axis",
+        }
+    }
+
+    /// How far the orbit goes from its middle there, 0-to-peak \[m].
+    pub fn of(self, orbit: &Orbit) -> f64 {
+        match self {
+            Self::Y => orbit.y.modulus(),
+            Self::Z => orbit.z.modulus(),
+            Self::Major => orbit.major(),
+        }
+    }
+}
+
+/// Where what is seen of an orbit is larger than beside it.
+#[derive(Clone)]
+pub struct Peak {
+    /// What is seen.
+    pub sight: Sight,
+    /// Where.
+    pub point: Point,
 }
 
 /// A speed [rad/s] that was looked at, and how the machine whirls there; None without bound, where nothing damps a resonance.
@@ -58,7 +101,12 @@ impl Point {
 
     /// The larger half axis of the orbit there \[m].
     pub fn size(&self, station: &Station) -> f64 {
-        self.orbit(station).map_or(f64::INFINITY, |orbit| orbit.major())
+        self.seen(station, Sight::Major)
+    }
+
+    /// What is seen of the orbit there, 0-to-peak \[m].
+    pub fn seen(&self, station: &Station, sight: Sight) -> f64 {
+        self.orbit(station).map_or(f64::INFINITY, |orbit| sight.of(&orbit))
     }
 }
 
@@ -123,12 +171,32 @@ impl<'s> Found<'s> {
         all.filter_map(row).collect()
     }
 
+    /// A row for each peak of a station, by the linear equations; without an amplitude where that has no bound.
+    pub fn peaks(&self) -> Vec<rows::Row> {
+        let peaks = self.linear.iter().flat_map(|linear| self.stations.iter().zip(&linear.peaks));
+        let all = peaks.flat_map(|(station, peaks)| peaks.iter().map(move |peak| (station, peak)));
+        let row = |(station, Peak { sight, point }): (&Station, &Peak)| {
+            let orbit = point.orbit(station);
+            vec![
+                ("station", json!(station.name)),
+                ("position_m", json!(station.position)),
+                ("seen_along", json!(sight.name())),
+                ("speed_rad_s", json!(point.speed)),
+                ("amplitude_m", json!(orbit.map(|orbit| sight.of(&orbit)))),
+                ("major_m", json!(orbit.map(|orbit| orbit.major()))),
+                ("minor_m", json!(orbit.map(|orbit| orbit.minor()))),
+            ]
+        };
+        all.map(row).collect()
+    }
+
     /// All of it.
     pub fn json(&self) -> Value {
         json!({
             "scene": self.scene.name,
             "title": self.scene.title,
             "tables": doubts::tables(self.scene),
+            "peaks": rows::objects(self.peaks()),
             "responses": rows::objects(self.rows()),
             "nonlinear": rows::objects(nonlinear::rows(self)),
         })
@@ -161,10 +229,15 @@ fn stations(scene: &Scene) -> Vec<Station> {
     std::iter::once(Station { name: "c".into(), position: 0.0 }).chain(rest).collect()
 }
 
-/// Where the orbit of a station is larger than beside it.
-fn peaks_of(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<Point>, Obstacle> {
+/// Where what is seen of the orbit of a station is larger than beside it.
+fn peaks_of(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<Peak>, Obstacle> {
     let at = |speed: f64, near: &Point| Point::of(machine, speed, Some(near));
-    peaks::of(points, |point| (point.speed, point.size(station)), at)
+    let mut all = Vec::new();
+    for sight in Sight::ALL {
+        let found = peaks::of(points, |point| (point.speed, point.seen(station, sight)), at)?;
+        all.extend(found.into_iter().map(|point| Peak { sight, point }));
+    }
+    Ok(all)
 }
 
 /// A station's harmonic that goes round with the spin, as columns.
@@ -178,4 +251,46 @@ fn once(orbit: Orbit) -> rows::Row {
         ("amplitude_z_m", json!(z.modulus())),
         ("phase_z_rad", json!(z.argument())),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Found, Sight};
+    use nalgebra::{Complex, ComplexField};
+    use split_rotor_model::scene::Scene;
+    use std::path::Path;
+
+    /// Two equal bearings at ±0.8 m: m q̈ + 2c q̇ + 2k q = ω² m e in each direction on its own.
+    const TEXT: &str = "[rotor]\nm = 1000.0\nJa = 60.0\nJt = 150.0\n\
+        [[effects.bearing]]\nposition = -0.8\nkyy = 0.9e7\nkzz = 1.4e7\ncyy = 2e4\nczz = 2e4\nkxx = 1e7\ncxx = 1e4\n\
+        [[effects.bearing]]\nposition = 0.8\nkyy = 0.9e7\nkzz = 1.4e7\ncyy = 2e4\nczz = 2e4\n\
+        [[effects.unbalance]]\nmass = 1e-3\nradius = 40.0\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n";
+
+    #[test]
+    fn regress_each_direction_of_a_probe_has_its_peak() {
+        let scene = Scene::parse(Path::new("probes.toml"), TEXT).expect("a scene");
+        let found = Found::of(&scene, None, 201, false).expect("a response");
+        let linear = found.linear.as_ref().expect("linear equations");
+        let probe = found.stations.iter().position(|station| station.name == "probe[1]").expect("it has one");
+        for (sight, k, at, size) in [(Sight::Y, 1.8e7, 137.24, 135.7e-6), (Sight::Z, 2.8e7, 169.76, 168.5e-6)] {
+            let [peak] = &linear.peaks[probe].iter().filter(|peak| peak.sight == sight).collect::<Vec<_>>()[..] else {
+                panic!("one peak is expected along {}", sight.name());
+            };
+            // Of U ω²/(k − m ω² + 2icω) the largest is where ω² = k²/(m k − 2c²), c being of one bearing.
+            let exact = k / (1000.0 * k - 2.0 * 2e4 * 2e4_f64).sqrt();
+            assert!((peak.point.speed / exact - 1.0).abs() < 2e-6, "{} {exact}", peak.point.speed);
+            assert!((exact - at).abs() < 0.02, "{exact} {at}");
+            let largest = 0.04 * exact * exact / Complex::new(k - 1000.0 * exact * exact, 4e4 * exact).modulus();
+            let seen = peak.point.seen(&found.stations[probe], sight);
+            // The mass of the unbalance adds to the rotor's by a part of 1e-6.
+            assert!((seen / largest - 1.0).abs() < 1e-5 && (seen / size - 1.0).abs() < 1e-3, "{seen} {largest} {size}");
+        }
+        assert!(linear.peaks[probe].iter().any(|peak| peak.sight == Sight::Major), "the larger semi-axis is kept");
+        let table = found.table();
+        assert!(
+            table.contains("0-to-peak") && table.contains("| y | 135.68") && table.contains("| z | 168.54"),
+            "{table}"
+        );
+        assert!(found.peaks().iter().any(|row| row.contains(&("seen_along", "y".into()))));
+    }
 }

@@ -6,7 +6,7 @@ use anyhow::{Context, Error, Result, bail, ensure};
 use split_rotor_model::effects::{Doubt, Effects};
 use split_rotor_model::integrate::Fault;
 use split_rotor_model::scene::{Experiment, Scene};
-use split_rotor_model::simulation::{Deflection, General, Growth, Largest, Unheld};
+use split_rotor_model::simulation::{Deflection, General, Growth, Largest, Unheld, Unjudged};
 use split_rotor_model::variable::{Place, Role};
 use split_rotor_model::variables::{METHODS, Variable};
 
@@ -73,6 +73,7 @@ pub struct Run<'s> {
     /// Up to which ω_φ doubts were told [rad/s], and they.
     doubted: Option<[f64; 2]>,
     doubts: Vec<(String, Doubt)>,
+    unjudged: Option<Unjudged>,
 }
 
 impl<'s> Run<'s> {
@@ -82,7 +83,22 @@ impl<'s> Run<'s> {
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
         let (stations, positions): (Vec<_>, Vec<_>) = stations(scene).into_iter().unzip();
         let (largest, course, grown) = (Some(Largest::at(positions)), Course::of(scene), Vec::new());
-        Self { simulation, stations, largest, outputs, references, values, course, scene, grown, unheld: None, doubted: None, doubts: Vec::new() }
+        let (unheld, unjudged, doubted, doubts) = (None, None, None, Vec::new());
+        Self {
+            simulation,
+            stations,
+            largest,
+            outputs,
+            references,
+            values,
+            course,
+            scene,
+            grown,
+            unheld,
+            unjudged,
+            doubted,
+            doubts,
+        }
     }
 
     /// The largest deflections of c (`r_c`) and of the probes from the x axis, static deflections included: between the communication
@@ -115,6 +131,11 @@ impl<'s> Run<'s> {
         effects.doubts(speeds, before, &mut |block, doubt| new.push((block.to_owned(), doubt)));
     }
 
+    /// Where it first was not found whether anything grows.
+    pub fn unjudged(&self) -> Option<Unjudged> {
+        self.unjudged
+    }
+
     /// The outputs that are read.
     pub fn outputs(&self) -> &[&'s Variable] {
         &self.outputs
@@ -142,6 +163,7 @@ impl<'s> Run<'s> {
         self.grown.extend(self.simulation.growth());
         self.unheld = self.simulation.unheld();
         self.look_for_doubts();
+        self.unjudged = self.simulation.unjudged();
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {
@@ -153,6 +175,7 @@ impl<'s> Run<'s> {
             if reached > from {
                 self.grown.extend(self.simulation.growth().filter(|growth| self.grown.last() != Some(growth)));
                 self.look_for_doubts();
+                self.unjudged = self.unjudged.or_else(|| self.simulation.unjudged());
                 seen(self, reached)?;
             }
             if let Some(divergence) = self.simulation.divergence() {

@@ -9,9 +9,12 @@ use crate::{known, peaks, scenes, sheets, state_space};
 use anyhow::{Context, Result, ensure};
 use nalgebra::{Complex, ComplexField};
 use serde_json::json;
-use split_rotor_model::linear::{Quantity, StateSpace};
+use split_rotor_model::linear::{Obstacle, Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
 use std::path::Path;
+
+/// Outputs that tell how fast the rotor spins.
+const OF_SPIN: [&str; 3] = ["omega_phi", "omega.x", "K_c.x"];
 
 /// What the command found.
 struct Found {
@@ -40,8 +43,18 @@ impl Point {
 }
 
 impl Found {
-    fn at(&self, frequency: f64) -> Point {
-        Point { frequency, answer: self.space.response(self.from, self.to, frequency) }
+    fn at(&self, frequency: f64) -> Result<Point, Obstacle> {
+        Ok(Point { frequency, answer: self.space.response(self.from, self.to, frequency)? })
+    }
+
+    /// That the spin is held, and what a free one would do.
+    fn held_spin(&self) -> String {
+        let per = split_rotor_tools::scenes::values(&self.scene)("rotor.Ja")
+            .map_or_else(String::new, |axial| format!(" = 1/(i Omega {axial:?} kg.m2)"));
+        format!(
+            "The linear view holds the spin: what keeps it constant takes up every torque about the axis. A spin that nothing else holds would \
+             answer a moment about the axis with 1/(i Omega Ja){per}; run the scene with that input to see it"
+        )
     }
 
     /// What is between both, in words.
@@ -79,15 +92,21 @@ pub fn frequency(
     let output = number("--to", to, &space.outputs, "output").with_context(file)?;
     let frequencies = sweep::frequencies(&space.steady, ends, steps)?;
     let mut found = Found { scene, space, from: input, to: output, points: Vec::new(), peaks: Vec::new() };
-    found.points = frequencies.into_iter().map(|frequency| found.at(frequency)).collect();
+    found.points = frequencies.into_iter().map(|frequency| found.at(frequency)).collect::<Result<_, _>>()?;
     ensure!(
         found.points.iter().any(|point| point.answer.is_some_and(|answer| answer.modulus() > 0.0)),
-        "{}: {from} does not move {to}: the response is 0 at every frequency",
-        found.scene.file.display()
+        "{}: {from} does not move {to} in the linear view: the response is 0 at every frequency{}",
+        found.scene.file.display(),
+        if is_of_spin(to) { format!(". {}", found.held_spin()) } else { String::new() }
     );
     let seen = |point: &Point| (point.frequency, point.size());
-    found.peaks = peaks::of(&found.points, seen, |frequency, _| anyhow::Ok(found.at(frequency)))?;
+    found.peaks = peaks::of(&found.points, seen, |frequency, _| found.at(frequency))?;
     write(&found, out)
+}
+
+/// Whether an output tells how fast the rotor spins.
+fn is_of_spin(output: &str) -> bool {
+    OF_SPIN.contains(&output)
 }
 
 /// The number of what has this name.
@@ -105,7 +124,7 @@ fn number(option: &str, name: &str, of: &[Quantity], kind: &str) -> Result<usize
 }
 
 fn write(found: &Found, out: Option<&Path>) -> Result<()> {
-    let (table, rows) = (table::table(found), rows(&found.points));
+    let (table, rows) = (table::table(found)?, rows(&found.points));
     let json = json!({
         "scene": found.scene.name,
         "title": found.scene.title,

@@ -22,6 +22,7 @@ pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32, exact: bool, out:
     let folder = sheets::folder(out, &format!("response/{}", scene.name))?;
     let left = sheets::leave(folder, "response", &found.table(), &found.rows(), &found.json(), &pictures)?;
     std::fs::write(left.folder.join("nonlinear.csv"), sheets::csv(&nonlinear::rows(&found)))?;
+    std::fs::write(left.folder.join("peaks.csv"), sheets::csv(&found.peaks()))?;
     left.show();
     Ok(())
 }

@@ -186,6 +186,9 @@ impl<'s> Recorded<'s> {
                 rounded(*t)
             );
         }
+        if let Some(unjudged) = self.run.unjudged() {
+            println!("  unknown    {unjudged}");
+        }
         Ok(true)
     }
 }

@@ -214,6 +214,18 @@ mod tests {
     }
 
     #[test]
+    fn regress_an_unstable_rotor_is_not_called_stable() {
+        let text = "[rotor]\nm = 6.0\nJa = 0.01\nJt = 0.06\n[start]\nomega.x = 100.0\n\
+            [[effects.bearing]]\nposition = 0.15\nkyy = -2e5\nkzz = -2e5\n";
+        let scene = Scene::parse(Path::new("unseen.toml"), text).expect("a scene");
+        let against = Against { name: "bearing[1].kyy", values: [-2e5, -1e5].map(Given::from), count: 3 };
+        let map = map(scene, &against, Some(&[50.0, 500.0]), 21).expect("a map");
+        assert!(map.columns.iter().all(|column| column.grows.iter().all(|grows| *grows)));
+        let table = table::table(&map);
+        assert!(table.contains("at all these speeds") && !table.contains("none of these"), "{table}");
+    }
+
+    #[test]
     fn a_parameter_that_is_not_there_is_named_with_those_that_are() {
         let error = |name, values: [f64; 2]| {
             let values = values.map(Given::from);

@@ -19,7 +19,7 @@ pub fn state_space(scene: &str, speed: Option<f64>, out: Option<&Path>) -> Resul
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let file = folder.join("state_space.json");
     std::fs::write(&file, serde_json::to_string_pretty(&json(&scene, &space))? + "\n")?;
-    println!("{}\n{}", told(&space), file.display());
+    println!("{}\n{}", told(&space)?, file.display());
     println!("{}", linear_fmu::write(&scene, &space, &folder)?.display());
     let converter = paths::root().join("xtask/python/state_space.py");
     run::run(python::scipy()?.arg(converter).arg(std::path::absolute(&file)?))
@@ -45,7 +45,7 @@ fn speed_at_start(scene: &Scene) -> f64 {
     value("imposed_speed.w").filter(|_| !is_off).or(value("start.omega.x")).unwrap_or_default()
 }
 
-fn told(space: &StateSpace) -> String {
+fn told(space: &StateSpace) -> Result<String> {
     let StateSpace { steady, states, inputs, outputs, .. } = space;
     let [states, inputs, outputs] = [states, inputs, outputs].map(Vec::len);
     let mut told = format!(
@@ -58,10 +58,10 @@ fn told(space: &StateSpace) -> String {
     if !steady.is_held {
         told += "\nnothing holds the rotor in some direction: A is singular";
     }
-    if steady.modes().iter().any(|mode| mode.grows()) {
+    if steady.modes()?.iter().any(|mode| mode.grows()) {
         told += "\na mode grows: the steady state is unstable";
     }
-    told
+    Ok(told)
 }
 
 fn json(scene: &Scene, space: &StateSpace) -> Value {

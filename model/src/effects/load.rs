@@ -17,6 +17,10 @@ pub struct Pose {
     pub tilt: Tilt<f64>,
     /// See there.
     pub phi: f64,
+    /// Velocity of G [m/s].
+    pub velocity: Vector3<f64>,
+    /// dt/dt [1/s].
+    pub axis_rate: Vector3<f64>,
     /// Distance from the support point a to c, along t \[m].
     pub l: f64,
     /// ω_φ [rad/s].
@@ -34,6 +38,8 @@ pub struct Change {
     pub v_c: Vector3<f64>,
     /// Of dt/dt [1/s].
     pub axis_rate: Vector3<f64>,
+    /// Of ω_φ [rad/s].
+    pub speed: f64,
 }
 
 impl Pose {
@@ -43,6 +49,16 @@ impl Pose {
         let of_centre = self.centre + self.tilt.axis * p;
         // eq. 71: r_c = r_G − R b
         self.to_centre.map_or(of_centre, |to_centre| of_centre - self.tilt.attitude(self.phi) * to_centre)
+    }
+
+    /// Velocity of that station [m/s].
+    #[inline(always)]
+    pub fn station_velocity(&self, p: f64) -> Vector3<f64> {
+        let of_centre = self.velocity + self.axis_rate * p;
+        // eq. 79: v_c ≈ v_G − dφ/dt t×R b
+        self.to_centre.map_or(of_centre, |to_centre| {
+            of_centre - self.tilt.axis.cross(&(self.tilt.attitude(self.phi) * to_centre)) * self.speed
+        })
     }
 }
 

@@ -74,15 +74,15 @@ impl Rub {
         depth * S::constant(self.stiffness) + rate * S::constant(self.damping)
     }
 
-    /// How far the station is off the stator line \[m] while the ring presses on it, else 0, and which way \[1].
+    /// How far the shaft is in the ring while that presses \[m], and away from the stator line \[1].
     #[inline(always)]
-    fn pressed(&self, at: &Pose) -> (f64, Vector2<f64>) {
+    fn pressed(&self, at: &Pose) -> Option<(f64, Vector2<f64>)> {
         if self.branch[0] == 0.0 {
-            return (0.0, Vector2::zeros());
+            return None;
         }
         let q = at.station(self.position).yz();
         let distance = q.norm_squared().max(self.least_square()).sqrt();
-        (distance, q * (1.0 / distance))
+        Some((distance - self.gap, q * (1.0 / distance)))
     }
 
     #[inline(always)]
@@ -140,19 +140,25 @@ impl Effect for Rub {
 
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
-        let (distance, outward) = self.pressed(at);
-        let [depth, rate] =
-            [change.station(self.position), change.station_velocity(self.position)].map(|v| outward.dot(&v.yz()));
-        let normal = self.pressure(depth, rate);
-        [if distance > 0.0 { normal * normal } else { 0.0 }, 0.0]
+        let Some((depth, outward)) = self.pressed(at) else { return [0.0; MOST_LOADS] };
+        let [v, way, faster] =
+            [at.station_velocity(self.position), change.station(self.position), change.station_velocity(self.position)]
+                .map(|v| v.yz());
+        let along = Vector2::new(-outward.y, outward.x);
+        let normal = self.pressure(depth, outward.dot(&v));
+        let part = Scalar::tanh((along.dot(&v) + self.radius * at.speed) / self.v0);
+        let normal_change = self.pressure(outward.dot(&way), outward.dot(&faster));
+        let sliding_change = along.dot(&faster) + self.radius * change.speed;
+        // d(μ N tanh(v_t/v₀)) = μ (dN tanh + N (1 − tanh²) dv_t/v₀)
+        let friction = self.friction * (normal_change * part + normal * (1.0 - part * part) * sliding_change / self.v0);
+        [normal_change * normal_change + friction * friction, 0.0]
     }
 
     #[inline(always)]
-    fn load_sizes(&self, at: &Pose, excursion: &Change) -> [f64; MOST_LOADS] {
-        let (distance, outward) = self.pressed(at);
-        let rate = outward.dot(&excursion.station_velocity(self.position).yz());
-        let normal = self.pressure(distance - self.gap, rate);
-        [if distance > 0.0 { normal * normal } else { 0.0 }, 0.0]
+    fn load_sizes(&self, at: &Pose, _excursion: &Change) -> [f64; MOST_LOADS] {
+        let Some((depth, outward)) = self.pressed(at) else { return [0.0; MOST_LOADS] };
+        let normal = self.pressure(depth, outward.dot(&at.station_velocity(self.position).yz()));
+        [normal * normal, 0.0]
     }
 
     #[inline(always)]

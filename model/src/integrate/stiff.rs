@@ -105,6 +105,9 @@ const SUMS: f64 = 10.0;
 /// The last step extrapolates the next one as long as that is at most so many times longer \[1].
 const EXTRAPOLATED: f64 = 10.0;
 
+/// A state within a step for which Newton's method does not converge is sought in so many shorter steps.
+const PARTS: [u32; 3] = [2, 4, 8];
+
 /// Newton's method gives up after so many iterations.
 const MOST_ITERATIONS: u32 = 10;
 
@@ -319,9 +322,21 @@ impl<const N: usize> Stiff<N> {
         }
         let sigma = (t - start) / h;
         let guess = radau::C.map(|c| combined(&weights(c * sigma), &z));
+        let last = |y: &[f64; N], z: &[[f64; N]; STAGES]| std::array::from_fn(|n| y[n] + z[STAGES - 1][n]);
         let collocation = self.factorised(system, &jacobian, t - start);
-        let z = self.solve(system, start, y, &collocation, guess).unwrap_or(guess);
-        self.segment.answer.keep(t, std::array::from_fn(|n| y[n] + z[STAGES - 1][n]))
+        let whole = self.solve(system, start, y, &collocation, guess).map(|z| last(&y, &z));
+        // Where Newton's method does not get there in one step, shorter ones do; the polynomial of the step is the last resort.
+        let answer = whole.or_else(|| {
+            PARTS.into_iter().find_map(|parts| {
+                let size = (t - start) / f64::from(parts);
+                let collocation = self.factorised(system, &jacobian, size);
+                (0..parts).try_fold(y, |y, n| {
+                    let z = self.solve(system, start + f64::from(n) * size, y, &collocation, [[0.0; N]; STAGES])?;
+                    Some(last(&y, &z))
+                })
+            })
+        });
+        self.segment.answer.keep(t, answer.unwrap_or_else(|| last(&y, &guess)))
     }
 
     fn evaluate(&mut self, system: &impl System<N>, t: f64, y: &[f64; N]) -> [f64; N] {

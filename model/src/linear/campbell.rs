@@ -46,14 +46,15 @@ const ALIKE: f64 = 0.9;
 /// An interval is halved so often to follow a mode.
 const HALVINGS: u32 = 10;
 
-/// A crossing is found to this part of its speed \[1].
+/// A crossing is found to this part of its speed \[1], or after so many trials.
 const FOUND: f64 = 1e-13;
+const TRIALS: u32 = 100;
 
 impl<'m> Campbell<'m> {
     /// Of these speeds [rad/s], which ascend.
     ///
     /// # Errors
-    /// Where there is no steady state at one of them.
+    /// Where there is no steady state at one of them, and where its eigenvalues are not found.
     pub fn of(machine: &'m Machine, speeds: &[f64]) -> Result<Self, Obstacle> {
         let mut all = Self { machine, steady: Vec::new(), branches: Vec::new() };
         let mut open: Vec<usize> = Vec::new();
@@ -86,7 +87,7 @@ impl<'m> Campbell<'m> {
     /// Where the frequencies are `order` times the speed.
     ///
     /// # Errors
-    /// Where there is no steady state on the way.
+    /// Where there is no steady state on the way, and where a mode cannot be followed to its crossing.
     pub fn critical_speeds(&self, order: f64) -> Result<Vec<Crossing>, Obstacle> {
         self.crossings(|mode, speed| (mode.eigenvalue.im > 0.0).then(|| mode.eigenvalue.im - order * speed.abs()))
     }
@@ -94,9 +95,46 @@ impl<'m> Campbell<'m> {
     /// Where modes begin or cease to grow.
     ///
     /// # Errors
-    /// Where there is no steady state on the way.
+    /// Where there is no steady state on the way, and where a mode cannot be followed to its threshold.
     pub fn thresholds(&self) -> Result<Vec<Crossing>, Obstacle> {
-        self.crossings(|mode, _| Some(mode.eigenvalue.re))
+        let mut found = self.crossings(|mode, _| Some(mode.eigenvalue.re))?;
+        // A mode that ends, or begins, between two speeds has no value on one side.
+        for pair in self.steady.windows(2) {
+            let ends = [pair[0].speed, pair[1].speed];
+            let is_told = found.iter().any(|crossing| (ends[0]..=ends[1]).contains(&crossing.speed));
+            let [before, after] = ends.map(|speed| self.fastest_growth(speed));
+            if before.is_some() != after.is_some() && !is_told {
+                found.push(self.onset(&pair[0], [before, after].map(|growth| growth.is_some()), ends)?);
+            }
+        }
+        found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        Ok(found)
+    }
+
+    /// Of the modes at one of the speeds, the branch of that which grows fastest, where one does.
+    fn fastest_growth(&self, speed: f64) -> Option<(usize, &Mode)> {
+        let points = |branch: &'_ Branch| branch.points.iter().position(|point| point.speed == speed);
+        let modes =
+            self.branches.iter().enumerate().filter_map(|(n, branch)| Some((n, &branch.points[points(branch)?].mode)));
+        modes.filter(|(_, mode)| mode.grows()).max_by(|(_, a), (_, b)| a.eigenvalue.re.total_cmp(&b.eigenvalue.re))
+    }
+
+    /// Where between these two speeds the first mode begins to grow, or the last one ceases to, by halves; it grows at one of them only.
+    fn onset(&self, near: &Steady, grows: [bool; 2], [mut from, mut to]: [f64; 2]) -> Result<Crossing, Obstacle> {
+        let (branch, mode) = [from, to].into_iter().find_map(|speed| self.fastest_growth(speed)).expect("one grows");
+        let mut mode = mode.clone();
+        for _ in 0..TRIALS {
+            if to - from <= FOUND * to.abs() {
+                break;
+            }
+            let speed = 0.5 * (from + to);
+            let (_, modes) = self.machine.modes(speed, Some(near))?;
+            let growing = modes.into_iter().filter(Mode::grows);
+            let growing = growing.max_by(|a, b| a.eigenvalue.re.total_cmp(&b.eigenvalue.re));
+            *(if growing.is_some() == grows[0] { &mut from } else { &mut to }) = speed;
+            mode = growing.unwrap_or(mode);
+        }
+        Ok(Crossing { branch, speed: 0.5 * (from + to), mode })
     }
 
     /// Whether any mode grows at one of the speeds.
@@ -112,8 +150,8 @@ impl<'m> Campbell<'m> {
                 let [from, to] = [&pair[0], &pair[1]];
                 if let (Some(a), Some(b)) = (of(&from.mode, from.speed), of(&to.mode, to.speed))
                     && is_above(a, &from.mode) != is_above(b, &to.mode)
-                    && let Some(point) = self.root([(from, a), (to, b)], &of)?
                 {
+                    let point = self.root([(from, a), (to, b)], &of)?;
                     found.push(Crossing { branch, speed: point.speed, mode: point.mode });
                 }
             }
@@ -122,20 +160,34 @@ impl<'m> Campbell<'m> {
         Ok(found)
     }
 
-    /// By Illinois' rule, along the mode; None where it cannot be followed.
-    fn root(
-        &self,
+    /// Along the mode, from either end; where that cannot be followed, along the nearest eigenvalues.
+    fn root(&self, ends: [(&Point, f64); 2], of: &impl Fn(&Mode, f64) -> Option<f64>) -> Result<Point, Obstacle> {
+        let [from, to] = ends;
+        let by_shape = |near: &Point, speed: f64| self.machine.followed(near, speed);
+        let by_value = |near: &Point, speed: f64| self.machine.nearest(near, speed);
+        for ends in [[from, to], [to, from]] {
+            if let Some(point) = Self::root_by(ends, of, by_shape)? {
+                return Ok(point);
+            }
+        }
+        let lost = Obstacle::NotFollowed { from: from.0.speed, to: to.0.speed };
+        Self::root_by(ends, of, by_value)?.ok_or(lost)
+    }
+
+    /// By Illinois' rule; None where the mode cannot be followed, or no root is met.
+    fn root_by(
         ends: [(&Point, f64); 2],
         of: &impl Fn(&Mode, f64) -> Option<f64>,
+        at: impl Fn(&Point, f64) -> Result<Option<Mode>, Obstacle>,
     ) -> Result<Option<Point>, Obstacle> {
         let [(from, mut at_a), (to, mut at_b)] = ends;
         let (mut a, mut b) = (from.speed, to.clone());
-        for _ in 0..100 {
+        for _ in 0..TRIALS {
             if (b.speed - a).abs() <= FOUND * b.speed.abs() || at_b == 0.0 {
-                break;
+                return Ok(Some(b));
             }
             let speed = b.speed - at_b * (b.speed - a) / (at_b - at_a);
-            let Some(mode) = self.machine.followed(&b, speed)? else { return Ok(None) };
+            let Some(mode) = at(&b, speed)? else { return Ok(None) };
             let Some(value) = of(&mode, speed) else { return Ok(None) };
             let is_still = speed == b.speed;
             let (last, at_last) =
@@ -146,10 +198,10 @@ impl<'m> Campbell<'m> {
                 at_a *= 0.5;
             }
             if is_still {
-                break;
+                return Ok(Some(b));
             }
         }
-        Ok(Some(b))
+        Ok(None)
     }
 }
 
@@ -185,6 +237,13 @@ impl Machine {
         let nearest = (0..ours.len()).max_by(|a, b| is_it(a).total_cmp(&is_it(b)));
         let follows = self.follow((&start, &ours), (&end, &theirs), HALVINGS)?;
         Ok(nearest.and_then(|nearest| follows[nearest]).map(|to| theirs.swap_remove(to)))
+    }
+
+    /// The mode at `speed` [rad/s] whose eigenvalue is nearest to this one's.
+    fn nearest(&self, from: &Point, speed: f64) -> Result<Option<Mode>, Obstacle> {
+        let (_, modes) = self.modes(speed, None)?;
+        let apart = |mode: &Mode| (mode.eigenvalue - from.mode.eigenvalue).modulus();
+        Ok(modes.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))))
     }
 }
 

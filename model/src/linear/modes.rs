@@ -1,7 +1,8 @@
 //! How a machine whirls about its steady state: eigenvalues, and shapes that tell what they are.
 
-use super::machine::{Machine, STATES, Steady, across};
-use nalgebra::linalg::Schur;
+use super::machine::{Machine, Obstacle, STATES, Steady, across};
+use crate::decompositions::{eigenvalues, singular_values};
+use nalgebra::linalg::SymmetricEigen;
 use nalgebra::{Complex, ComplexField, DMatrix, SMatrix, SVector, Vector2};
 
 /// The state of a mode, its numbers over their sizes, of norm 1.
@@ -64,8 +65,11 @@ const UNHELD: f64 = 1e-7;
 /// Eigenvalues that differ by less than this part of their size are one \[1]: of springs that are the same in all directions.
 const EQUAL: f64 = 1e-9;
 
-/// More iterations no Schur form of so few numbers takes.
+/// The eigenvectors of so few numbers take a few iterations each.
 const ITERATIONS: usize = 1000;
+
+/// A shape is sought beside its eigenvalue, by the first of these parts of its size at which the equations have a solution \[1].
+const BESIDE: [f64; 4] = [1e-11, -3e-11, 1e-10, -3e-10];
 
 /// A mode swings where its λ is further than this part of its size from the real axis \[1].
 const SWINGS: f64 = 1e-7;
@@ -97,7 +101,14 @@ impl Mode {
 
 impl Steady {
     /// The modes about it, by frequency.
-    pub fn modes(&self) -> Vec<Mode> {
+    ///
+    /// # Errors
+    /// Where the search for the eigenvalues does not converge in any of its ways.
+    pub fn modes(&self) -> Result<Vec<Mode>, Obstacle> {
+        let lost = Obstacle::NoEigenvalues { speed: self.speed };
+        if !self.matrix.iter().all(|entry| entry.is_finite()) {
+            return Err(lost);
+        }
         let mut matrix = self.matrix;
         nalgebra::linalg::balancing::balance_parlett_reinsch(&mut matrix);
         let largest = self.matrix.amax();
@@ -105,7 +116,8 @@ impl Steady {
             let size = value.modulus();
             (self.is_held || size > UNHELD * largest) && value.im >= -SWINGS * size
         };
-        let mut values: Vec<_> = eigenvalues(&matrix).into_iter().filter(held).collect();
+        let all = eigenvalues(&matrix).ok_or(lost.clone())?;
+        let mut values: Vec<_> = all.iter().copied().filter(held).collect();
         values.sort_by(|a, b| a.im.total_cmp(&b.im));
         let mut modes = Vec::new();
         while let Some(value) = values.first().copied() {
@@ -114,22 +126,26 @@ impl Steady {
             values = other;
             match self.apart(value, equal.len()) {
                 Some(shapes) => modes.extend(shapes.into_iter().map(|shape| self.mode(value, shape))),
-                None => modes.extend(equal.into_iter().map(|value| self.refined(value))),
+                None => {
+                    for value in equal {
+                        modes.push(self.refined(value).ok_or(lost.clone())?);
+                    }
+                }
             }
         }
-        modes
+        Ok(modes)
     }
 
-    /// The mode of a value that no other one equals.
-    fn refined(&self, value: Complex<f64>) -> Mode {
+    /// The mode of a value that no other one equals; None where its shape is not found.
+    fn refined(&self, value: Complex<f64>) -> Option<Mode> {
         let matrix = self.matrix.map(Complex::from);
-        let right = inverse_iterated(&matrix, value);
-        let left = inverse_iterated(&matrix.transpose(), value);
+        let right = inverse_iterated(&matrix, value)?;
+        let left = inverse_iterated(&matrix.transpose(), value)?;
         let both = left.dot(&right);
         // Rayleigh's quotient of both sides errs by the square of what they err; of values that nearly agree it says nothing.
         let refined = (left.dot(&(matrix * right))) / both;
         let is_near = both.modulus() > 1e-4 && (refined - value).modulus() < 1e-6 * (1.0 + value.modulus());
-        self.mode(if is_near { refined } else { value }, right)
+        Some(self.mode(if is_near { refined } else { value }, right))
     }
 
     /// The shapes of a value that so many modes have, parted by the way they whirl; None of a single one, and where there are fewer.
@@ -137,7 +153,7 @@ impl Steady {
         if count == 1 {
             return None;
         }
-        let all = (self.matrix.map(Complex::from) - Matrix::from_diagonal_element(value)).svd(false, true);
+        let all = singular_values(&(self.matrix.map(Complex::from) - Matrix::from_diagonal_element(value)))?;
         let (rows, sizes) = (all.v_t?, all.singular_values);
         if sizes[STATES - count] > EQUAL * sizes[0] {
             return None;
@@ -145,7 +161,7 @@ impl Steady {
         let basis: Vec<Shape> = (STATES - count..STATES).map(|row| rows.row(row).adjoint()).collect();
         let orbits: Vec<_> = basis.iter().map(|shape| self.orbits(shape)).collect();
         let swept = DMatrix::from_fn(count, count, |i, j| swept(&orbits[i], &orbits[j]));
-        let mixed = swept.symmetric_eigen().eigenvectors;
+        let mixed = SymmetricEigen::try_new(swept, f64::EPSILON, ITERATIONS)?.eigenvectors;
         let shape = |column: usize| (0..count).map(|row| basis[row] * mixed[(row, column)]).sum();
         Some((0..count).map(shape).collect())
     }
@@ -186,41 +202,35 @@ impl Steady {
     }
 }
 
-/// The eigenvalues of a matrix; where the iteration does not end, not numbers.
-pub(crate) fn eigenvalues(matrix: &SMatrix<f64, STATES, STATES>) -> Vec<Complex<f64>> {
-    // Of equal ones rounding may keep it from an end: it may then err more.
-    let schur = |error: f64| Schur::try_new(*matrix, error, ITERATIONS);
-    let found = [f64::EPSILON, 1e-14, 1e-12, 1e-10].into_iter().find_map(schur);
-    found.map_or(vec![Complex::from(f64::NAN); STATES], |schur| schur.complex_eigenvalues().iter().copied().collect())
-}
-
 /// The area that orbits sweep in a turn, over π/2 and by the motion's square: 1 of a circle, forward; of two motions its Hermitian form.
 fn swept(a: &[Vector2<Complex<f64>>; 2], b: &[Vector2<Complex<f64>>; 2]) -> Complex<f64> {
     let area = |(a, b): (&Vector2<Complex<f64>>, &Vector2<Complex<f64>>)| a.x.conj() * b.y - a.y.conj() * b.x;
     Complex::<f64>::i() * a.iter().zip(b).map(area).sum::<Complex<f64>>()
 }
 
-/// The vector that the matrix multiplies by nearly this value.
-fn inverse_iterated(matrix: &Matrix, value: Complex<f64>) -> Shape {
+/// The vector that the matrix multiplies by nearly this value; None where it is not found.
+fn inverse_iterated(matrix: &Matrix, value: Complex<f64>) -> Option<Shape> {
     // A little beside it, or the equations have no solution.
-    let beside = value + Complex::new(1e-11, 1e-11) * (value.modulus() + 1e-3);
-    let equations = (matrix - Matrix::from_diagonal_element(beside)).lu();
-    let mut vector = Shape::from_fn(|n, _| Complex::new(1.0, 0.1 * n as f64));
-    for _ in 0..3 {
-        vector = equations.solve(&vector).unwrap_or(vector);
-        vector.unscale_mut(vector.norm());
-    }
-    vector
+    BESIDE.into_iter().find_map(|beside| {
+        let beside = value + Complex::new(beside, beside) * (value.modulus() + 1e-3);
+        let equations = (matrix - Matrix::from_diagonal_element(beside)).lu();
+        let mut vector = Shape::from_fn(|n, _| Complex::new(1.0, 0.1 * n as f64));
+        for _ in 0..3 {
+            vector = equations.solve(&vector)?;
+            vector.unscale_mut(vector.norm());
+        }
+        vector.iter().all(|part| part.is_finite()).then_some(vector)
+    })
 }
 
 impl Machine {
     /// Its modes at `speed` [rad/s] about the steady state sought from `near`, and that.
     ///
     /// # Errors
-    /// Where there is no steady state.
-    pub fn modes(&self, speed: f64, near: Option<&Steady>) -> Result<(Steady, Vec<Mode>), super::Obstacle> {
+    /// Where there is no steady state, and where its eigenvalues are not found.
+    pub fn modes(&self, speed: f64, near: Option<&Steady>) -> Result<(Steady, Vec<Mode>), Obstacle> {
         let steady = self.steady(speed, near)?;
-        let modes = steady.modes();
+        let modes = steady.modes()?;
         Ok((steady, modes))
     }
 }

@@ -72,7 +72,7 @@ impl Machine {
         let steady = self.steady(speed, near)?;
         let pushed = self.pushed(&steady);
         // eq. 117: (iω − A) x = b
-        let moved = steady.swung(&pushed, speed);
+        let moved = steady.swung(&pushed, speed)?;
         let sizes = self.sizes(steady.rate).map(Complex::from);
         let moved = moved.ok_or(Obstacle::Resonant { speed })?.component_mul(&sizes);
         let (place, gamma) = (moved.fixed_rows::<3>(0).into_owned(), moved.fixed_rows::<2>(6).into_owned());
@@ -103,25 +103,29 @@ impl Machine {
 impl Steady {
     /// The motion that goes as e^(iΩt) where it is pushed so, Ω being the `frequency` [rad/s], motion and push over their sizes; None where
     /// it has no bound.
-    pub(super) fn swung(&self, pushed: &Shape, frequency: f64) -> Option<Shape> {
+    ///
+    /// # Errors
+    /// Where that depends on eigenvalues that are not found.
+    pub(super) fn swung(&self, pushed: &Shape, frequency: f64) -> Result<Option<Shape>, Obstacle> {
         let size = pushed.norm();
         if size == 0.0 {
-            return Some(Shape::zeros());
+            return Ok(Some(Shape::zeros()));
         }
         let swing = Matrix::from_diagonal_element(Complex::new(0.0, frequency / self.rate));
-        let moved = (swing - self.matrix.map(Complex::from)).lu().solve(pushed)?;
-        (moved.norm() <= LARGE * size || !self.swings_at(frequency)).then_some(moved)
+        let moved = (swing - self.matrix.map(Complex::from)).lu().solve(pushed);
+        let Some(moved) = moved else { return Ok(None) };
+        Ok((moved.norm() <= LARGE * size || !self.swings_at(frequency)?).then_some(moved))
     }
 
     /// Whether a mode swings at this frequency [rad/s] without damping; at 0, whether nothing holds it in some direction.
-    fn swings_at(&self, frequency: f64) -> bool {
+    fn swings_at(&self, frequency: f64) -> Result<bool, Obstacle> {
         if frequency == 0.0 {
-            return !self.is_held;
+            return Ok(!self.is_held);
         }
         let whirl = Complex::new(0.0, frequency.abs());
         let swings = |mode: &Mode| {
             mode.eigenvalue.im > 0.0 && (mode.eigenvalue - whirl).modulus() <= RESONANT * mode.eigenvalue.modulus()
         };
-        self.modes().iter().any(swings)
+        Ok(self.modes()?.iter().any(swings))
     }
 }

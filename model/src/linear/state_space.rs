@@ -63,28 +63,33 @@ impl StateSpace {
     /// How an output answers an input that swings at `frequency` [rad/s], by their numbers, in the output's unit over the input's. None
     /// where the answer has no bound: a mode that both take part in swings so without damping, or nothing holds the rotor at 0 rad/s.
     ///
+    /// # Errors
+    /// Where that depends on eigenvalues that are not found.
+    ///
     /// # Panics
     /// Where there is no input or no output of this number.
-    pub fn response(&self, input: usize, output: usize, frequency: f64) -> Option<Complex<f64>> {
+    pub fn response(&self, input: usize, output: usize, frequency: f64) -> Result<Option<Complex<f64>>, Obstacle> {
         let answer = |frequency| self.answer(input, output, frequency);
-        answer(frequency).or_else(|| {
-            let slowest =
-                self.steady.modes().iter().map(|mode| mode.eigenvalue.modulus()).fold(f64::INFINITY, f64::min);
-            let step = BESIDE * if frequency == 0.0 { slowest.min(self.steady.rate) } else { frequency };
-            let [below, near, far] = [-step, step, 2.0 * step].map(|step| answer(frequency + step));
-            let (below, near, far) = (below?, near?, far?);
-            ((near - far).modulus() <= SMOOTH * far.modulus()).then(|| (below + near).scale(0.5))
-        })
+        let at_it = answer(frequency)?;
+        if at_it.is_some() {
+            return Ok(at_it);
+        }
+        let modes = self.steady.modes()?;
+        let slowest = modes.iter().map(|mode| mode.eigenvalue.modulus()).fold(f64::INFINITY, f64::min);
+        let step = BESIDE * if frequency == 0.0 { slowest.min(self.steady.rate) } else { frequency };
+        let beside = [answer(frequency - step)?, answer(frequency + step)?, answer(frequency + 2.0 * step)?];
+        let [Some(below), Some(near), Some(far)] = beside else { return Ok(None) };
+        Ok(((near - far).modulus() <= SMOOTH * far.modulus()).then(|| (below + near).scale(0.5)))
     }
 
     /// [`StateSpace::response`] where no mode swings so without damping.
-    fn answer(&self, input: usize, output: usize, frequency: f64) -> Option<Complex<f64>> {
+    fn answer(&self, input: usize, output: usize, frequency: f64) -> Result<Option<Complex<f64>>, Obstacle> {
         let sizes = self.sizes;
         let pushed = Shape::from_fn(|n, _| Complex::from(self.b[(n, input)] / (sizes[n] * self.steady.rate)));
-        let moved = self.steady.swung(&pushed, frequency)?;
+        let Some(moved) = self.steady.swung(&pushed, frequency)? else { return Ok(None) };
         let through: Complex<f64> = (0..STATES).map(|n| moved[n] * (sizes[n] * self.c[(output, n)])).sum();
         // eq. 118: H = C (iΩ I − A)⁻¹ B + D
-        Some(through + self.d[(output, input)])
+        Ok(Some(through + self.d[(output, input)]))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use super::orbit::{Both, Near, Orbit, SPEED, UNHELD};
 use super::revolution::{NUMBERS, Obstacle, Rotating, State};
+use crate::decompositions::singular_values;
+use nalgebra::SVD;
 
 /// A step counts one where the speed changes by one of those asked for, or the state by this part of the motion's size \[1].
 const BEND: f64 = 0.3;
@@ -58,11 +60,15 @@ impl Orbit {
     }
 
     /// Which way a branch goes on from here, of length 1 in these units, `ahead` being about it.
-    fn tangent(&self, unit: [f64; 2], ahead: &Both) -> Both {
+    ///
+    /// # Errors
+    /// Where its equations are not solved.
+    fn tangent(&self, unit: [f64; 2], ahead: &Both) -> Result<Both, Obstacle> {
         // eq. 119: (∂P/∂x − 1) x' + ∂P/∂ω ω' = 0
-        let all = self.near(unit).matrix(&self.slopes, &self.by_speed, ahead).svd(true, true);
-        let tangent = all.solve(&Both::ith(SPEED, 1.0), UNHELD * all.singular_values[0]).unwrap_or(*ahead);
-        tangent.normalize()
+        let all = singular_values(&self.near(unit).matrix(&self.slopes, &self.by_speed, ahead));
+        let solve = |all: SVD<_, _, _>| all.solve(&Both::ith(SPEED, 1.0), UNHELD * all.singular_values[0]).ok();
+        let tangent = all.and_then(solve).ok_or(Obstacle::NotFound { speed: self.speed })?;
+        Ok(tangent.normalize())
     }
 }
 
@@ -80,29 +86,43 @@ impl Rotating {
         while branch.orbits.len() < MOST * steps as usize {
             let last = branch.orbits.last().expect("it begins with one");
             let unit = [BEND * last.size, pace];
-            let tangent = last.tangent(unit, &ahead);
+            let tangent = match last.tangent(unit, &ahead) {
+                Ok(tangent) => tangent,
+                Err(obstacle) => {
+                    branch.end = End::Lost(obstacle);
+                    return Ok(branch);
+                }
+            };
             let near = last.near(unit);
             // The end of the range is met.
             let rest = (to - last.speed) / pace;
             let is_last = tangent[SPEED] * step >= rest;
             let by = if is_last { rest / tangent[SPEED] } else { step };
             let held = if is_last { Both::ith(SPEED, 1.0) } else { tangent };
-            match self.step(last, &near, &(tangent * by), &held) {
-                Ok(orbit) if is_last => {
+            let step_on = self.step(last, &near, &(tangent * by), &held).and_then(|orbit| {
+                let on = orbit.tangent(unit, &tangent)?;
+                Ok((orbit, on))
+            });
+            match step_on {
+                Ok((orbit, _)) if is_last => {
                     branch.orbits.push(orbit);
                     branch.end = End::Range;
                     return Ok(branch);
                 }
-                Ok(orbit) => {
-                    let on = orbit.tangent(unit, &tangent);
+                Ok((orbit, on)) => {
                     if on.dot(&tangent) < STRAIGHT && step > SHORT {
                         step *= 0.5;
                         continue;
                     }
                     // Past an end of the range a branch is over.
                     if (to - orbit.speed) / pace < 0.0 {
-                        branch.orbits.push(self.orbit(to, Some(&orbit))?);
-                        branch.end = End::Range;
+                        branch.end = match self.orbit(to, Some(&orbit)) {
+                            Ok(last) => {
+                                branch.orbits.push(last);
+                                End::Range
+                            }
+                            Err(obstacle) => End::Lost(obstacle),
+                        };
                         return Ok(branch);
                     }
                     if (orbit.speed - from) / pace < 0.0 {
@@ -129,8 +149,8 @@ impl Rotating {
         Ok(branch)
     }
 
-    /// Which way a branch goes on from an orbit, of length 1 in these units, `ahead` being about it.
-    /// The orbit on this way from `near` at which the speed turns back: by Illinois' rule, from the rates of the speed at both ends.
+    /// The orbit on this way from `near` at which the speed turns back: by Illinois' rule, from the rates of the speed at both ends; where that
+    /// leads to no orbit, by halves. None where neither does: the fold is then as coarse as the steps beside it.
     fn fold(
         &self,
         last: &Orbit,
@@ -141,9 +161,15 @@ impl Rotating {
         let [mut a, mut b] = [0.0, 1.0];
         let mut found = None;
         for _ in 0..TURNS {
-            let part = b - at_b * (b - a) / (at_b - at_a);
-            let orbit = self.step(last, near, &(way * part), held).ok()?;
-            let value = orbit.tangent(near.unit, held)[SPEED];
+            let seen = |part: f64| {
+                let orbit = self.step(last, near, &(way * part), held)?;
+                let value = orbit.tangent(near.unit, held)?[SPEED];
+                Ok::<_, Obstacle>((part, orbit, value))
+            };
+            let Ok((part, orbit, value)) = seen(b - at_b * (b - a) / (at_b - at_a)).or_else(|_| seen(0.5 * (a + b)))
+            else {
+                break;
+            };
             if value * at_b < 0.0 {
                 (a, at_a) = (b, at_b);
             } else {

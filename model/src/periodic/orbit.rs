@@ -1,6 +1,7 @@
 //! A motion that repeats with each revolution: where its stations go, and whether it lasts.
 
 use super::revolution::{NUMBERS, Obstacle, Rotating, Slopes, State};
+use crate::decompositions::{eigenvalues, singular_values};
 use crate::linear;
 use nalgebra::{Complex, ComplexField, SMatrix, SVector, Vector2, Vector3};
 use std::f64::consts::TAU;
@@ -206,7 +207,8 @@ impl Rotating {
     /// The same where a revolution of it was watched.
     fn repeating(&self, speed: f64, state: &State, (seen, size): (Seen, f64)) -> Result<Orbit, Obstacle> {
         let (slopes, by_speed) = (self.slopes(speed, state, size)?, self.slope_by_speed(speed, state)?);
-        let multipliers = linear::eigenvalues(&slopes);
+        let multipliers = eigenvalues(&slopes).ok_or(Obstacle::NoMultipliers { speed })?;
+        let multipliers = multipliers.iter().copied().collect();
         Ok(Orbit { speed, state: *state, multipliers, slopes, by_speed, size, seen })
     }
 
@@ -235,7 +237,7 @@ impl Rotating {
                 }
             };
             matrix = Some(all);
-            let all = all.svd(true, true);
+            let Some(all) = singular_values(&all) else { return Ok(None) };
             // eq. 119: P(x, ω) − x = 0
             let mut left = Both::zeros();
             left.fixed_rows_mut::<NUMBERS>(0).copy_from(&((state - self.turn(speed, &state)?) / unit[0]));

@@ -62,6 +62,12 @@ pub enum Obstacle {
         /// [rad/s].
         speed: f64,
     },
+    /// At this speed [rad/s] a motion repeats with each revolution, and the search for what multiplies small motions beside it does not
+    /// converge.
+    NoMultipliers {
+        /// [rad/s].
+        speed: f64,
+    },
 }
 
 impl fmt::Display for Obstacle {
@@ -73,6 +79,11 @@ impl fmt::Display for Obstacle {
                 f,
                 "at {speed} rad/s no motion was found that repeats with each revolution (what has no damping, or moves to and fro with \
                  another period, has none)"
+            ),
+            Self::NoMultipliers { speed } => write!(
+                f,
+                "at {speed} rad/s a motion repeats with each revolution, and whether it is stable is not known: the search for the eigenvalues \
+                 of a revolution did not converge"
             ),
         }
     }

@@ -319,7 +319,8 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
         let mut parts = self.parts_of_motion(y, &change);
         if E::FACTS.loads > 0 {
             let axis_rate = vector(&above[AXIS..]) * next;
-            let loaded = Change { r_c: coordinates.r, axis, v_c: coordinates.v, axis_rate };
+            let speed = coordinates.k.dot(&start) * (self.frame.body.per_jt + self.frame.body.spin);
+            let loaded = Change { r_c: coordinates.r, axis, v_c: coordinates.v, axis_rate, speed };
             let at = Coordinates::from_slice(rigid(y));
             let tilt = Tilt::of_axis(self.frame.chart, start);
             self.change_loads::<N>(&at, &tilt, &at.k, &loaded, &mut parts);

@@ -34,8 +34,9 @@ impl<E: Effects> Rotor<'_, E> {
             // Where it has turned over, the axis of the start is not known any more: loads count by themselves.
             Chart::FromMinusE => (at.r, tilt.axis),
         };
-        let excursion = Change { r_c, axis, v_c: velocity, axis_rate: tilt.axis_change(&rate.gamma) };
-        let pose = self.pose(at, tilt, rate.phi);
+        let axis_rate = tilt.axis_change(&rate.gamma);
+        let excursion = Change { r_c, axis, v_c: velocity, axis_rate, speed: rate.phi };
+        let pose = self.pose(at, tilt, axis_rate, rate.phi);
         self.effects.loads::<true>(&pose, &excursion, &mut squares[Self::load_groups::<N>()]);
     }
 
@@ -53,10 +54,12 @@ impl<E: Effects> Rotor<'_, E> {
         }
         let at = Coordinates::from_slice(rigid(y));
         let tilt = Tilt::new(self.frame.chart, at.gamma);
-        let (axis, momentum) = (tilt.axis_change(&by.gamma), self.momentum(t, y));
+        let (axis, momentum, body) = (tilt.axis_change(&by.gamma), self.momentum(t, y), &self.frame.body);
         // eq. 121: d(dt/dt) = (dK×t + K×dt)/Jt
-        let axis_rate = (by.k.cross(&tilt.axis) + momentum.cross(&axis)) * self.frame.body.per_jt;
-        self.change_loads::<N>(&at, &tilt, &momentum, &Change { r_c: by.r, axis, v_c: by.v, axis_rate }, squares);
+        let axis_rate = (by.k.cross(&tilt.axis) + momentum.cross(&axis)) * body.per_jt;
+        let speed = (by.k.dot(&tilt.axis) + momentum.dot(&axis)) * (body.per_jt + body.spin);
+        let change = Change { r_c: by.r, axis, v_c: by.v, axis_rate, speed };
+        self.change_loads::<N>(&at, &tilt, &momentum, &change, squares);
     }
 
     /// The same of a change of the motion at these coordinates, with this tilt and angular momentum [kg·m²/s].
@@ -72,7 +75,7 @@ impl<E: Effects> Rotor<'_, E> {
         let body = &self.frame.body;
         // ω_φ but for how fast the axis goes round, which is little beside the spin.
         let speed = momentum.dot(&tilt.axis) * (body.per_jt + body.spin);
-        let pose = self.pose(at, *tilt, speed);
+        let pose = self.pose(at, *tilt, momentum.cross(&tilt.axis) * body.per_jt, speed);
         self.effects.loads::<false>(&pose, change, &mut squares[Self::load_groups::<N>()]);
     }
 
@@ -94,16 +97,18 @@ impl<E: Effects> Rotor<'_, E> {
             axis: Vector3::new(tilt * tilt, tilt, tilt),
             v_c: Vector3::repeat(velocity),
             axis_rate: Vector3::repeat(tilt_rate),
+            speed: tilt_rate,
         };
-        let pose = self.pose(at, Tilt::of_axis(self.frame.chart, Vector3::x()), 0.0);
+        let pose = self.pose(at, Tilt::new(self.frame.chart, at.gamma), Vector3::zeros(), 0.0);
         self.effects.loads::<false>(&pose, &change, &mut squares[Self::load_groups::<N>()]);
     }
 
-    /// How the rotor lies at these coordinates, where its axis has this tilt and φ this rate [rad/s].
+    /// How the rotor lies at these coordinates, where its axis has this tilt and rate [1/s] and φ this rate [rad/s].
     #[inline(always)]
-    fn pose(&self, at: &Coordinates<f64>, tilt: Tilt<f64>, speed: f64) -> Pose {
+    fn pose(&self, at: &Coordinates<f64>, tilt: Tilt<f64>, axis_rate: Vector3<f64>, speed: f64) -> Pose {
         let to_centre = self.inertia().asymmetric.map(|asymmetric| asymmetric.centre);
-        Pose { centre: at.r, to_centre, tilt, phi: at.phi, l: self.frame.body.l, speed }
+        let (l, phi) = (self.frame.body.l, at.phi);
+        Pose { centre: at.r, to_centre, tilt, phi, velocity: at.v, axis_rate, l, speed }
     }
 
     /// Angular momentum about G [kg·m²/s].

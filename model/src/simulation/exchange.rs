@@ -3,7 +3,7 @@
 use super::ALWAYS_INDICATED;
 use super::divergence::{Bounds, Divergence};
 use super::events::{Events, indicators};
-use super::growth::{Growth, Watch};
+use super::growth::{Growth, Unjudged, Watch};
 use super::met::Met;
 use super::start::Motion;
 use crate::effects::{Effects, MOST_INDICATORS};
@@ -145,6 +145,11 @@ impl<const N: usize> Exchange<N> {
     /// The lowest and the highest ω_φ so far [rad/s], where a law may be doubtful at some.
     pub(super) fn speeds_met(&self) -> Option<[f64; 2]> {
         self.met.speeds()
+    }
+
+    /// Where the search for what grows last failed.
+    pub(super) fn unjudged(&self) -> Option<Unjudged> {
+        self.watch.unjudged()
     }
 
     /// The host's time \[s].

@@ -1,6 +1,6 @@
 //! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
 
-use super::{Any, Divergence, Growth, Integrator, Largest, Unheld};
+use super::{Any, Divergence, Growth, Integrator, Largest, Unheld, Unjudged};
 use crate::effects::All;
 use crate::error::Invalid;
 use crate::integrate::Fault;
@@ -83,5 +83,6 @@ passed_on! {
     growth(&,) -> Option<Growth>;
     unheld(&,) -> Option<Unheld>;
     speeds_met(&,) -> Option<[f64; 2]>;
+    unjudged(&,) -> Option<Unjudged>;
     warns_of_tilt(&,) -> Option<&'static str>;
 }

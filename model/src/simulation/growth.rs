@@ -2,14 +2,14 @@
 
 use super::rest::settled;
 use crate::body::Inertia;
+use crate::decompositions::eigenvalues;
 use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
 use crate::state::{Coordinates, GAMMA, Kinematics, PHI, own, rigid};
 use crate::stored::stored;
-use nalgebra::linalg::Schur;
-use nalgebra::{Complex, Normed, SMatrix, SVector};
+use nalgebra::{Complex, Normed, SMatrix};
 use std::fmt::{self, Display, Formatter};
 
 /// A motion that grows, as it was when that was found.
@@ -31,8 +31,7 @@ impl Display for Growth {
     /// What to warn of.
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let Self { rate, t, speed, at_ports } = self;
-        // To five digits, and no zeros behind them.
-        let [t, time] = [*t, 1.0 / rate].map(|value| format!("{value:.4e}").parse().unwrap_or(value));
+        let [t, time] = [*t, 1.0 / rate].map(shown);
         let held = if *at_ports { " with the loads at its ports held" } else { "" };
         write!(
             f,
@@ -40,6 +39,36 @@ impl Display for Growth {
              every {time:?} s"
         )
     }
+}
+
+/// A state whose linear equations were not solved: whether small motions about it grow is not known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Unjudged {
+    /// When \[s].
+    pub t: f64,
+    /// ω_φ there [rad/s].
+    pub speed: f64,
+}
+
+stored!(Unjudged { t, speed });
+
+impl Display for Unjudged {
+    /// What to warn of.
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let Self { t, speed } = self;
+        let t = shown(*t);
+        write!(
+            f,
+            "whether the rotor is stable is not known: the search for the eigenvalues of its linear equations at t = {t:?} s, at {speed:.1} \
+             rad/s, did not converge, or they hold numbers that are not finite; the motion itself does not depend on it, and the next look is \
+             where the spin has changed"
+        )
+    }
+}
+
+/// To five digits, and no zeros behind them.
+fn shown(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
 }
 
 /// Looks at the linear equations whenever the spin has changed much, or a tilt has died out that made them doubtful.
@@ -51,9 +80,11 @@ pub(super) struct Watch {
     found: Option<Growth>,
     /// What would grow, were the tilt less.
     doubted: Seen,
+    /// Where nobody knows what grows, since that is so.
+    unjudged: Option<Unjudged>,
 }
 
-stored!(Watch { known, found, doubted });
+stored!(Watch { known, found, doubted, unjudged });
 
 /// A motion among those of the linear equations.
 #[derive(Clone, Copy, Debug, Default)]
@@ -115,6 +146,11 @@ impl Watch {
         self.found
     }
 
+    /// Where it could not be found whether anything grows; None where that is known again.
+    pub fn unjudged(&self) -> Option<Unjudged> {
+        self.unjudged
+    }
+
     /// Looks at the rotor at time `t` \[s] and state `y`, if that is due.
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
         // The state lacks what an imposed speed passed on.
@@ -126,20 +162,31 @@ impl Watch {
         if (low..high).contains(&momentum.x) && !is_settled() {
             return;
         }
-        let rates = Self::rates(rotor, t, y);
-        let fastest = rates.map_or(f64::INFINITY, |rates| rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max));
+        let Inertia { per_jt, spin, asymmetric, .. } = rotor.frame.body;
+        if asymmetric.is_some_and(|asymmetric| asymmetric.excess.abs() > ASYMMETRIC * per_jt) {
+            self.known = [f64::NEG_INFINITY, f64::INFINITY];
+            return;
+        }
+        let matrix = Self::matrix(rotor, t, y);
+        let rates = eigenvalues(&matrix);
+        let fastest = rates.map_or(matrix.norm(), |rates| rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max));
         let whirls = rates.iter().flatten().map(|rate| rate.im.abs()).filter(|size| *size > ROUNDING * fastest);
         let slowest = whirls.fold(fastest, f64::min);
-        let Inertia { per_jt, spin, .. } = rotor.frame.body;
         let much = MUCH * (momentum.norm() + slowest / (per_jt + spin));
         self.known = [momentum.x - much, momentum.x + much];
         let motion = rotor.motion(t, y);
+        let Some(rates) = rates else {
+            let unjudged = Unjudged { t, speed: motion.axial_rate() };
+            self.unjudged.get_or_insert(unjudged);
+            return;
+        };
+        self.unjudged = None;
         // M·t, by which a spin that nothing imposes changes.
         let moment = Coordinates::from_slice(rigid(&System::rates::<true, false>(rotor, t, y))).k;
         let torque = if motion.impulse.is_some() { 0.0 } else { moment.dot(motion.axis()).abs() };
         let grows = |seen: &Seen| seen.by > GROWS * seen.size && seen.by > ROUNDING * fastest;
         let seen = |rate: &Complex<f64>| Seen { fastest, size: rate.norm(), by: rate.re };
-        let growing = || rates.iter().flatten().map(seen).filter(grows);
+        let growing = || rates.iter().map(seen).filter(grows);
         let largest = |a: Seen, b: Seen| if b.by > a.by { b } else { a };
         self.doubted = growing().filter(|seen| !seen.exceeds(&motion)).fold(Seen::default(), largest);
         // With the spin held fixed, half of a torque that follows the axis would seem to drive a whirl: by half of this at most. While a
@@ -154,9 +201,9 @@ impl Watch {
     }
 
     /// The linear equations with velocities that count as much as places do: lengths in radii of gyration, and both beside the largest
-    /// rate of what acts. In units of m and s rounding would count beside these, and what hardly moves would seem to grow. None where
+    /// rate of what acts. In units of m and s rounding would count beside these, and what hardly moves would seem to grow. Zeros where
     /// nothing acts: rates that are constant grow by no power of e.
-    fn scaled(matrix: &Linear, body: &Inertia) -> Option<Linear> {
+    fn scaled(matrix: &Linear, body: &Inertia) -> Linear {
         let is_rate = |n: usize| (VELOCITY..GAMMA.start).contains(&n);
         let radius = (body.per_m / body.per_jt).sqrt();
         let unit = |n: usize| match n {
@@ -172,29 +219,16 @@ impl Watch {
         // Springs tell the square of a rate, dampers and what turns the rate itself.
         let rate = largest(|of, by| of && !by).sqrt().max(largest(|of, by| of == by));
         let part = |n: usize| if is_rate(n) { rate } else { 1.0 };
-        (rate > 0.0).then(|| Linear::from_fn(|i, j| plain[(i, j)] * (part(j) / part(i))))
+        if rate == 0.0 { Linear::zeros() } else { Linear::from_fn(|i, j| plain[(i, j)] * (part(j) / part(i))) }
     }
 
-    /// The eigenvalues of the linear equations [rad/s]; None where they do not tell.
-    fn rates<E: Effects, const N: usize>(
-        rotor: &Rotor<'_, E>,
-        t: f64,
-        y: &[f64; N],
-    ) -> Option<SVector<Complex<f64>, LINEAR>> {
-        const ITERATIONS: usize = 1000;
-        let excess = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
-        if excess > ASYMMETRIC * rotor.frame.body.per_jt {
-            return None;
-        }
+    /// The scaled linear equations [rad/s].
+    fn matrix<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Linear {
         // The balanced rotor: what an unbalance adds turns with it.
         let Frame { body, chart, turns, .. } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
         let jacobian = balanced.jacobian(t, &settled(&balanced, t, y));
         let first = own(N);
-        let Some(matrix) = Self::scaled(&Linear::from_fn(|i, j| jacobian[first + i][first + j]), &balanced.frame.body)
-        else {
-            return Some(SVector::zeros());
-        };
-        Some(Schur::try_new(matrix, f64::EPSILON, ITERATIONS)?.complex_eigenvalues())
+        Self::scaled(&Linear::from_fn(|i, j| jacobian[first + i][first + j]), &balanced.frame.body)
     }
 }

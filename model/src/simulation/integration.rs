@@ -5,7 +5,7 @@ use super::by_series::BySeries;
 use super::closest::closest_to_origin;
 use super::divergence::{Bounds, Divergence};
 use super::events::{Events, indicators};
-use super::growth::{Growth, Watch};
+use super::growth::{Growth, Unjudged, Watch};
 use super::largest::Looks;
 use super::met::Met;
 use super::method::Method;
@@ -252,6 +252,11 @@ impl<const N: usize> Integration<N> {
             met.look(&self.frame.under(effects), self.t, self.method.state());
         }
         met.speeds()
+    }
+
+    /// Where the search for what grows last failed.
+    pub(super) fn unjudged(&self) -> Option<Unjudged> {
+        self.watch.unjudged()
     }
 
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {

@@ -1,6 +1,8 @@
 //! Where a rotor stands while it spins steadily: what acts on it balances, but for what drives its spin.
 
+use super::growth::Watch;
 use super::start::Motion;
+use crate::decompositions::{eigenvalues, singular_values};
 use crate::dual::Dual;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::error::Invalid;
@@ -10,7 +12,7 @@ use crate::rotation::Tilt;
 use crate::rotor::Rotor;
 use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
 use crate::variables::{Parameters, Start};
-use nalgebra::{Const, Matrix3, Matrix3x2, SMatrix, SVD, SVector, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 
 /// Place (3) and tilt (2), which are sought.
 pub(super) const UNKNOWNS: usize = 5;
@@ -46,12 +48,16 @@ const SETTLED: f64 = 1e-9;
 
 /// A direction is held where the square of its stiffness is more than this part of that of all \[1].
 const HARDLY_HELD: f64 = 1e-14;
+/// From a place that is not stable it is moved by this along what leaves there \[1, rad]; it then creeps in steps of at most this part of the
+/// time in which that grows by e: the implicit rule would lead longer ones back.
+const BESIDE: f64 = 1e-2;
+const LEAVES: f64 = 0.5;
+
+/// What leaves does so by more than this part of the largest rate \[1].
+const UNSTABLE: f64 = 1e-9;
 
 /// The chart of γ is asked for again beyond this \[rad].
 const FAR: f64 = 2.0;
-
-/// Singular values take a few rotations each, and never so many.
-const MOST_ROTATIONS: usize = 1000;
 
 /// A contact on the way is found by so many bisections.
 const BISECTIONS: u32 = 40;
@@ -165,7 +171,7 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
         let (mut before, mut at_first) = (f64::INFINITY, None);
         for _ in 0..MOST_STEPS {
             let balance = self.balance(r, gamma);
-            let all = parted(balance.slopes)?;
+            let all = singular_values(&balance.slopes)?;
             let largest = all.singular_values[0];
             let first = *at_first.get_or_insert(balance.left.norm());
             let step = all.solve(&balance.left, UNHELD * largest).ok()?;
@@ -198,9 +204,29 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
             let mut rows = matrix.fixed_view_mut::<3, 1>(3, 3 + column);
             rows += turned;
         }
-        let all = parted(matrix)?;
+        let all = singular_values(&matrix)?;
         let step = all.solve(&balance.left, UNHELD * all.singular_values[0]).ok()?;
         step.iter().all(|part| part.is_finite()).then_some(step)
+    }
+
+    /// What leaves a place fastest without inertia: by which rate [1/s²], and where to, of length 1; None where it is stable, or where that is not
+    /// known.
+    fn leaving(&self, balance: &Balance<N>) -> Option<(f64, SVector<f64, UNKNOWNS>)> {
+        // A tilt's rate is the part of the moment along its turn of the axis.
+        let turned = [0, 1].map(|column| balance.axis.cross(&balance.turning.column(column).into_owned()));
+        let mut rates = SMatrix::<f64, UNKNOWNS, UNKNOWNS>::zeros();
+        rates.fixed_rows_mut::<3>(0).copy_from(&balance.slopes.fixed_rows::<3>(0));
+        let [a, b] = turned;
+        let inner = Matrix2::new(a.dot(&a), a.dot(&b), b.dot(&a), b.dot(&b)).try_inverse()?;
+        let moments = balance.slopes.fixed_rows::<3>(3).into_owned();
+        let parts = Matrix3x2::from_columns(&turned).transpose() * moments;
+        rates.fixed_rows_mut::<2>(3).copy_from(&(inner * parts));
+        let rate = eigenvalues(&rates)?.iter().map(|value| value.re).fold(f64::NEG_INFINITY, f64::max);
+        if rate <= UNSTABLE * rates.amax() {
+            return None;
+        }
+        let rows = singular_values(&(rates - SMatrix::identity() * rate))?.v_t?;
+        Some((rate, rows.row(UNKNOWNS - 1).transpose()))
     }
 
     /// Where a step ends, or all but where a contact on the way begins or ends, and whether one does.
@@ -228,7 +254,7 @@ impl<const N: usize> Balance<N> {
     /// Directions in which nothing holds it, orthonormal in place over the radius of gyration and tilt, and how many those are in which
     /// something does; None where they were not found.
     pub(super) fn unheld(&self) -> Option<(Vec<SVector<f64, UNKNOWNS>>, usize)> {
-        let all = parted(self.slopes)?;
+        let all = singular_values(&self.slopes)?;
         let largest = all.singular_values[0];
         let least = if largest > NOTHING { UNHELD * largest } else { largest };
         let rows = all.v_t?;
@@ -250,12 +276,6 @@ impl<const N: usize> Block<'_, N> {
     fn rates_of<const D: usize>(&self, first: usize) -> SMatrix<f64, 3, D> {
         SMatrix::from_fn(|row, column| self.jacobian[own(N) + first + row][own(N) + self.of.start + column])
     }
-}
-
-/// Its singular values; None of what is not finite, with which their search does not end.
-fn parted(matrix: SMatrix<f64, BALANCES, UNKNOWNS>) -> Option<SVD<f64, Const<BALANCES>, Const<UNKNOWNS>>> {
-    let is_finite = matrix.iter().all(|part| part.is_finite());
-    is_finite.then(|| matrix.try_svd(true, true, 5.0 * f64::EPSILON, MOST_ROTATIONS)).flatten()
 }
 
 /// The state with the mass centre where the forces balance, so far as stiffness holds it; all else is as it is. A load on a spring turns
@@ -299,7 +319,8 @@ pub(crate) fn put_on_axis<E: Effects>(effects: &mut E) {
 }
 
 /// Where a machine with `start.at_rest` begins at time `t` \[s]: at the spin of its start, which is along the axis then, where the balanced
-/// machine stands. From its start it creeps there without inertia, so to where it is stable, and through contacts one after another.
+/// machine stands. From its start it creeps there without inertia, so to where it is stable, and through contacts one after another. A place
+/// that it leaves at this spin by itself, such as that of an upright top, it gets only where it creeps to none that is stable.
 pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f64) -> Result<Start, Invalid> {
     let given = &parameters.setup.start;
     let mut balanced = parameters.clone();
@@ -317,6 +338,7 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
     let mut remains = (0, 0.0);
     let mut begun = Motion::<N>::at_start(&mut balanced, t);
     let mut span = None;
+    let mut unstable = None;
     for _ in 0..MOST_CREEPING {
         let at = Coordinates::from_slice(rigid(&begun.state));
         let rotor = begun.frame.under(&balanced.effects);
@@ -330,20 +352,39 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
         let here = spinning.balance(at.r, at.gamma);
         remains = spinning.largest_load(&here);
         let size = here.left.norm();
-        let over = *span.get_or_insert(if size > 0.0 { FARTHEST / size } else { f64::MAX });
-        let step = spinning.creep(&here, over).ok_or_else(|| lost(remains))?;
+        let mut over = *span.get_or_insert(if size > 0.0 { FARTHEST / size } else { f64::MAX });
+        if unstable.is_some()
+            && let Some((rate, _)) = spinning.leaving(&here)
+        {
+            over = over.min(LEAVES / rate);
+        }
+        let Some(step) = spinning.creep(&here, over) else { break };
         if step.norm() > FARTHEST {
             span = Some(over / GROWS);
             continue;
         }
         let (r, gamma, switches) = spinning.moved(at.r, at.gamma, &step);
         if step.norm() < NEAR && !switches {
-            let rest = spinning.rest(r, gamma).ok_or_else(|| lost(remains))?;
+            let Some(rest) = spinning.rest(r, gamma) else { break };
             let (_, length) = spinning.across();
             let moved = (rest.r - r).norm() / length + (rest.gamma - gamma).norm();
             let stays = sides(&rotor, &spinning.state(rest.r, rest.gamma)) == sides(&rotor, &spinning.state(r, gamma));
             if stays && moved < BEYOND {
-                return Ok(start_at(rest.r, rest.gamma));
+                let found = start_at(rest.r, rest.gamma);
+                let leaving = spinning.leaving(&rest.balance).filter(|_| {
+                    let mut watch = Watch::default();
+                    watch.look(&rotor, t, &spinning.state(rest.r, rest.gamma));
+                    watch.found().is_some()
+                });
+                let Some((rate, along)) = leaving.filter(|_| unstable.is_none()) else { return Ok(found) };
+                unstable = Some(found);
+                // Where the start lies, if it lies on one side.
+                let given = Coordinates::from_slice(rigid(&spinning.own));
+                let side = along.fixed_rows::<2>(3).dot(&(given.gamma - rest.gamma))
+                    + along.fixed_rows::<3>(0).dot(&(given.r - rest.r)) / length;
+                let (r, gamma, _) = spinning.moved(rest.r, rest.gamma, &(along * BESIDE.copysign(side)));
+                (begun.state, span) = (spinning.state(r, gamma), Some(LEAVES / rate));
+                continue;
             }
         }
         span = Some((over * GROWS).min(f64::MAX));
@@ -356,5 +397,5 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
             begun.state = spinning.state(r, gamma);
         }
     }
-    Err(lost(remains))
+    unstable.ok_or_else(|| lost(remains))
 }

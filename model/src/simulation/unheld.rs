@@ -18,6 +18,8 @@ pub struct Unheld {
     /// The force \[N] along the directions of `along`, and the moment [N·m] of a turn about those of `about`: what acts at the start and does not
     /// balance.
     pub load: [f64; 2],
+    /// Whether the search for these directions failed, so that none is known.
+    pub is_unknown: bool,
 }
 
 /// A direction that is no other by more than this \[1].
@@ -47,7 +49,9 @@ impl Unheld {
         let spinning = Spinning { rotor: &balanced, own: *y, about_axis, speed, t };
         let Coordinates { r, gamma, .. } = Coordinates::from_slice(rigid(&settled(&balanced, t, y)));
         let balance = spinning.balance(r, gamma);
-        let (free, held) = balance.unheld()?;
+        let Some((free, held)) = balance.unheld() else {
+            return Some(Self { along: Vec::new(), about: Vec::new(), load: [0.0; 2], is_unknown: true });
+        };
         if free.is_empty() || held == 0 {
             return None;
         }
@@ -73,13 +77,13 @@ impl Unheld {
         let along: Vec<_> = along.iter().map(|direction| direction.fixed_rows::<3>(0).into_owned()).collect();
         let about: Vec<_> = about.iter().map(|direction| Vector3::new(0.0, direction[3], direction[4])).collect();
         let is_none = along.is_empty() && about.is_empty();
-        (!is_none).then_some(Self { along, about, load })
+        (!is_none).then_some(Self { along, about, load, is_unknown: false })
     }
 
     /// Whether it is nothing to warn of: the rotor is free along its axis, where nothing pushes it.
     pub fn is_mere_axial(&self) -> bool {
-        let Self { along, about, load } = self;
-        about.is_empty() && load[0] == 0.0 && along.iter().all(|way| (way.x.abs() - 1.0).abs() < SAME)
+        let Self { along, about, load, is_unknown } = self;
+        !is_unknown && about.is_empty() && load[0] == 0.0 && along.iter().all(|way| (way.x.abs() - 1.0).abs() < SAME)
     }
 }
 
@@ -141,7 +145,14 @@ fn words(directions: &[Vector3<f64>]) -> String {
 impl Display for Unheld {
     /// What to warn of.
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let Self { along, about, load } = self;
+        let Self { along, about, load, is_unknown } = self;
+        if *is_unknown {
+            return write!(
+                f,
+                "whether something holds the rotor in all directions is not known: the search for the singular values of its \
+                 stiffness did not converge, or they are not finite"
+            );
+        }
         if self.is_mere_axial() {
             return write!(
                 f,

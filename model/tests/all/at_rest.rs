@@ -158,3 +158,38 @@ fn what_cannot_rest_is_told() {
     let moving = Scene::parse(Path::new("moving.toml"), &start("v_c.y = 1.0")).expect_err("it moves").to_string();
     assert!(moving.contains("start.v_c, start.omega.y and start.omega.z must be 0"), "{moving}");
 }
+
+/// An upright top on a stiff pivot, l above it, with a spring against tilt of this part of its weight's moment; m g l = 0.1962 N·m.
+fn top(part: f64, spin: f64) -> String {
+    let spring = part * 0.5 * 9.81 * 0.04;
+    format!(
+        "[rotor]\nm = 0.5\nJa = 2.5e-4\nJt = 2.0e-4\nl = 0.04\n[start]\nat_rest = true\nomega.x = {spin:?}\nr_c.x = 0.04\ngamma.z = 1e-4\n\
+         [effects.gravity]\ng = {{ x = -9.81 }}\n[effects.support]\nc1 = 1e5\nc2 = {spring:?}\n"
+    )
+}
+
+#[test]
+fn exact_a_top_on_a_weak_spring_leans_where_its_loads_balance_and_it_is_stable() {
+    for part in [0.5, 0.8, 0.95] {
+        let mut leaning = Named::started(&top(part, 0.0));
+        let tilt = libm::hypot(leaning.get("gamma.y"), leaning.get("gamma.z"));
+        // c2 θ = m g l sin θ, θ ≠ 0
+        let exact = oracles::numerics::root(|angle| part * angle - libm::sin(angle), 0.1, 3.0);
+        within("tilt", (tilt / exact - 1.0).abs(), 1e-9);
+        assert_eq!(leaning.simulation.growth(), None);
+    }
+    // A spring that is strong enough, or a spin that is fast enough, holds it upright.
+    for (part, spin) in [(1.2, 0.0), (0.5, 400.0)] {
+        let mut upright = Named::started(&top(part, spin));
+        within("upright", libm::hypot(upright.get("gamma.y"), upright.get("gamma.z")), 1e-9);
+    }
+}
+
+#[test]
+fn regress_at_rest_without_a_stable_place_is_the_balance_that_is_there() {
+    let text = "[rotor]\nm = 6.0\nJa = 0.01\nJt = 0.06\n[start]\nat_rest = true\nomega.x = 100.0\nr_c.y = 20e-6\n\
+        [[effects.bearing]]\nposition = 0.15\nkyy = -2e5\nkzz = -2e5\n";
+    let mut rotor = Named::started(text);
+    within("its place", (rotor.get("r_c.y") + 0.15 * rotor.get("axis.y")).abs(), 1e-12);
+    assert!(rotor.simulation.growth().is_some(), "and its growth is reported");
+}

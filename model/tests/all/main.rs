@@ -34,6 +34,7 @@ mod loads;
 mod machines;
 mod motion;
 mod motor;
+mod negative_springs;
 mod order;
 mod ordinary;
 mod paper;

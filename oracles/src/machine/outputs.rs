@@ -30,11 +30,7 @@ impl Machine {
         }
         loads.extend(each("bearing", self.bearings.len(), &["F"]));
         loads.extend(each("rub", self.rubs.len(), &["F"]));
-        let torques = [
-            (self.motor.is_some(), "motor.tau"),
-            (self.drag.is_some(), "drag.tau"),
-            (self.imposed_speed, "imposed_speed.tau"),
-        ];
+        let torques = [(self.motor.is_some(), "motor.tau"), (self.imposed_speed, "imposed_speed.tau")];
         loads.extend(torques.iter().filter(|(acts, _)| *acts).map(|(_, name)| String::from(*name)));
         let stations = [each("port", self.ports.len(), &["r", "v"]), each("probe", probes.len(), &["r", "v"])].concat();
         let excursions = loads.into_iter().chain(["v_c".into()]).chain(stations).map(|name| (name, Beside::Excursion));
@@ -73,10 +69,6 @@ impl Run {
         }
         if machine.motor.is_some() {
             all.push(number(laws.motor(self.t, &motion, &self.inputs, y[at::TORQUE])[0]));
-        }
-        if let Some([linear, quadratic]) = machine.drag {
-            let speed = motion.omega.dot(&axis);
-            all.push(number(-(linear + quadratic * speed.abs()) * speed));
         }
         if machine.imposed_speed {
             all.push(number(laws.imposing(self.t, y, &self.inputs)));

@@ -10,3 +10,4 @@ mod numerics;
 mod paper;
 mod rigid_body;
 mod top;
+mod whirl;

@@ -9,6 +9,8 @@ use std::fmt::Write;
 /// All of it, in Markdown.
 pub fn table(diagram: &Diagram) -> String {
     let mut text = format!("{}: {}\n\n", diagram.scene.name, diagram.scene.title);
+    let speeds: Vec<_> = diagram.campbell.steady.iter().map(|steady| steady.speed).collect();
+    text += &crate::speeds::told(&speeds);
     text += "Balanced, drives off, the spin held; about the steady state at each speed.\n\n";
     critical_speeds(diagram, &mut text);
     stability(diagram, &mut text);
@@ -62,7 +64,7 @@ fn stability(diagram: &Diagram, text: &mut String) {
         let _ = writeln!(text, "Mode {} ({direction}) grows from {from} to {to} rad/s.", number(branch));
     }
     if !diagram.campbell.grows() {
-        *text += "No mode grows in this range.\n";
+        *text += "No mode grows at any of these speeds.\n";
     }
     *text += "\n";
 }

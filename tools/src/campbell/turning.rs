@@ -1,6 +1,7 @@
 //! A body that is not symmetric about its axis: its equations change as it turns, so it has no modes of constant frequency. What small
 //! motions are multiplied by in a revolution (Floquet) tells how they grow, and their frequencies but for whole multiples of the spin.
 
+use super::sums;
 use crate::numbers::{SHOWN, rounded, rpm, spread};
 use crate::{doubts, rows, speeds};
 use anyhow::{Context, Result, bail};
@@ -13,6 +14,11 @@ use split_rotor_model::scene::Scene;
 /// Below this part of the highest speed no revolution is looked at: it lasts long \[1].
 const LOWEST: f64 = 0.05;
 
+/// About a speed at which two whirl frequencies add up to twice the spin, growth is looked at at so many speeds on each side, at most so far
+/// away, over the part of the speed by which the moments of inertia differ \[1]; then so often at half the distance.
+const BESIDE: u32 = 4;
+const WIDE: f64 = 0.5;
+
 /// A range in which motions grow is narrowed down so often: its ends are found to 1e-6 of a step.
 const NARROWED: u32 = 20;
 
@@ -22,8 +28,14 @@ pub struct Turning<'s> {
     pub scene: &'s Scene,
     /// A motion that repeats with each revolution, at each speed.
     pub orbits: Vec<Orbit>,
-    /// At so many speeds none was found.
-    missed: u32,
+    /// Why none was found, at the other speeds.
+    missed: Vec<Obstacle>,
+    /// Speeds that were looked at besides, about those at which two whirl frequencies add up to twice the spin [rad/s].
+    sums: Vec<f64>,
+    /// Why those were not found.
+    no_sums: Option<String>,
+    /// The largest distance of speeds that were asked for [rad/s].
+    apart: f64,
     /// Where motions begin or cease to grow [rad/s].
     thresholds: Vec<f64>,
 }
@@ -35,19 +47,44 @@ impl<'s> Turning<'s> {
         let all = speeds::on_its_side(scene, None, ends, steps).with_context(file)?;
         let fastest = all.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
         let rotating = Rotating::of(&balanced(&scene.parameters())).with_context(file)?;
-        let (mut orbits, mut missed): (Vec<Orbit>, u32) = (Vec::new(), 0);
-        for speed in all.into_iter().filter(|speed| speed.abs() >= LOWEST * fastest) {
-            match rotating.orbit(speed, orbits.last()) {
+        let (mut orbits, mut missed): (Vec<Orbit>, Vec<Obstacle>) = (Vec::new(), Vec::new());
+        let all: Vec<_> = all.into_iter().filter(|speed| speed.abs() >= LOWEST * fastest).collect();
+        for speed in &all {
+            match rotating.orbit(*speed, orbits.last()) {
                 Ok(orbit) => orbits.push(orbit),
-                Err(_) => missed += 1,
+                Err(obstacle) => missed.push(obstacle),
             }
         }
         if orbits.is_empty() {
-            bail!("{}: at none of these speeds a motion was found that repeats with each revolution", file());
+            let why = missed.first().map_or_else(String::new, |obstacle| format!(": {obstacle}"));
+            bail!("{}: at none of these speeds a motion was found that repeats with each revolution{why}", file());
+        }
+        let apart = all.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        // Both sides of 0 on their own: the frequencies bend there.
+        let sides =
+            [(all[0], all[all.len() - 1].min(-LOWEST * fastest)), (all[0].max(LOWEST * fastest), all[all.len() - 1])];
+        let sought = sides
+            .into_iter()
+            .filter(|(first, last)| first < last)
+            .map(|(first, last)| sums::speeds(scene, first, last));
+        let (sums, no_sums) = match sought.collect::<Result<Vec<_>, _>>() {
+            Ok(found) => (found.concat(), None),
+            Err(obstacle) => (Vec::new(), Some(obstacle.to_string())),
+        };
+        let sums: Vec<_> = sums.into_iter().filter(|speed| speed.abs() >= LOWEST * fastest).collect();
+        for sum in &sums {
+            let far = (WIDE * part_apart(scene) * sum.abs()).min(0.5 * apart);
+            orbits.extend(
+                beside_a_sum(&rotating, &orbits, *sum, far)
+                    .map_err(|obstacle| missed.push(obstacle))
+                    .unwrap_or_default(),
+            );
+            orbits.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+            orbits.dedup_by(|a, b| a.speed == b.speed);
         }
         let changes = orbits.windows(2).filter(|pair| pair[0].loss().is_some() != pair[1].loss().is_some());
         let thresholds = changes.map(|pair| threshold(&rotating, pair)).collect::<Result<_, _>>().with_context(file)?;
-        Ok(Self { scene, orbits, missed, thresholds })
+        Ok(Self { scene, orbits, missed, sums, no_sums, apart, thresholds })
     }
 
     /// All of it.
@@ -56,6 +93,8 @@ impl<'s> Turning<'s> {
             "scene": self.scene.name,
             "title": self.scene.title,
             "floquet": true,
+            "not_found": self.missed.iter().map(Obstacle::to_string).collect::<Vec<_>>(),
+            "looked_closer_at": self.sums,
             "thresholds": self.thresholds,
             "tables": doubts::tables(self.scene),
             "growing": self.orbits.iter().filter(|orbit| orbit.loss().is_some()).map(|orbit| orbit.speed).collect::<Vec<_>>(),
@@ -81,10 +120,35 @@ impl<'s> Turning<'s> {
         all.map(row).collect()
     }
 
+    /// Which speeds were looked at, in words.
+    fn looked_at(&self) -> String {
+        let [first, last] = [0, self.orbits.len() - 1].map(|n| rounded(self.orbits[n].speed));
+        let mut text = format!(
+            "Looked at: {} speeds from {first} to {last} rad/s, at most {} rad/s apart",
+            self.orbits.len(),
+            rounded(self.apart)
+        );
+        match (&self.no_sums, &self.sums[..]) {
+            (Some(obstacle), _) => {
+                text += &format!("; where two whirl frequencies add up to twice the spin is not known: {obstacle}")
+            }
+            (None, []) => text += "; no two whirl frequencies add up to twice the spin there",
+            (None, sums) => {
+                let sums: Vec<_> = sums.iter().map(|speed| rounded(*speed)).collect();
+                text += &format!(
+                    ", and closer where two whirl frequencies add up to twice the spin: {} rad/s",
+                    sums.join(", ")
+                );
+            }
+        }
+        text + ". Elsewhere a band narrower than the distance of the speeds would not be seen (--steps).\n"
+    }
+
     /// For people, in Markdown.
     pub(super) fn table(&self) -> String {
         let mut text = format!("{}: {}\n\n", self.scene.name, self.scene.title);
-        text += "The body is not symmetric about its axis, so its equations change as it turns (Floquet): growth of small motions beside those that \
+        text += &self.looked_at();
+        text += "\nThe body is not symmetric about its axis, so its equations change as it turns (Floquet): growth of small motions beside those that \
                  repeat with each revolution, balanced, drives off, the spin imposed. Frequencies count but for whole multiples of the spin.\n\n";
         for threshold in &self.thresholds {
             let before = self.orbits.iter().rfind(|orbit| orbit.speed < *threshold);
@@ -92,16 +156,15 @@ impl<'s> Turning<'s> {
             let (verb, at) = (if ceases { "cease" } else { "begin" }, rounded(*threshold));
             text += &format!("Small motions {verb} to grow at {at} rad/s ({} rpm).\n", rounded(rpm(*threshold)));
         }
-        if self.missed > 0 {
+        if let Some(obstacle) = self.missed.first() {
             text += &format!(
-                "At {} of the speeds no motion was found that repeats with each revolution; they are left out.\n",
-                self.missed
+                "At {} of the speeds nothing is known of small motions; they are left out. The first: {obstacle}.\n",
+                self.missed.len()
             );
         }
-        let [first, last] = [0, self.orbits.len() - 1].map(|n| self.orbits[n].speed);
         match self.orbits.iter().filter(|orbit| orbit.loss().is_some()).count() {
-            0 => text += &format!("None grows from {} to {} rad/s.\n", rounded(first), rounded(last)),
-            count if count == self.orbits.len() => text += "They grow at all these speeds.\n",
+            0 => text += "None grows at any speed that was looked at.\n",
+            count if count == self.orbits.len() => text += "They grow at all speeds that were looked at.\n",
             _ => {}
         }
         text += "\n| speed [rad/s] | fastest growth [1/s] | its frequency [rad/s] | multiplier |\n|--:|--:|--:|--:|\n";
@@ -115,6 +178,45 @@ impl<'s> Turning<'s> {
         let below = doubts::words(self.scene, &speeds);
         if below.is_empty() { text } else { text + "\n" + &below }
     }
+}
+
+/// By which part of their sum the transverse moments of inertia of the balanced body differ \[1].
+fn part_apart(scene: &Scene) -> f64 {
+    let body = balanced(&scene.parameters()).shape().inertia();
+    let excess = body.asymmetric.map_or(0.0, |asymmetric| asymmetric.excess.abs());
+    excess / (2.0 * body.per_jt)
+}
+
+/// The motion at a speed [rad/s] at which two whirl frequencies add up to twice the spin, and where that does not grow, the one that grows
+/// fastest up to so far [rad/s] from it: the body's asymmetry shifts the band a little.
+fn beside_a_sum(rotating: &Rotating, known: &[Orbit], sum: f64, far: f64) -> Result<Vec<Orbit>, Obstacle> {
+    let near = known.iter().min_by(|a, b| (a.speed - sum).abs().total_cmp(&(b.speed - sum).abs()));
+    let at = |speed: f64| rotating.orbit(speed, near);
+    let mut found = vec![at(sum)?];
+    if far <= 0.0 {
+        return Ok(found);
+    }
+    let steps = (1..=BESIDE).flat_map(|n| [1.0, -1.0].map(|side| side * far * f64::from(n) / f64::from(BESIDE)));
+    for step in steps {
+        if found.iter().any(|orbit| orbit.loss().is_some()) {
+            return Ok(found);
+        }
+        found.push(at(sum + step)?);
+    }
+    // Between them, beside that which comes nearest to growth.
+    let growth = |orbit: &Orbit| exponents(orbit).first().map_or(f64::NEG_INFINITY, |first| first.re);
+    let mut step = far / f64::from(BESIDE);
+    for _ in 0..BESIDE {
+        step *= 0.5;
+        let highest = found.iter().max_by(|a, b| growth(a).total_cmp(&growth(b))).map_or(sum, |orbit| orbit.speed);
+        for speed in [highest - step, highest + step] {
+            found.push(at(speed)?);
+            if found[found.len() - 1].loss().is_some() {
+                return Ok(found);
+            }
+        }
+    }
+    Ok(found)
 }
 
 /// Where motions begin or cease to grow between two speeds, by bisection.
@@ -158,5 +260,36 @@ mod tests {
         for (found, exact) in turning.thresholds.iter().zip(exact) {
             assert!((found - exact).abs() < 1e-5 * exact, "{found} {exact}");
         }
+    }
+
+    /// It grows between 377.726 and 380.980 rad/s, by Hill's method on the same equations; the speeds are 3.5 to 4.1 rad/s apart, and none of
+    /// them lies within.
+    const BAND: [f64; 2] = [377.726, 380.980];
+
+    /// Of its ends [rad/s]: measured 0.19. The slopes of a revolution of a rotor that stands still are differences over 1e-10, in which its own error
+    /// counts: multipliers are known to 1e-3 or better, and at the band's ends growth falls to 0.
+    const BOUND: f64 = 0.4;
+
+    #[test]
+    fn regress_a_band_between_two_speeds_is_found() {
+        let text = "[rotor]\nm = 0.66179\nJa = 3.157e-4\nJt = 1.88504e-3\n[effects.asymmetry]\nJt2 = 2.01272e-3\n\
+            [[effects.bearing]]\nposition = -0.04162\nkyy = 57202.0\nkzz = 52216.0\ncyy = 3.115\nczz = 2.843\nkxx = 51165.0\ncxx = 31.15\n\
+            [[effects.bearing]]\nposition = 0.05674\nkyy = 54103.0\nkzz = 40284.0\ncyy = 3.753\nczz = 2.978\n";
+        let scene = Scene::parse(Path::new("band.toml"), text).expect("a scene");
+        let turning = Turning::of(&scene, Some(&[366.0, 394.0]), 3).expect("motions that repeat");
+        let table = turning.table();
+        assert!(!table.contains("None grows"), "{table}");
+        assert_eq!(turning.thresholds.len(), 2, "{table}");
+        for (found, exact) in turning.thresholds.iter().zip(BAND) {
+            assert!((found - exact).abs() < BOUND, "{found} {exact}");
+        }
+        assert!(table.contains("closer where two whirl frequencies add up to twice the spin"), "{table}");
+        // Below the band there is a sum of frequencies too, or none; nothing is said of speeds at which nobody looked.
+        let below = Turning::of(&scene, Some(&[300.0, 340.0]), 3).expect("motions that repeat").table();
+        assert!(
+            below.contains("None grows at any speed that was looked at")
+                && below.contains("at most 20.0000 rad/s apart"),
+            "{below}"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! The response by the laws as they stand: motions that repeat with each revolution, followed through the speeds.
 
-use super::{Found, Station, once};
+use super::{Found, Sight, Station, once};
 use crate::numbers::{micrometres, rounded, rpm};
 use crate::rows::Row;
 use serde_json::json;
@@ -99,18 +99,22 @@ pub(super) fn words(found: &Found, text: &mut String) {
     if of(found).all(|branch| found.stations.iter().all(|station| peaks(branch, station).next().is_none())) {
         return;
     }
-    *text += "\n| largest found at [rad/s] | [rpm] | station | half axes [µm] | farthest from the line [µm] | lasts |\n|--:|--:|---|---|--:|---|\n";
-    for (station, peak) in found
+    *text += "\n| largest found at [rad/s] | [rpm] | station | seen along | 0-to-peak [µm] | half axes [µm] | farthest from the line [µm] | lasts |\n|--:|--:|---|---|--:|---|--:|---|\n";
+    for (station, (sight, peak)) in found
         .stations
         .iter()
         .flat_map(|station| of(found).flat_map(move |branch| peaks(branch, station).map(move |peak| (station, peak))))
     {
         let (speed, path) = (peak.speed, peak.path(station.position));
-        let [major, minor, farthest] = [path.once.major(), path.once.minor(), path.farthest].map(micrometres);
+        let all = [sight.of(&path.once), path.once.major(), path.once.minor(), path.farthest];
+        let [seen, major, minor, farthest] = all.map(micrometres);
         let lasts = if peak.loss().is_none() { "yes" } else { "no" };
         let name = station.title();
         let (rounded, rpm) = (rounded(speed), rounded(rpm(speed)));
-        *text += &format!("| {rounded} | {rpm} | {name} | {major} and {minor} | {farthest} | {lasts} |\n");
+        *text += &format!(
+            "| {rounded} | {rpm} | {name} | {} | {seen} | {major} and {minor} | {farthest} | {lasts} |\n",
+            sight.name()
+        );
     }
 }
 
@@ -134,15 +138,17 @@ fn tell(branch: &Branch, text: &mut String) {
     *text += &match &branch.end {
         End::Range => String::new(),
         End::Long => "  They go on; with more --steps they are followed further.\n".into(),
-        End::Lost(_) => format!(
-            "  Beyond {last} they could not be followed: a contact may begin or end there, or nothing damps the whirl.\n"
+        End::Lost(obstacle) => format!(
+            "  Beyond {last} they could not be followed: a contact may begin or end there, or nothing damps the whirl ({obstacle}).\n"
         ),
     };
 }
 
-/// The motions in which the orbit of a station is larger than beside them.
-fn peaks<'b>(branch: &'b Branch, station: &'b Station) -> impl Iterator<Item = &'b Orbit> {
-    let size = |orbit: &Orbit| orbit.path(station.position).once.major();
-    let is_peak = move |three: &&[Orbit]| size(&three[1]) > size(&three[0]) && size(&three[1]) >= size(&three[2]);
-    branch.orbits.windows(3).filter(is_peak).map(|three| &three[1])
+/// The motions in which what is seen of a station is larger than beside them.
+fn peaks<'b>(branch: &'b Branch, station: &'b Station) -> impl Iterator<Item = (Sight, &'b Orbit)> {
+    Sight::ALL.into_iter().flat_map(move |sight| {
+        let size = move |orbit: &Orbit| sight.of(&orbit.path(station.position).once);
+        let is_peak = move |three: &&[Orbit]| size(&three[1]) > size(&three[0]) && size(&three[1]) >= size(&three[2]);
+        branch.orbits.windows(3).filter(is_peak).map(move |three| (sight, &three[1]))
+    })
 }

@@ -1,6 +1,6 @@
 //! The table: where the orbits are largest, and how large they are at a few speeds.
 
-use super::{Found, Linear, lag, nonlinear};
+use super::{Found, Linear, Peak, lag, nonlinear};
 use crate::doubts::{mark, words};
 use crate::numbers::{SHOWN, micrometres, rounded, rpm, spread};
 use std::fmt::Write;
@@ -8,6 +8,7 @@ use std::fmt::Write;
 /// All of it, in Markdown.
 pub fn table(found: &Found) -> String {
     let mut text = format!("{}: {}\n\n", found.scene.name, found.scene.title);
+    text += &crate::speeds::told(&found.speeds);
     text += "Unbalance response, drives off, the spin held.\n\n";
     match &found.linear {
         Ok(linear) => {
@@ -30,18 +31,20 @@ fn peaks(found: &Found, linear: &Linear, text: &mut String) {
         *text += "No resonance peak in this range.\n\n";
         return;
     }
-    *text += "| peak at [rad/s] | [rpm] | station | half axes [µm] | behind the mark, y [°] |\n|--:|--:|---|---|--:|\n";
+    *text += "Peaks of each station, 0-to-peak, as a fixed probe along y or along z sees them, and of the larger semi-axis of the orbit.\n\n";
+    *text += "| peak at [rad/s] | [rpm] | station | seen along | 0-to-peak [µm] | half axes [µm] | behind the mark, y [°] |\n\
+              |--:|--:|---|---|--:|---|--:|\n";
     for (station, peaks) in found.stations.iter().zip(&linear.peaks) {
-        for peak in peaks {
-            let (speed, name) = (peak.speed, station.title());
+        for Peak { sight, point } in peaks {
+            let (speed, name) = (point.speed, station.title());
             let mark = mark(found.scene, speed);
-            let _ = write!(text, "| {}{mark} | {} | {name} | ", rounded(speed), rounded(rpm(speed)));
-            let _ = match peak.orbit(station) {
+            let _ = write!(text, "| {}{mark} | {} | {name} | {} | ", rounded(speed), rounded(rpm(speed)), sight.name());
+            let _ = match point.orbit(station) {
                 Some(orbit) => {
-                    let [major, minor] = [orbit.major(), orbit.minor()].map(micrometres);
-                    writeln!(text, "{major} and {minor} | {:.1} |", lag(speed, &orbit))
+                    let [seen, major, minor] = [sight.of(&orbit), orbit.major(), orbit.minor()].map(micrometres);
+                    writeln!(text, "{seen} | {major} and {minor} | {:.1} |", lag(speed, &orbit))
                 }
-                None => writeln!(text, "no bound: nothing damps it | - |"),
+                None => writeln!(text, "no bound: nothing damps it | - | - |"),
             };
         }
     }

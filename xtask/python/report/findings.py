@@ -76,6 +76,9 @@ def _passed(result, view):
     if view is None or view.floquet:
         return
     spin = np.abs(result.columns["omega_phi"])
+    # An unbalance that is missing drives nothing here, and the machine that is built will have one.
+    has_unbalance = bool(result.scene.blocks("unbalance"))
+    drives, judged = ("an unbalance drives", "bad") if has_unbalance else ("an unbalance would drive (this scene has none)", "")
     alike, unknown = {}, []
     for crossing in view.critical:
         speed, ratio = crossing["speed_rad_s"], crossing["damping_ratio"]
@@ -96,8 +99,8 @@ def _passed(result, view):
         if not how:
             factors = ", ".join(number(0.5 / crossing["damping_ratio"], 2) for crossing in crossings)
             how = f"amplification factor{several} {factors} (from {SHARP} on it counts as critical, API 617)"
-        what = f"critical speed{several} that an unbalance drives, {where} the speeds of this run, {_range(spin)}; {how}"
-        yield Finding(_in_rpm(_numbers(crossings)), what, "bad")
+        what = f"critical speed{several} that {drives}, {where} the speeds of this run, {_range(spin)}; {how}"
+        yield Finding(_in_rpm(_numbers(crossings)), what, judged)
     if unknown:
         several = "s" if len(unknown) > 1 else ""
         what = f"critical speed{several} beyond a table: coefficients of {_names(unknown)} are held there, so API 617 does not judge them"
@@ -141,7 +144,9 @@ def _stability(result, view, touches=False, unheld=""):
         bounds = ", ".join(rpm(threshold) + _when(result, threshold) for threshold, *_ in view.thresholds)
         bounds = f"; begins or ceases at {bounds}" if bounds else ""
         what = f"fastest growth {number(rate, 3)}\u00a01/s at {rpm(speed)}, beside the motion that repeats (Floquet){bounds}"
-        return Finding("unstable", what, "bad") if speed in view.growing else Finding("nothing grows", what)
+        if speed in view.growing:
+            return Finding("unstable", what, "bad")
+        return Finding("nothing grows", f"{what}; {_looked(view, spin)}")
     # Nothing is said of speeds at which nobody looked.
     looked = [row["speed_rad_s"] for row in view.modes]
     spin = np.clip(spin, min(looked), max(looked))
@@ -149,7 +154,7 @@ def _stability(result, view, touches=False, unheld=""):
     ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
     range_ = _range(spin)
     if abs(ratio) <= linear.NEITHER:
-        return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}")
+        return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}; {_looked(view, spin)}")
     size = linear.decrement(ratio)
     how = f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
     if ratio < 0.0:
@@ -160,10 +165,17 @@ def _stability(result, view, touches=False, unheld=""):
         in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
         grows = f"grows by e in {in_}" if in_ else "grows"
         return Finding("unstable", f"{row['direction']} mode {grows} {at}, {how}{bounds}", "bad")
-    what = f"at {range_}; least {how}, {row['direction']} mode {at}"
+    what = f"at {range_}; least {how}, {row['direction']} mode {at}; {_looked(view, spin)}"
     if unheld:
         return Finding("no mode grows", f"beside the directions in which nothing holds the rotor, {what}")
     return Finding("stable", f"while nothing touches, {what}") if touches else Finding("stable", what, "good")
+
+
+def _looked(view, spin):
+    """At how many speeds of the linear view, of those of a run [rad/s], this was looked at."""
+    speeds = np.unique([row["speed_rad_s"] for row in view.modes])
+    within = int(np.count_nonzero((speeds >= spin.min()) & (speeds <= spin.max())))
+    return f"looked at {within} speeds within those of the run" if within > 1 else "looked at the speeds nearest to that of the run"
 
 
 def _when(result, threshold):

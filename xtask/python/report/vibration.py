@@ -99,6 +99,8 @@ def waterfall(result, view):
     seen = _seen(result)
     if not _sweeps(seen) or np.median(seen[0][1].whirl) < LASTING * seen[0][1].whirl.max():
         return None
+    if seen[0][1].whirl.max() <= stations.ROUNDING * stations.largest_offset(result.scene, result.columns):
+        return None
     station, t = seen[0]
     time, offset = result.columns["time"], station.offset(result.columns)
     fastest = np.abs(result.columns["omega_phi"]).max() / math.tau

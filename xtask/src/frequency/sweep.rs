@@ -17,7 +17,7 @@ const OF_A_CIRCLE: u32 = 72;
 /// given, to beyond those of the modes.
 pub fn frequencies(steady: &Steady, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "--steps {steps}: at least 2 frequencies are needed");
-    let modes = steady.modes();
+    let modes = steady.modes()?;
     let (from, to) = match ends {
         Some(&[from, to]) => (from, to),
         _ => about(&modes, steady.speed),

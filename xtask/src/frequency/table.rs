@@ -1,8 +1,9 @@
 //! The table: where the answer is largest, and how large it is at a few frequencies.
 
-use super::{Found, Point};
+use super::{Found, Point, is_of_spin};
 use crate::numbers::{rounded, spread};
 use nalgebra::ComplexField;
+use split_rotor_model::linear::Obstacle;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -10,7 +11,7 @@ use std::fmt::Write;
 const SHOWN: usize = 9;
 
 /// All of it, in Markdown.
-pub fn table(found: &Found) -> String {
+pub fn table(found: &Found) -> Result<String, Obstacle> {
     let mut text = format!("{}: {}\n\nFrequency response {}", found.scene.name, found.scene.title, found.between());
     text += ", drives off, the spin held; linear, about the steady state.\n\n";
     if found.peaks.is_empty() {
@@ -19,10 +20,13 @@ pub fn table(found: &Found) -> String {
         rows("peak", found.peaks.iter(), found, &mut text);
     }
     rows("frequency", spread(found.points.len(), SHOWN).map(|n| &found.points[n]), found, &mut text);
-    if found.space.steady.modes().iter().any(|mode| mode.grows()) {
+    if is_of_spin(&found.space.outputs[found.to].name) {
+        let _ = writeln!(text, "{}.", found.held_spin());
+    }
+    if found.space.steady.modes()?.iter().any(|mode| mode.grows()) {
         text += "A mode grows: a run does not settle to this answer.\n";
     }
-    text
+    Ok(text)
 }
 
 fn rows<'p>(name: &str, points: impl Iterator<Item = &'p Point>, found: &Found, text: &mut String) {

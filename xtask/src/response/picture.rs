@@ -46,7 +46,7 @@ fn sizes(found: &Found, area: &Area) -> Drawn {
     let line = |number: usize| {
         let of = |linear: &Linear| {
             let Linear { points, peaks } = linear;
-            let mut all: Vec<_> = points.iter().chain(&peaks[number]).collect();
+            let mut all: Vec<_> = points.iter().chain(peaks[number].iter().map(|peak| &peak.point)).collect();
             all.sort_by(|a: &&Point, b| a.speed.total_cmp(&b.speed));
             let size = |point: &Point| (point.speed, 1e6 * point.size(&found.stations[number]));
             all.into_iter().map(size).collect::<Vec<_>>()

@@ -16,6 +16,8 @@ pub(super) struct Plane {
     axes: [Axis; 2],
     /// The first and the last speed [rad/s].
     ends: [f64; 2],
+    /// How many were looked at.
+    count: usize,
     /// By the value of the second parameter, then of the first: the lowest speed at which a mode grows [rad/s], where there is one.
     rows: Vec<Vec<Option<f64>>>,
 }
@@ -37,7 +39,7 @@ pub(super) fn plane(scene: Scene, against: [&Against; 2], ends: Option<&[f64]>, 
     let cell = |x: f64, y: f64| Ok(lowest(&column(&scene, &at(x, y), &speeds)?, &speeds));
     let row = |&y: &f64| axes[0].values.iter().map(|&x| cell(x, y)).collect::<Result<_>>();
     let rows = axes[1].values.iter().map(row).collect::<Result<_>>()?;
-    Ok(Plane { ends: [speeds[0], speeds[speeds.len() - 1]], scene, axes, rows })
+    Ok(Plane { ends: [speeds[0], speeds[speeds.len() - 1]], count: speeds.len(), scene, axes, rows })
 }
 
 /// The lowest speed [rad/s] at which a mode grows.
@@ -74,7 +76,7 @@ impl Plane {
     }
 
     fn table(&self) -> String {
-        let Self { scene, axes: [x, y], ends, .. } = self;
+        let Self { scene, axes: [x, y], ends, count, .. } = self;
         let [from, to] = ends.map(rounded);
         let columns: Vec<_> = spread(x.values.len(), SHOWN).collect();
         let line = |first: String, cells: &mut dyn Iterator<Item = String>| {
@@ -82,7 +84,7 @@ impl Plane {
         };
         let mut text = format!("{}: {}\n\n", scene.name, scene.title);
         text += &format!(
-            "Lowest speed [rad/s] at which a mode grows. Balanced, drives off, the spin held; from {from} to {to} rad/s.\n\n"
+            "Lowest speed [rad/s] at which a mode grows. Balanced, drives off, the spin held; looked at {count} speeds from {from} to {to} rad/s.\n\n"
         );
         let head = format!("{} down, {} across", y.label(), x.label());
         text += &line(head, &mut columns.iter().map(|&n| rounded(x.values[n])));

@@ -2,6 +2,7 @@
 
 use super::{Column, Map};
 use crate::numbers::{rounded, rpm, spread};
+use crate::speeds;
 use split_rotor_tools::doubts::{mark, words};
 
 /// So many values are shown.
@@ -9,9 +10,9 @@ const SHOWN: usize = 12;
 
 /// All of it, in Markdown.
 pub fn table(map: &Map) -> String {
-    let [from, to] = [map.speeds[0], map.speeds[map.speeds.len() - 1]].map(rounded);
     let mut text = format!("{}: {}\n\n", map.scene.name, map.scene.title);
-    text += &format!("Balanced, drives off, the spin held; from {from} to {to} rad/s.\n\n");
+    text += &speeds::told(&map.speeds);
+    text += "Balanced, drives off, the spin held.\n\n";
     text += &format!(
         "| {} | a mode grows | threshold [rad/s] | [rpm] | whirl there [rad/s] |\n|--:|---|--:|--:|--:|\n",
         map.against.label()
@@ -19,7 +20,8 @@ pub fn table(map: &Map) -> String {
     for column in spread(map.columns.len(), SHOWN).map(|n| &map.columns[n]) {
         let value = rounded(column.value);
         if column.thresholds.is_empty() {
-            text += &format!("| {value} | {} | - | - | - |\n", if column.grows[0] { "everywhere" } else { "nowhere" });
+            let where_ = if column.grows[0] { "at all these speeds" } else { "at none of these speeds" };
+            text += &format!("| {value} | {where_} | - | - | - |\n");
         }
         for at in &column.thresholds {
             let (speed, rpm, whirl) = (rounded(at.speed), rounded(rpm(at.speed)), rounded(at.mode.frequency()));

@@ -5,7 +5,7 @@
 //! are always among them. `UPDATE_GOLDEN=1` writes the table of `docs/random-scenes.md`.
 
 mod cost;
-mod dice;
+pub mod dice;
 mod draw;
 mod fixed;
 mod judge;
