@@ -107,8 +107,8 @@ impl<E: Effects> Rotor<'_, E> {
         // eq. 85: q² = |r|² + |γ|² Jt/m
         let q = r + gamma * (jt * self.frame.body.per_m);
         let turning = k + q * per_h * (jt * self.frame.body.m);
-        // eq. 85: |γ|² + (h |v⊥|)² m/Jt, what moments that cancel leave
-        let tilt = gamma + v * (h * h * self.frame.body.m * self.frame.body.per_jt);
+        // eq. 85: |γ|² + (4 h |v⊥|)² m/Jt, what moments that cancel leave in all stages of a step
+        let tilt = gamma + 16.0 * v * (h * h * self.frame.body.m * self.frame.body.per_jt);
         let [supplied, dissipated] = work(y);
         let work = supplied * supplied + dissipated * dissipated;
         let velocity = v + q * per_h;

@@ -19,7 +19,7 @@ proptest! {
         let chart = if from_e { Chart::FromE } else { Chart::FromMinusE };
         let at = |size: f64, angle: f64| Vector2::new(libm::cos(angle), libm::sin(angle)) * size;
         let (gamma, change) = (at(theta, azimuth), at(1.0, way));
-        let moving = gamma.zip_map(&change, |at, rate| Dual::along(at, rate));
+        let moving = gamma.zip_map(&change, Dual::along);
         let exact = Tilt::<Dual<1>>::new(chart, moving).axis.map(|t| t.eps[0]);
         let found = Tilt::new(chart, gamma).axis_change(&change);
         within("change of the axis", (found - exact).norm(), CHANGE);

@@ -54,6 +54,8 @@ pub struct Run {
     evaluations: usize,
     /// The nearest that the axis came to −e: 1 + e·t.
     nearest: f64,
+    /// The largest force of each ring \[N].
+    hardest: Vec<f64>,
 }
 
 /// What rounding leaves of the change in a step, and of a number itself \[1]: an estimate below is none.
@@ -79,8 +81,22 @@ impl Run {
         }
         laws.take_branches(&y);
         let taken = Vec::new();
-        let (rest, sizes, nearest) = ([0.0; SIZE], [0.0; SIZE], 2.0);
-        Self { laws, inputs, pace, t: 0.0, y, rest, start: y, sizes, next: 0.0, taken, evaluations: 0, nearest }
+        let (rest, sizes, nearest, hardest) = ([0.0; SIZE], [0.0; SIZE], 2.0, vec![0.0; machine.rubs.len()]);
+        Self {
+            laws,
+            inputs,
+            pace,
+            t: 0.0,
+            y,
+            rest,
+            start: y,
+            sizes,
+            next: 0.0,
+            taken,
+            evaluations: 0,
+            nearest,
+            hardest,
+        }
     }
 
     /// Sets an input at the communication point: its value and two derivatives.
@@ -116,6 +132,11 @@ impl Run {
     /// The nearest that the axis came to −e at the end of a step: 1 + e·t.
     pub fn nearest(&self) -> f64 {
         self.nearest
+    }
+
+    /// The largest force of each ring at the end of a step so far \[N].
+    pub fn hardest(&self) -> &[f64] {
+        &self.hardest
     }
 
     /// Moves the communication point to time `until` \[s]; false where the motion has no bounds or costs too much.
@@ -232,7 +253,14 @@ impl Run {
         let way: State = std::array::from_fn(|n| self.y[n] - self.start[n]);
         let sizes = together(&way);
         self.sizes = std::array::from_fn(|n| self.sizes[n].max(sizes[n]));
-        self.nearest = self.nearest.min(1.0 + self.laws.motion(&self.y).axis().x);
+        let motion = self.laws.motion(&self.y);
+        self.nearest = self.nearest.min(1.0 + motion.axis().x);
+        for ((rub, presses), hardest) in self.laws.rubs.iter().zip(&mut self.hardest) {
+            if *presses {
+                let (force, _) = rub.load(&motion.station(rub.position), motion.speed());
+                *hardest = hardest.max(force.norm());
+            }
+        }
         self.taken.last_mut().expect("a step was begun").push((h, columns));
     }
 }

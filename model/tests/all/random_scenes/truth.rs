@@ -120,7 +120,7 @@ impl Truth {
             return Err(Unfit::Grows(growth));
         }
         let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
-        let outputs = outputs(trial, [&in_long_steps, &shown, &shifted], off_by);
+        let outputs = outputs(trial, [&in_long_steps, &shown, &shifted], off_by, fine.hardest());
         let own = largest(own_error);
         if own.is_nan() || own > SURE * growth.max(1.0) {
             return Err(Unfit::Unsure(own));
@@ -161,7 +161,7 @@ fn across(v: &Vector3<f64>) -> f64 {
 }
 
 /// All outputs, their sizes and the reference's own errors.
-fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by: f64) -> Vec<Output> {
+fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by: f64, hardest: &[f64]) -> Vec<Output> {
     let (judged, names) = (trial.judged(), trial.machine.outputs(&trial.probes));
     let from = if judged == 1 { &shown[0] } else { &shown[judged] };
     let value = |n: usize| largest(shown[judged..].iter().map(|now| now.outputs[n].norm()));
@@ -171,6 +171,11 @@ fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by:
     let shifts = output_differences(in_long_steps, shifted, judged);
     let output = |(n, (name, beside)): (usize, (String, Beside))| {
         let size = match beside {
+            // A hard ring is hit for moments, mostly between two points.
+            Beside::Excursion if name.starts_with("rub") => {
+                let ring = usize::from(name.as_bytes()["rub[".len()] - b'1');
+                excursion(n).max(hardest[ring])
+            }
             Beside::Excursion => excursion(n).max(LEAST * value(n)),
             Beside::Size => value(n),
             Beside::Energy => value(potential - 1) + excursion(potential),
