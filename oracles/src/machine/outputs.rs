@@ -1,6 +1,6 @@
 //! What a machine shows beside its motion: loads, torques, energies and stations, by the names that the library gives them.
 
-use super::laws::{Laws, State, at, vector};
+use super::laws::{Laws, Motion, State, at, vector};
 use super::{Machine, Run};
 use crate::rigid_body::joint;
 use crate::rotation;
@@ -18,6 +18,11 @@ pub enum Beside {
 }
 
 impl Machine {
+    /// How far the mass centre may be off the axis at most \[m].
+    pub fn eccentricity(&self) -> f64 {
+        self.unbalances.iter().map(|one| one.mass / self.m * one.radius).sum()
+    }
+
     /// The names of its outputs, vectors without their axes, in the order of [`Run::outputs`], and with what each is compared; probes stand
     /// at these places \[m].
     pub fn outputs(&self, probes: &[f64]) -> Vec<(String, Beside)> {
@@ -46,27 +51,7 @@ impl Run {
         let (laws, y) = (&self.laws, &self.y);
         let motion = laws.motion(y);
         let number = |value: f64| Vector3::new(value, 0.0, 0.0);
-        let mut all = Vec::new();
-        let axis = motion.axis();
-        let gamma = rotation::gamma(&axis);
-        let lean = Vector3::new(0.0, gamma.x, gamma.y);
-        if let Some(support) = machine.support {
-            all.push(laws.spring_force(laws.springs.len() - 1, &motion));
-            all.push(-(lean * support.c[1] + axis.cross(&motion.t_rate) * support.d[1]));
-        }
-        let mut tables = laws.tables.iter();
-        for (n, bearing) in machine.bearings.iter().enumerate() {
-            let table = if bearing.table.is_empty() { None } else { tables.next() };
-            let of_table = table.map(|table| table.force(&motion.station(table.p), motion.speed()));
-            all.push(laws.spring_force(n, &motion) + of_table.unwrap_or_default());
-        }
-        for (rub, presses) in &laws.rubs {
-            all.push(if *presses {
-                rub.load(&motion.station(rub.position), motion.speed()).0
-            } else {
-                Vector3::zeros()
-            });
-        }
+        let mut all = laws.loads_shown(machine, &motion);
         if machine.motor.is_some() {
             all.push(number(laws.motor(self.t, &motion, &self.inputs, y[at::TORQUE])[0]));
         }
@@ -85,6 +70,31 @@ impl Run {
 }
 
 impl Laws {
+    /// The loads of supports, bearings and rings, as [`Run::outputs`] begins with them.
+    pub(super) fn loads_shown(&self, machine: &Machine, motion: &Motion) -> Vec<Vector3<f64>> {
+        let (mut all, axis) = (Vec::new(), motion.axis());
+        let gamma = rotation::gamma(&axis);
+        let lean = Vector3::new(0.0, gamma.x, gamma.y);
+        if let Some(support) = machine.support {
+            all.push(self.spring_force(self.springs.len() - 1, motion));
+            all.push(-(lean * support.c[1] + axis.cross(&motion.t_rate) * support.d[1]));
+        }
+        let mut tables = self.tables.iter();
+        for (n, bearing) in machine.bearings.iter().enumerate() {
+            let table = if bearing.table.is_empty() { None } else { tables.next() };
+            let of_table = table.map(|table| table.force(&motion.station(table.p), motion.speed()));
+            all.push(self.spring_force(n, motion) + of_table.unwrap_or_default());
+        }
+        for (rub, presses) in &self.rubs {
+            all.push(if *presses {
+                rub.load(&motion.station(rub.position), motion.speed()).0
+            } else {
+                Vector3::zeros()
+            });
+        }
+        all
+    }
+
     /// Kinetic and potential energy \[J].
     fn energies(&self, y: &State) -> [f64; 2] {
         let motion = self.motion(y);

@@ -54,8 +54,10 @@ pub struct Run {
     evaluations: usize,
     /// The nearest that the axis came to −e: 1 + e·t.
     nearest: f64,
-    /// The largest force of each ring \[N].
-    hardest: Vec<f64>,
+    machine: Machine,
+    /// The loads at the start, and the largest change of each from there [N, N·m].
+    first: Vec<Vector3<f64>>,
+    farthest: Vec<f64>,
 }
 
 /// What rounding leaves of the change in a step, and of a number itself \[1]: an estimate below is none.
@@ -81,7 +83,9 @@ impl Run {
         }
         laws.take_branches(&y);
         let taken = Vec::new();
-        let (rest, sizes, nearest, hardest) = ([0.0; SIZE], [0.0; SIZE], 2.0, vec![0.0; machine.rubs.len()]);
+        let first = laws.loads_shown(machine, &laws.motion(&y));
+        let (machine, farthest) = (machine.clone(), vec![0.0; first.len()]);
+        let (rest, sizes, nearest) = ([0.0; SIZE], [0.0; SIZE], 2.0);
         Self {
             laws,
             inputs,
@@ -95,7 +99,9 @@ impl Run {
             taken,
             evaluations: 0,
             nearest,
-            hardest,
+            machine,
+            first,
+            farthest,
         }
     }
 
@@ -134,9 +140,10 @@ impl Run {
         self.nearest
     }
 
-    /// The largest force of each ring at the end of a step so far \[N].
-    pub fn hardest(&self) -> &[f64] {
-        &self.hardest
+    /// How far each load of supports, bearings and rings went from the start so far, by the ends of all steps, in the order of
+    /// [`Run::outputs`] [N, N·m].
+    pub fn farthest(&self) -> &[f64] {
+        &self.farthest
     }
 
     /// Moves the communication point to time `until` \[s]; false where the motion has no bounds or costs too much.
@@ -255,11 +262,10 @@ impl Run {
         self.sizes = std::array::from_fn(|n| self.sizes[n].max(sizes[n]));
         let motion = self.laws.motion(&self.y);
         self.nearest = self.nearest.min(1.0 + motion.axis().x);
-        for ((rub, presses), hardest) in self.laws.rubs.iter().zip(&mut self.hardest) {
-            if *presses {
-                let (force, _) = rub.load(&motion.station(rub.position), motion.speed());
-                *hardest = hardest.max(force.norm());
-            }
+        for (load, (first, farthest)) in
+            self.laws.loads_shown(&self.machine, &motion).iter().zip(self.first.iter().zip(&mut self.farthest))
+        {
+            *farthest = farthest.max((load - first).norm());
         }
         self.taken.last_mut().expect("a step was begun").push((h, columns));
     }

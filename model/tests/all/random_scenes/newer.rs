@@ -81,12 +81,17 @@ impl Draw {
         speeds.dedup_by(|next, before| *next - *before < 0.02 * reached);
         // Between nodes the damping along y and z is at least the least of the nodes, so that what couples them is possible.
         let [least, skew] = [c * dice.decades(0.01, 1.0), if dice.chance(0.3) { c } else { 0.0 }];
+        let stands = self.spin == 0.0;
         let node = |speed: f64| {
             let mut along = || k * dice.within(-0.3, 1.0);
             let [kyy, kzz] = [along(), along()];
-            let cross = if skew == 0.0 { 0.0 } else { k * dice.within(-0.2, 0.2) };
+            let mut cross = if skew == 0.0 { 0.0 } else { k * dice.within(-0.2, 0.2) };
             let [cyy, czz] = [0, 1].map(|_| least + c * dice.within(0.0, 1.0));
-            let (even, skew) = (0.7 * least * dice.within(-1.0, 1.0), skew * dice.within(-1.0, 1.0));
+            let (mut even, mut skew) = (0.7 * least * dice.within(-1.0, 1.0), skew * dice.within(-1.0, 1.0));
+            if stands && speed == 0.0 {
+                // What couples jumps there, and a rotor that stands is on neither side.
+                (cross, even, skew) = (0.0, 0.0, 0.0);
+            }
             Node { speed, k: [[kyy, cross], [-cross, kzz]], c: [[cyy, even + skew], [even - skew, czz]] }
         };
         speeds.into_iter().map(node).collect()

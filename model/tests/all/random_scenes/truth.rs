@@ -120,7 +120,7 @@ impl Truth {
             return Err(Unfit::Grows(growth));
         }
         let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
-        let outputs = outputs(trial, [&in_long_steps, &shown, &shifted], off_by, fine.hardest());
+        let outputs = outputs(trial, [&in_long_steps, &shown, &shifted], off_by, fine.farthest());
         let own = largest(own_error);
         if own.is_nan() || own > SURE * growth.max(1.0) {
             return Err(Unfit::Unsure(own));
@@ -161,22 +161,23 @@ fn across(v: &Vector3<f64>) -> f64 {
 }
 
 /// All outputs, their sizes and the reference's own errors.
-fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by: f64, hardest: &[f64]) -> Vec<Output> {
+fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by: f64, farthest: &[f64]) -> Vec<Output> {
     let (judged, names) = (trial.judged(), trial.machine.outputs(&trial.probes));
     let from = if judged == 1 { &shown[0] } else { &shown[judged] };
     let value = |n: usize| largest(shown[judged..].iter().map(|now| now.outputs[n].norm()));
     let excursion = |n: usize| largest(shown[judged..].iter().map(|now| (now.outputs[n] - from.outputs[n]).norm()));
     let potential = names.len() - 1;
+    let turning = largest(shown.iter().map(|now| now.motion.omega.norm()));
     let own = output_differences(in_long_steps, shown, judged);
     let shifts = output_differences(in_long_steps, shifted, judged);
     let output = |(n, (name, beside)): (usize, (String, Beside))| {
         let size = match beside {
             // A hard ring is hit for moments, mostly between two points.
-            Beside::Excursion if name.starts_with("rub") => {
-                let ring = usize::from(name.as_bytes()["rub[".len()] - b'1');
-                excursion(n).max(hardest[ring])
+            Beside::Excursion if n < farthest.len() && judged == 1 => {
+                excursion(n).max(farthest[n]).max(LEAST * value(n))
             }
-            Beside::Excursion => excursion(n).max(LEAST * value(n)),
+            // A velocity of the axis is known to the last digits of that of the mass centre.
+            Beside::Excursion => excursion(n).max(LEAST * value(n)).max(LEAST * trial.machine.eccentricity() * turning),
             Beside::Size => value(n),
             Beside::Energy => value(potential - 1) + excursion(potential),
         };
