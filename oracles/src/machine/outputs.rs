@@ -58,7 +58,8 @@ impl Run {
         if machine.imposed_speed {
             all.push(number(laws.imposing(self.t, y, &self.inputs)));
         }
-        all.push(motion.v_c);
+        // Along e only rounding may move it.
+        all.push(Vector3::new(0.0, motion.v_c.y, motion.v_c.z));
         all.extend(machine.ports.iter().flat_map(|p| motion.station(*p)));
         // A probe looks across e.
         all.extend(probes.iter().flat_map(|p| motion.station(*p).map(|v| Vector3::new(0.0, v.y, v.z))));

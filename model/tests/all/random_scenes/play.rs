@@ -201,7 +201,10 @@ impl Rig for Ours {
             let find = |name: &str| self.named.scene.variables.iter().find(|one| one.name == name).map(|one| one.place);
             let places = |name: &str| match find(name) {
                 Some(place) => [Some(place), None, None],
-                None => ["x", "y", "z"].map(|axis| find(&format!("{name}.{axis}"))),
+                None => ["x", "y", "z"].map(|axis| {
+                    let is_shown = (name, axis) != ("v_c", "x");
+                    is_shown.then(|| find(&format!("{name}.{axis}"))).flatten()
+                }),
             };
             self.outputs = trial.machine.outputs(&trial.probes).iter().map(|(name, _)| places(name)).collect();
         }
