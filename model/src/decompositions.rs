@@ -15,10 +15,14 @@ const ITERATIONS: usize = 500;
 /// Each error is tried with the matrix itself, and then with so many reflections of it.
 const REFLECTIONS: usize = 8;
 
+/// What is added to all eigenvalues, over the largest entry \[1]: nothing first.
+const SHIFTS: [f64; 3] = [0.0, 0.5, -0.3];
+
 /// The eigenvalues of a matrix, in the matrix's unit. None where no search converges, or an entry is not finite.
 ///
 /// nalgebra's QR iteration has no exceptional shifts: of matrices with symmetric spectra, as those of undamped rotors, it may go in circles. A
-/// reflection has the same eigenvalues and leads it elsewhere.
+/// reflection has the same eigenvalues and leads it elsewhere. And it compares what it leaves out with the eigenvalues beside that, which may
+/// be 0, several times, where nothing holds a rotor: of the matrix and a multiple of the identity none is.
 pub fn eigenvalues<D>(matrix: &OMatrix<f64, D, D>) -> Option<OVector<Complex<f64>, D>>
 where
     D: Dim + DimSub<U1>,
@@ -27,9 +31,18 @@ where
     if !matrix.iter().all(|entry| entry.is_finite()) {
         return None;
     }
-    let tried = ERRORS.into_iter().flat_map(|error| (0..=REFLECTIONS).map(move |number| (error, number)));
-    let mut forms = tried.filter_map(|(error, number)| Schur::try_new(reflected(matrix, number), error, ITERATIONS));
-    Some(forms.next()?.complex_eigenvalues())
+    let tried = ERRORS.into_iter().flat_map(|error| {
+        let of_shift = move |shift: f64| (0..=REFLECTIONS).map(move |number| (error, shift, number));
+        SHIFTS.into_iter().flat_map(of_shift)
+    });
+    let largest = matrix.amax();
+    let mut found = tried.filter_map(|(error, share, number)| {
+        let (mut shifted, shift) = (matrix.clone(), share * largest);
+        (0..matrix.nrows()).for_each(|n| shifted[(n, n)] += shift);
+        let form = Schur::try_new(reflected(&shifted, number), error, ITERATIONS)?;
+        Some(form.complex_eigenvalues().map(|value| value - Complex::from(shift)))
+    });
+    found.next()
 }
 
 /// The matrix as H A H, H being a fixed reflection with this number; that with number 0 is the matrix itself.

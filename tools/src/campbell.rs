@@ -176,4 +176,24 @@ mod tests {
         assert!((fastest / 329.0 - 1.0).abs() < 0.01, "{fastest}");
         assert!(table.contains("Looked at 201 speeds from 50.0000 to 500.000 rad/s"), "{table}");
     }
+
+    /// Nothing holds it along its axis and hardly anything against tilt: most eigenvalues are 0, several times.
+    #[test]
+    fn regress_modes_of_a_rotor_that_little_holds_are_found() {
+        let text = "[rotor]\nm = 0.04137062437606416\nJa = 3.276427728927653e-07\nJt = 9.047750476222938e-06\n\
+            [start]\nomega.x = -4.3766854485207025\n[[effects.bearing]]\nposition = -0.00020838291646904156\n\
+            kyy = -240.70443706475228\nkzz = -240.70443706475228\n";
+        let scene = Scene::parse(Path::new("little.toml"), text).expect("a scene");
+        let machine = Machine::of(&scene.parameters());
+        for steps in [11, 101, 500] {
+            let View::Diagram(diagram) = View::of(&scene, &machine, None, steps, &[1.0]).expect("a view") else {
+                panic!("it is symmetric")
+            };
+            let points = diagram.campbell.branches.iter().flat_map(|branch| &branch.points);
+            let fastest = points.map(|point| point.mode.eigenvalue.re).fold(0.0, f64::max);
+            // sqrt(k/m), but for how little the spring is off c
+            let exact = (240.70443706475228_f64 / 0.04137062437606416).sqrt();
+            assert!((fastest / exact - 1.0).abs() < 1e-2, "{steps} steps: {fastest} for {exact}");
+        }
+    }
 }

@@ -214,6 +214,11 @@ impl Wanted<'_> {
             (_, example) => {
                 let (name, unit) = (&self.variable.name, brackets(own));
                 let right = match example.filter(|head| head.unit.is_none() && !head.name.is_empty()) {
+                    // Its name is a unit: what is advised must not be another one.
+                    Some(head) if fits(head.name, own) => {
+                        let unit = head.name;
+                        format!("name the column {name} [{unit}], or say column = \"{unit} [{unit}]\" in the scene")
+                    }
                     Some(head) => {
                         format!("name the column {name}{unit}, or say column = \"{}{unit}\" in the scene", head.name)
                     }
