@@ -73,14 +73,12 @@ mod warned {
     pub const OF_ZEROS: usize = 2;
     /// That something is set of an effect that is off.
     pub const OF_WHAT_IS_OFF: usize = 3;
-    /// That the host goes on as if a discarded step had been done.
-    pub const OF_ITS_CLOCK: usize = 4;
     /// That the motion diverges.
-    pub const OF_DIVERGENCE: usize = 5;
+    pub const OF_DIVERGENCE: usize = 4;
     /// That it is not known whether the motion grows.
-    pub const OF_UNJUDGED: usize = 6;
+    pub const OF_UNJUDGED: usize = 5;
     /// How many there are.
-    pub const COUNT: usize = 7;
+    pub const COUNT: usize = 6;
 }
 
 /// What the host said of the experiment, and what it set itself.

@@ -14,7 +14,7 @@ const TIME_ULPS: f64 = 4.0;
 impl Instance {
     /// Moves the communication point from `from` by `step` \[s].
     pub fn do_step(&mut self, from: f64, step: f64) -> Reply {
-        let to = self.end_of_step(from, step).inspect_err(|_| self.warn_of_its_clock(from))?;
+        let to = self.end_of_step(from, step)?;
         // There is news of the run only where the method has gone on.
         let outcome = if self.memory.simulation.advance_within_step(to) { Ok(()) } else { self.run_to(to) };
         self.memory.step_failed = outcome.is_err();
@@ -36,19 +36,6 @@ impl Instance {
         outcome.map_err(|fault| Failure::Discard(fault.to_string()))
     }
 
-    /// Says once that the host goes on, from time `from` \[s], as if the step had been done that was discarded.
-    fn warn_of_its_clock(&mut self, from: f64) {
-        let (now, told) = (self.now(), &mut self.memory.warned[warned::OF_ITS_CLOCK]);
-        if self.memory.step_failed && !*told && from > now {
-            *told = true;
-            let message = format!(
-                "the last step was discarded, and the host goes on at t = {from:?} s as if it had been done: the motion stands at \
-                 t = {now:?} s, as the output solver.time says, and does not go on"
-            );
-            self.logger.log(Severity::Warning, Category::Warning, &message);
-        }
-    }
-
     /// Where a step ends, if it is a right one.
     fn end_of_step(&self, from: f64, step: f64) -> Result<f64, Failure> {
         let now = self.now();
@@ -57,8 +44,13 @@ impl Instance {
             return Err(Failure::Error(format!("communicationStepSize = {step:?} must be a finite number > 0")));
         }
         if !same_time(from, now, step) {
+            // Some hosts do not heed a status.
+            let stands = match self.memory.step_failed {
+                true => ": the step before was discarded, and the motion stands there, as the output solver.time says",
+                false => "",
+            };
             return Err(Failure::Error(format!(
-                "currentCommunicationPoint = {from:?} must be {now:?}, where the last step ended"
+                "currentCommunicationPoint = {from:?} must be {now:?}, where the last step ended{stands}"
             )));
         }
         if to <= now {

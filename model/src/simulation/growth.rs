@@ -60,7 +60,7 @@ impl Display for Unjudged {
         write!(
             f,
             "whether the rotor is stable is not known: the search for the eigenvalues of its linear equations at t = {t:?} s, at {speed:.1} \
-             rad/s, did not converge, or they hold numbers that are not finite; the motion itself does not depend on it, and the next look is \
+             rad/s, did not converge; the motion itself does not depend on it, and the next look is \
              where the spin has changed"
         )
     }
@@ -176,8 +176,11 @@ impl Watch {
         self.known = [momentum.x - much, momentum.x + much];
         let motion = rotor.motion(t, y);
         let Some(rates) = rates else {
-            let unjudged = Unjudged { t, speed: motion.axial_rate() };
-            self.unjudged.get_or_insert(unjudged);
+            // Where forces overflow the motion itself cannot go on, and says so.
+            if matrix.iter().all(|entry| entry.is_finite()) {
+                let unjudged = Unjudged { t, speed: motion.axial_rate() };
+                self.unjudged.get_or_insert(unjudged);
+            }
             return;
         };
         self.unjudged = None;
