@@ -1,8 +1,7 @@
 //! Steps, and what is known of the last one.
 
 use super::values::{Type, finite, shown, typed};
-use super::{Failure, Instance, Reply, Room, Severity, State, warned};
-use split_rotor_model::log::Category;
+use super::{Failure, Instance, Reply, Room, State};
 use split_rotor_model::scalar::ulp;
 use split_rotor_model::signal::HIGHEST_DERIVATIVE;
 use split_rotor_model::variable::{Place, Role};

@@ -27,10 +27,13 @@ fn refused(instance: &mut Instance, from: Real, step: Real, words: &[&str]) {
 
 #[test]
 fn fmi_the_experiment_may_start_at_any_time() {
-    /// What the rounding of times does to the motion, relative to the larger of its size and 1; measured 1.3e-10 (omega.y
-    /// from −8 s), allow 3e-10: the errors of loads at 1e-10 are near rounding, and steps follow them.
-    const ROUNDING: Real = 3e-10;
-    // At 1e-6 with all that the solver does; at 1e-10 rounding has a say in its first steps, and so in those that follow.
+    /// What the rounding of times does to the motion at 1e-6, relative to the larger of its size and 1; measured 1.8e-11 (omega.y
+    /// from 1e3 s), allow 1e-10.
+    const ROUNDING: Real = 1e-10;
+    /// At the scene's 1e-10 rounding has a say in the first steps, where loads have hardly changed, and so in those that follow: two runs differ by
+    /// what each errs; measured 5.9e-10 (omega.y from 0.5 s), allow 2e-9.
+    const OF_STEPS: Real = 2e-9;
+    // At 1e-6 with all that the solver does.
     let end = |start: Real, tolerance: Option<Real>| {
         let mut instance = Instance::quiet();
         assert_eq!(instance.setup(tolerance, start, None), Status::Ok);
@@ -48,7 +51,8 @@ fn fmi_the_experiment_may_start_at_any_time() {
         let all = found.into_iter().zip(expected).zip(shown()).filter(|(_, name)| !name.starts_with("support."));
         for ((value, expected), name) in all {
             let difference = (value - expected).abs() / expected.abs().max(1.0);
-            assert!(difference < ROUNDING, "{name} from {start} s: {difference:e}");
+            let bound = if tolerance.is_some() { ROUNDING } else { OF_STEPS };
+            assert!(difference < bound, "{name} from {start} s: {difference:e}");
         }
     }
 }

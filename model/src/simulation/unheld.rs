@@ -3,6 +3,7 @@
 use super::growth::PORT;
 use super::rest::{Spinning, UNKNOWNS, settled};
 use crate::effects::Effects;
+use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
 use crate::state::{Coordinates, rigid};
 use nalgebra::{SVector, Vector2, Vector3};
@@ -50,6 +51,10 @@ impl Unheld {
         let Coordinates { r, gamma, .. } = Coordinates::from_slice(rigid(&settled(&balanced, t, y)));
         let balance = spinning.balance(r, gamma);
         let Some((free, held)) = balance.unheld() else {
+            // Where forces overflow the motion itself cannot go on, and says so.
+            if balanced.jacobian(t, y).as_flattened().iter().any(|slope| !slope.is_finite()) {
+                return None;
+            }
             return Some(Self { along: Vec::new(), about: Vec::new(), load: [0.0; 2], is_unknown: true });
         };
         if free.is_empty() || held == 0 {
@@ -150,7 +155,7 @@ impl Display for Unheld {
             return write!(
                 f,
                 "whether something holds the rotor in all directions is not known: the search for the singular values of its \
-                 stiffness did not converge, or they are not finite"
+                 stiffness did not converge"
             );
         }
         if self.is_mere_axial() {
