@@ -101,7 +101,9 @@ impl<'m> Campbell<'m> {
         // A mode that ends, or begins, between two speeds has no value on one side.
         for pair in self.steady.windows(2) {
             let ends = [pair[0].speed, pair[1].speed];
-            let is_told = found.iter().any(|crossing| (ends[0]..=ends[1]).contains(&crossing.speed));
+            // One at an end may be found a rounding beyond it.
+            let slack = BESIDE_END * (ends[1] - ends[0]);
+            let is_told = found.iter().any(|one| (ends[0] - slack..=ends[1] + slack).contains(&one.speed));
             let [before, after] = ends.map(|speed| self.fastest_growth(speed));
             if before.is_some() != after.is_some() && !is_told {
                 found.push(self.onset(&pair[0], [before, after].map(|growth| growth.is_some()), ends)?);
@@ -143,7 +145,10 @@ impl<'m> Campbell<'m> {
     }
 
     /// Where this changes its sign along the branches.
-    fn crossings(&self, of: impl Fn(&Mode, f64) -> Option<f64>) -> Result<Vec<Crossing>, Obstacle> {
+    fn crossings(&self, of: /// Of the distance of two speeds, a crossing this near to one of them is between them too \[1].
+const BESIDE_END: f64 = 1e-6;
+
+impl Fn(&Mode, f64) -> Option<f64>) -> Result<Vec<Crossing>, Obstacle> {
         let mut found = Vec::new();
         for (branch, Branch { points }) in self.branches.iter().enumerate() {
             for pair in points.windows(2) {
