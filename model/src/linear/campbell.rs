@@ -50,6 +50,9 @@ const HALVINGS: u32 = 10;
 const FOUND: f64 = 1e-13;
 const TRIALS: u32 = 100;
 
+/// Of the distance of two speeds, a crossing this near to one of them is between them too \[1].
+const BESIDE_END: f64 = 1e-6;
+
 impl<'m> Campbell<'m> {
     /// Of these speeds [rad/s], which ascend.
     ///
@@ -145,10 +148,7 @@ impl<'m> Campbell<'m> {
     }
 
     /// Where this changes its sign along the branches.
-    fn crossings(&self, of: /// Of the distance of two speeds, a crossing this near to one of them is between them too \[1].
-const BESIDE_END: f64 = 1e-6;
-
-impl Fn(&Mode, f64) -> Option<f64>) -> Result<Vec<Crossing>, Obstacle> {
+    fn crossings(&self, of: impl Fn(&Mode, f64) -> Option<f64>) -> Result<Vec<Crossing>, Obstacle> {
         let mut found = Vec::new();
         for (branch, Branch { points }) in self.branches.iter().enumerate() {
             for pair in points.windows(2) {
