@@ -137,7 +137,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
             let [across, gamma] = [groups::ACROSS, groups::GAMMA].map(|group| own(N) + group);
             parts[gamma] += parts[across] / at.k.norm_squared();
             parts[across] = 0.0;
-            // Nor are dampers told how fast the axis goes round.
+            // The loads of dampers do not see the nutation either.
             by.k.fill(0.0);
         }
         self.part_loads(t, y, &by, &mut parts);

@@ -17,7 +17,7 @@ pub fn linear_view(scene: &str) -> [OsString; 2] {
 /// In which directions nothing holds the rotor of a scene where its run begins, as options of the report's Python.
 pub fn unheld(scene: &Scene) -> Vec<OsString> {
     let mut run = Run::of(scene, Vec::new());
-    // A start that is refused is told by who runs it.
+    // A start that is refused is reported by the command that runs it.
     let _ = run.follow(&scene.experiment, |_, _| bail!("it has begun"));
     let told = run.unheld().filter(|unheld| !unheld.is_mere_axial());
     told.map(|unheld| vec!["--unheld".into(), unheld.to_string().into()]).unwrap_or_default()

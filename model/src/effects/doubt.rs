@@ -19,7 +19,7 @@ pub enum Doubt {
         /// The highest that was met [rad/s].
         speed: f64,
     },
-    /// The rotor turns backwards, and constants that drive a whirl with the spin drive it against the spin there.
+    /// The rotor turns backwards, and constants that drive forward whirl at positive spin drive backward whirl there.
     Backward {
         /// The speed that was met, of the largest size [rad/s].
         speed: f64,

@@ -149,7 +149,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         self.active().all(Block::is_analytic)
     }
 
-    /// Tells what is doubtful of those that act, each by its name, at ω_φ from the first to the second of these [rad/s], and was not
+    /// Reports what is doubtful of those that act, each by its name, at ω_φ from the first to the second of these [rad/s], and was not
     /// between those before.
     fn doubts(&self, speeds: [f64; 2], before: Option<[f64; 2]>, tell: &mut dyn FnMut(&str, Doubt)) {
         for block in self.active() {

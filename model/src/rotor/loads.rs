@@ -73,7 +73,7 @@ impl<E: Effects> Rotor<'_, E> {
         squares: &mut Squares,
     ) {
         let body = &self.frame.body;
-        // ω_φ but for how fast the axis goes round, which is little beside the spin.
+        // ω_φ without the precession of the axis, which is slow beside the spin.
         let speed = momentum.dot(&tilt.axis) * (body.per_jt + body.spin);
         let pose = self.pose(at, *tilt, momentum.cross(&tilt.axis) * body.per_jt, speed);
         self.effects.loads::<false>(&pose, change, &mut squares[Self::load_groups::<N>()]);

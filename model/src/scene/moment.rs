@@ -79,7 +79,7 @@ impl Values<'_> {
             let [_, axial, across, _] = of.map(Option::unwrap_or_default);
             is_asymmetric || axial <= 2.0 * across * (1.0 + ROUNDING)
         };
-        // What was impossible before is told where it stands.
+        // What was impossible before is reported at its own key.
         let is_worse = is_disk_at_most(before) && !is_disk_at_most(left);
         left.iter().zip(before).all(|(left, before)| before.is_none_or(|before| before <= 0.0) || *left > Some(0.0))
             && !is_worse

@@ -695,7 +695,7 @@ impl<const N: usize> Integration<N> {
     pub(super) fn places_to_look(&self) -> u32 {
         let [start, end] = self.last_step();
         let (body, nutation) = (&self.frame.body, self.nutation().sqrt());
-        // An unbalance goes round with the body, by up to |K|/Ja.
+        // An unbalance turns with the body, by up to |K|/Ja.
         let turning =
             if body.asymmetric.is_some() { nutation * (1.0 + body.spin.abs() / body.per_jt) } else { nutation };
         self.method.places_to_look((end - start) * turning)

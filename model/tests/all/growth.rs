@@ -21,7 +21,7 @@ fn top(spin: f64, x: f64, rest: &str) -> String {
 /// Of the rate of growth \[1]: measured 7.8e-8.
 const TOPS: f64 = 3e-7;
 
-/// A top whose spring has not taken up its weight yet: nothing was told at 5 to 110 rad/s, and 35.36 s in place of 0.0714 s at rest.
+/// A top whose spring has not taken up its weight yet: nothing was reported at 5 to 110 rad/s, and 35.36 s instead of 0.0714 s at rest.
 #[test]
 fn regress_exact_growth_of_an_upright_top_on_an_unloaded_spring() {
     let Upright { m, l, c1, g, .. } = TOP;

@@ -105,7 +105,7 @@ fn exact_what_holds_a_rotor() {
     }
 }
 
-/// A top turns over and goes round by its own weight: that holds it or drives it, and the watch of growth says which.
+/// A top tilts over and precesses by its own weight: that holds it or drives it, and the watch of growth reports which.
 #[test]
 fn exact_a_weight_on_a_point_is_no_free_direction() {
     for g in [-9.81, 9.81] {
