@@ -15,6 +15,11 @@ pub enum Category {
     Solver,
 }
 
+/// A number as messages show it: to five digits, without zeros behind them.
+pub fn shown(value: f64) -> f64 {
+    format!("{value:.4e}").parse().unwrap_or(value)
+}
+
 /// The name under which a host asks for all messages.
 pub const ALL: &str = "logAll";
 

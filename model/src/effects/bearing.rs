@@ -104,11 +104,14 @@ impl<const NODES: usize> Bearing<NODES> {
     /// Force by the displacement and force by the velocity across, as the table has them \[N].
     #[inline(always)]
     fn tabled<S: Scalar>(&self, motion: &Motion<S>) -> Option<[Vector3<S>; 2]> {
-        if NODES == 0 {
-            return None;
-        }
-        let table = self.table.at(motion.omega_phi())?;
         let (q, rate) = (motion.station(self.position), motion.station_velocity(self.position));
+        if NODES == 0 { None } else { self.tabled_at(motion.omega_phi(), q, rate) }
+    }
+
+    /// The same at a speed [rad/s], of a displacement \[m] and a velocity [m/s].
+    #[inline(always)]
+    fn tabled_at<S: Scalar>(&self, speed: S, q: Vector3<S>, rate: Vector3<S>) -> Option<[Vector3<S>; 2]> {
+        let table = self.table.at(speed)?;
         let across = |coefficients, v| -times(S::zero(), matrix(coefficients), v);
         // eq. 101: F = −K(ω_φ) q − C(ω_φ) dq/dt
         Some([across(&table[..4], q), across(&table[4..], rate)])
@@ -302,19 +305,16 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
 
     const LOADS: usize = 1;
 
+    const MAY_BE_DOUBTED: bool = true;
+
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
         let (q, rate) = (change.station(self.position), change.station_velocity(self.position));
-        let mut force = self.springs(q) + self.dampers(rate);
-        if NODES > 0
-            && let Some(table) = self.table.at(at.speed)
-        {
-            force += times(0.0, matrix(&table[..4]), q) + times(0.0, matrix(&table[4..]), rate);
-        }
+        let force = -(self.springs(q) + self.dampers(rate));
+        let tabled = if NODES == 0 { None } else { self.tabled_at(at.speed, q, rate) };
+        let force = tabled.map_or(force, |[pull, drag]| force + pull + drag);
         [force.norm_squared(), 0.0]
     }
-
-    const MAY_BE_DOUBTED: bool = true;
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {

@@ -1,5 +1,6 @@
 //! Where a law is asked for what nobody gave it: it answers, and its user must know.
 
+use crate::log::shown;
 use std::f64::consts::PI;
 
 /// What makes a law doubtful at speeds that a motion came to.
@@ -50,28 +51,28 @@ impl Doubt {
             Self::Below { known, speed } => format!(
                 "{block}: speeds down to {} are below its table, which is known from {} to {}: there the coefficients of its \
                  first node are held, and cross terms go to 0 with the speed",
-                shown(*speed),
-                shown(known[0]),
-                shown(known[1])
+                in_both(*speed),
+                in_both(known[0]),
+                in_both(known[1])
             ),
             Self::Beyond { known, speed } => format!(
                 "{block}: speeds up to {} are beyond its table, which is known from {} to {}: there the coefficients of its \
                  last node are held",
-                shown(*speed),
-                shown(known[0]),
-                shown(known[1])
+                in_both(*speed),
+                in_both(known[0]),
+                in_both(known[1])
             ),
             Self::Backward { speed } => format!(
                 "{block}: the rotor turns backwards, at {}, and the constants kyz and kzy keep their sign: a whirl that they \
                  drive with the spin forwards goes against it here; a table (speed = [...]) changes their signs with the speed",
-                shown(*speed)
+                in_both(*speed)
             ),
         }
     }
 }
 
-/// A speed [rad/s] to five digits, in rpm too.
-fn shown(speed: f64) -> String {
-    let [own, rpm] = [speed, speed * 30.0 / PI].map(|value| format!("{value:.4e}").parse().unwrap_or(value));
+/// A speed [rad/s], in rpm too.
+fn in_both(speed: f64) -> String {
+    let [own, rpm] = [speed, speed * 30.0 / PI].map(shown);
     format!("{own:?} rad/s ({rpm:?} rpm)")
 }

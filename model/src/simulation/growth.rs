@@ -6,6 +6,7 @@ use crate::decompositions::eigenvalues;
 use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::stiff::Differentiable;
+use crate::log::shown;
 use crate::rotor::{Frame, Rotor};
 use crate::state::{Coordinates, GAMMA, Kinematics, PHI, own, rigid};
 use crate::stored::stored;
@@ -64,11 +65,6 @@ impl Display for Unjudged {
              where the spin has changed"
         )
     }
-}
-
-/// To five digits, and no zeros behind them.
-fn shown(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
 }
 
 /// Looks at the linear equations whenever the spin has changed much, or a tilt has died out that made them doubtful.
