@@ -27,7 +27,7 @@ pub fn campbell(
 ) -> PyResult<(String, String)> {
     py.detach(|| {
         let machine = Machine::of(&scene.scene.parameters());
-        let view = View::of(&scene.scene, &machine, speeds.as_ref().map(|ends| &ends[..]), steps, &orders)?;
+        let view = View::of(&scene.scene, &machine, speeds, steps, &orders)?;
         Ok((view.table(), view.json().to_string()))
     })
     .map_err(failed)
@@ -43,7 +43,7 @@ pub fn response(
     linear: bool,
 ) -> PyResult<(String, String)> {
     py.detach(|| {
-        let found = Found::of(&scene.scene, speeds.as_ref().map(|ends| &ends[..]), steps, !linear)?;
+        let found = Found::of(&scene.scene, speeds, steps, !linear)?;
         Ok((found.table(), found.json().to_string()))
     })
     .map_err(failed)

@@ -42,7 +42,7 @@ impl<'m> View<'m> {
     pub fn of(
         scene: &'m Scene,
         machine: &'m Result<Machine, Obstacle>,
-        ends: Option<&[f64]>,
+        ends: Option<[f64; 2]>,
         steps: u32,
         orders: &[f64],
     ) -> Result<Self> {
@@ -166,7 +166,7 @@ mod tests {
             [[effects.bearing]]\nposition = 0.15\nkyy = -2e5\nkzz = -2e5\n";
         let scene = Scene::parse(Path::new("unseen.toml"), text).expect("a scene");
         let machine = Machine::of(&scene.parameters());
-        let view = View::of(&scene, &machine, Some(&[50.0, 500.0]), 201, &[1.0]).expect("a view");
+        let view = View::of(&scene, &machine, Some([50.0, 500.0]), 201, &[1.0]).expect("a view");
         let table = view.table();
         assert!(!table.contains("No mode grows") && table.contains("grows from 50.0000 to 500.000 rad/s"), "{table}");
         let View::Diagram(diagram) = &view else { panic!("it is symmetric") };

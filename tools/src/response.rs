@@ -132,7 +132,7 @@ impl Station {
 
 impl<'s> Found<'s> {
     /// The response of a scene between these speeds [rad/s], at so many of them; whether also by the laws as they stand.
-    pub fn of(scene: &'s Scene, ends: Option<&[f64]>, steps: u32, exact: bool) -> Result<Self> {
+    pub fn of(scene: &'s Scene, ends: Option<[f64; 2]>, steps: u32, exact: bool) -> Result<Self> {
         let file = || scene.file.display().to_string();
         let unbalance = scene.parameters().shape().unbalance();
         ensure!(

@@ -23,12 +23,12 @@ const DRIVES: [&str; 2] = ["drive", "motor"];
 pub const HIGHEST: f64 = 1e9;
 
 /// So many speeds [rad/s] from the first of these to the second, and 0 and the nodes of tables where they lie between; where none are given, from 0 to beyond what the scene reaches.
-pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+pub fn range(scene: &Scene, machine: Option<&Machine>, ends: Option<[f64; 2]>, steps: u32) -> Result<Vec<f64>> {
     grid(scene, ends, steps, || highest(scene, machine).map(f64::abs))
 }
 
 /// The same, on that side of 0 on which the scene runs: loads that depend on the spin's sign are not alike on both.
-pub fn on_its_side(scene: &Scene, machine: Option<&Machine>, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+pub fn on_its_side(scene: &Scene, machine: Option<&Machine>, ends: Option<[f64; 2]>, steps: u32) -> Result<Vec<f64>> {
     grid(scene, ends, steps, || highest(scene, machine))
 }
 
@@ -44,16 +44,16 @@ pub fn told(speeds: &[f64]) -> String {
 /// So many speeds [rad/s] between these, or between 0 and beyond the one that is reached.
 fn grid(
     scene: &Scene,
-    ends: Option<&[f64]>,
+    ends: Option<[f64; 2]>,
     steps: u32,
     reached: impl FnOnce() -> Result<f64, Obstacle>,
 ) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "steps {steps}: at least 2 speeds are needed");
-    let (from, to) = match ends {
-        Some(&[from, to]) => (from, to),
-        _ => {
+    let [from, to] = match ends {
+        Some(ends) => ends,
+        None => {
             let beyond = HIGHER * reached()?;
-            (beyond.min(0.0), beyond.max(0.0))
+            [beyond.min(0.0), beyond.max(0.0)]
         }
     };
     ensure!(

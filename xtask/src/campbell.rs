@@ -14,7 +14,7 @@ use std::path::Path;
 /// Draws the diagram of a scene between these speeds [rad/s], at so many of them, into the folder `out`, or target/campbell/SCENE.
 pub fn campbell(
     scene: &str,
-    speeds: Option<&[f64]>,
+    speeds: Option<[f64; 2]>,
     steps: u32,
     orders: &[f64],
     out: Option<&Path>,

@@ -81,7 +81,7 @@ pub fn frequency(
     scene: &str,
     speed: Option<f64>,
     [from, to]: [&str; 2],
-    ends: Option<&[f64]>,
+    ends: Option<[f64; 2]>,
     steps: u32,
     out: Option<&Path>,
 ) -> Result<()> {

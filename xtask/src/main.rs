@@ -323,17 +323,15 @@ fn dispatch(command: Command) -> Result<()> {
         Command::Bench { part, seed } => bench::bench(&part, seed),
         Command::Campbell { scene, speeds, steps, orders, out } => {
             let speeds = pair("--speeds", speeds.as_deref())?;
-            campbell::campbell(&scene, speeds.as_ref().map(|ends| &ends[..]), steps, &orders, out.as_deref())
-                .map(|left| left.show())
+            campbell::campbell(&scene, speeds, steps, &orders, out.as_deref()).map(|left| left.show())
         }
         Command::Response { scene, from: Some(from), to: Some(to), speed, frequencies, steps, out, .. } => {
             let (speed, ends) = (one("--speed", speed)?, pair("--frequencies", frequencies.as_deref())?);
-            let ends = ends.as_ref().map(|ends| &ends[..]);
             frequency::frequency(&scene, speed, [&from, &to], ends, steps, out.as_deref())
         }
         Command::Response { scene, speeds, steps, linear, out, .. } => {
             let speeds = pair("--speeds", speeds.as_deref())?;
-            response::response(&scene, speeds.as_ref().map(|ends| &ends[..]), steps, !linear, out.as_deref())
+            response::response(&scene, speeds, steps, !linear, out.as_deref())
         }
         Command::Stability { scene, against, values, count, speeds, steps, out } => {
             ensure!(against.len() == values.len() / 2, "--against: each parameter needs its own --values FROM TO");
@@ -341,7 +339,7 @@ fn dispatch(command: Command) -> Result<()> {
             let pairs = against.iter().zip(values.chunks(2)).map(|(name, values)| (name, ends(values)));
             let against: Vec<_> = pairs.map(|(name, values)| stability::Against { name, values, count }).collect();
             let speeds = pair("--speeds", speeds.as_deref())?;
-            stability::stability(&scene, &against, speeds.as_ref().map(|ends| &ends[..]), steps, out.as_deref())
+            stability::stability(&scene, &against, speeds, steps, out.as_deref())
         }
         Command::StateSpace { scene, speed, out } => {
             state_space::state_space(&scene, one("--speed", speed)?, out.as_deref())

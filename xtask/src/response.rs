@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// Finds the response of a scene between these speeds [rad/s], at so many of them; whether also by the laws as they stand. Into the
 /// folder `out`, or target/response/SCENE.
-pub fn response(scene: &str, ends: Option<&[f64]>, steps: u32, exact: bool, out: Option<&Path>) -> Result<()> {
+pub fn response(scene: &str, ends: Option<[f64; 2]>, steps: u32, exact: bool, out: Option<&Path>) -> Result<()> {
     let scene = scenes::find(scene)?;
     let what = match exact {
         true => "following the whirl by the laws as they stand, up to a minute (--linear leaves it out)",

@@ -12,8 +12,8 @@ const STEPS: u32 = 121;
 /// explains is an error.
 pub fn ross() -> Result<()> {
     let scene = paths::root().join("xtask/python/peers/ross.toml").display().to_string();
-    campbell::campbell(&scene, Some(&SPEEDS), STEPS, &[1.0], None)?.show();
-    response::response(&scene, Some(&SPEEDS), STEPS, false, None)?;
+    campbell::campbell(&scene, Some(SPEEDS), STEPS, &[1.0], None)?.show();
+    response::response(&scene, Some(SPEEDS), STEPS, false, None)?;
     let mut peer = Conversation::with(python::peer("ross")?.arg(paths::target()))?;
     peer.paragraph()?.iter().for_each(|line| println!("{line}"));
     peer.end()?;

@@ -69,7 +69,13 @@ pub struct Against<'a> {
 
 /// Finds the map of a scene against one parameter or two, between these speeds [rad/s], looked at so many. Into the folder `out`, or
 /// target/stability/SCENE.
-pub fn stability(scene: &str, against: &[Against], ends: Option<&[f64]>, steps: u32, out: Option<&Path>) -> Result<()> {
+pub fn stability(
+    scene: &str,
+    against: &[Against],
+    ends: Option<[f64; 2]>,
+    steps: u32,
+    out: Option<&Path>,
+) -> Result<()> {
     let scene = scenes::find(scene)?;
     match against {
         [one] => map(scene, one, ends, steps)?.leave(out),
@@ -107,7 +113,7 @@ fn leave(
     Ok(())
 }
 
-fn map(scene: Scene, against: &Against, ends: Option<&[f64]>, steps: u32) -> Result<Map> {
+fn map(scene: Scene, against: &Against, ends: Option<[f64; 2]>, steps: u32) -> Result<Map> {
     let file = || scene.file.display().to_string();
     let against = Axis::of(&scene, against).with_context(file)?;
     let first = machine(&scene, &[(&against, against.values[0])])?;
@@ -186,7 +192,7 @@ mod tests {
     #[test]
     fn thresholds_against_a_damper_are_those_of_the_closed_form() {
         let against = Against { name: "support.d1", values: [10.0, 50.0].map(Given::from), count: 9 };
-        let map = map(scene(), &against, Some(&[0.0, 200.0]), 21).expect("a map");
+        let map = map(scene(), &against, Some([0.0, 200.0]), 21).expect("a map");
         for column in &map.columns {
             // Beyond ω_n (1 + c_ext/c_int) it whirls by itself.
             let exact = 20.0 * (1.0 + column.value / 10.0);
@@ -219,7 +225,7 @@ mod tests {
             [[effects.bearing]]\nposition = 0.15\nkyy = -2e5\nkzz = -2e5\n";
         let scene = Scene::parse(Path::new("unseen.toml"), text).expect("a scene");
         let against = Against { name: "bearing[1].kyy", values: [-2e5, -1e5].map(Given::from), count: 3 };
-        let map = map(scene, &against, Some(&[50.0, 500.0]), 21).expect("a map");
+        let map = map(scene, &against, Some([50.0, 500.0]), 21).expect("a map");
         assert!(map.columns.iter().all(|column| column.grows.iter().all(|grows| *grows)));
         let table = table::table(&map);
         assert!(table.contains("at all these speeds") && !table.contains("none of these"), "{table}");

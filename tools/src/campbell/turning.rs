@@ -42,7 +42,7 @@ pub struct Turning<'s> {
 
 impl<'s> Turning<'s> {
     /// Of a scene, between these speeds [rad/s], at so many of them.
-    pub(super) fn of(scene: &'s Scene, ends: Option<&[f64]>, steps: u32) -> Result<Self> {
+    pub(super) fn of(scene: &'s Scene, ends: Option<[f64; 2]>, steps: u32) -> Result<Self> {
         let file = || scene.file.display().to_string();
         let all = speeds::on_its_side(scene, None, ends, steps).with_context(file)?;
         let fastest = all.iter().map(|speed| speed.abs()).fold(0.0, f64::max);
@@ -275,7 +275,7 @@ mod tests {
             [[effects.bearing]]\nposition = -0.04162\nkyy = 57202.0\nkzz = 52216.0\ncyy = 3.115\nczz = 2.843\nkxx = 51165.0\ncxx = 31.15\n\
             [[effects.bearing]]\nposition = 0.05674\nkyy = 54103.0\nkzz = 40284.0\ncyy = 3.753\nczz = 2.978\n";
         let scene = Scene::parse(Path::new("band.toml"), text).expect("a scene");
-        let turning = Turning::of(&scene, Some(&[366.0, 394.0]), 3).expect("motions that repeat");
+        let turning = Turning::of(&scene, Some([366.0, 394.0]), 3).expect("motions that repeat");
         let table = turning.table();
         assert!(!table.contains("None grows"), "{table}");
         assert_eq!(turning.thresholds.len(), 2, "{table}");
@@ -284,7 +284,7 @@ mod tests {
         }
         assert!(table.contains("closer where two whirl frequencies add up to twice the spin"), "{table}");
         // Below the band there is a sum of frequencies too, or none; nothing is said of speeds at which nobody looked.
-        let below = Turning::of(&scene, Some(&[300.0, 340.0]), 3).expect("motions that repeat").table();
+        let below = Turning::of(&scene, Some([300.0, 340.0]), 3).expect("motions that repeat").table();
         assert!(
             below.contains("None grows at any speed that was looked at")
                 && below.contains("at most 20.0000 rad/s apart"),

@@ -15,13 +15,10 @@ const OF_A_CIRCLE: u32 = 72;
 
 /// So many frequencies [rad/s] from the first of these to the second, in equal ratios, and some about each mode between; where none are
 /// given, to beyond those of the modes.
-pub fn frequencies(steady: &Steady, ends: Option<&[f64]>, steps: u32) -> Result<Vec<f64>> {
+pub fn frequencies(steady: &Steady, ends: Option<[f64; 2]>, steps: u32) -> Result<Vec<f64>> {
     ensure!(steps >= 2, "--steps {steps}: at least 2 frequencies are needed");
     let modes = steady.modes()?;
-    let (from, to) = match ends {
-        Some(&[from, to]) => (from, to),
-        _ => about(&modes, steady.speed),
-    };
+    let [from, to] = ends.unwrap_or_else(|| about(&modes, steady.speed));
     ensure!(
         from >= SLOWEST && to <= FASTEST && from < to,
         "--frequencies {from} {to}: the second must be more than the first, both within {SLOWEST:e} and {FASTEST:e} rad/s"
@@ -35,16 +32,16 @@ pub fn frequencies(steady: &Steady, ends: Option<&[f64]>, steps: u32) -> Result<
 }
 
 /// From below the lowest to above the highest frequency of the modes; else of what creeps, or of the spin.
-fn about(modes: &[Mode], speed: f64) -> (f64, f64) {
+fn about(modes: &[Mode], speed: f64) -> [f64; 2] {
     let swinging: Vec<_> = modes.iter().map(|mode| mode.eigenvalue.im).filter(|whirl| *whirl > 0.0).collect();
     let creeping = modes.iter().map(|mode| mode.eigenvalue.re.abs()).filter(|rate| *rate > 0.0);
     let rates = if swinging.is_empty() { creeping.collect() } else { swinging };
     let (least, most) =
         rates.iter().fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), rate| (least.min(*rate), most.max(*rate)));
     match most {
-        0.0 if speed == 0.0 => (1.0 / BEYOND, BEYOND),
-        0.0 => (speed.abs() / BEYOND, BEYOND * speed.abs()),
-        _ => (least / BEYOND, BEYOND * most),
+        0.0 if speed == 0.0 => [1.0 / BEYOND, BEYOND],
+        0.0 => [speed.abs() / BEYOND, BEYOND * speed.abs()],
+        _ => [least / BEYOND, BEYOND * most],
     }
 }
 

@@ -28,7 +28,7 @@ const SHOWN: usize = 7;
 /// So many shades the speeds have, the lowest the darkest.
 const SHADES: usize = 6;
 
-pub(super) fn plane(scene: Scene, against: [&Against; 2], ends: Option<&[f64]>, steps: u32) -> Result<Plane> {
+pub(super) fn plane(scene: Scene, against: [&Against; 2], ends: Option<[f64; 2]>, steps: u32) -> Result<Plane> {
     let file = || scene.file.display().to_string();
     ensure!(against[0].name != against[1].name, "--against {}: twice the same parameter", against[0].name);
     let [first, second] = against.map(|one| Axis::of(&scene, one).with_context(file));
@@ -147,7 +147,7 @@ mod tests {
     fn the_lowest_unstable_speed_is_that_of_the_closed_form() {
         let [outer, inner] = [("support.d1", [10.0, 50.0]), ("rotating_damping.d", [5.0, 20.0])]
             .map(|(name, values)| Against { name, values: values.map(Given::from), count: 4 });
-        let plane = plane(scene(), [&outer, &inner], Some(&[0.0, 150.0]), 21).expect("a map");
+        let plane = plane(scene(), [&outer, &inner], Some([0.0, 150.0]), 21).expect("a map");
         let mut stable = 0;
         for (inner, row) in plane.axes[1].values.iter().zip(&plane.rows) {
             for (outer, speed) in plane.axes[0].values.iter().zip(row) {
