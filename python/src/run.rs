@@ -32,7 +32,7 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
         None => outputs(scene).collect(),
         Some(names) => names.iter().map(|name| output(scene, name)).collect::<PyResult<_>>()?,
     };
-    let mut run = Run::of(scene, read);
+    let mut run = Run::of(scene, read).with_deflections();
     let Seen { time, values, count, outcome } = py.detach(|| follow(&mut run, &scene.experiment));
     let error = match outcome {
         Ok(()) => None,

@@ -23,15 +23,15 @@ pub fn mark(scene: &Scene, speed: f64) -> &'static str {
     if held(scene, speed).is_empty() { "" } else { " *" }
 }
 
-/// What stands below a table of these speeds [rad/s], in Markdown; nothing where every law is known.
-pub fn words(scene: &Scene, speeds: &[f64]) -> String {
-    let Some((first, last)) = speeds.first().zip(speeds.last()) else { return String::new() };
-    let all = of(scene, [*first, *last]);
+/// A table of these speeds [rad/s], in Markdown, with what is doubtful of it below; as it is where every law is known.
+pub fn below(table: String, scene: &Scene, speeds: &[f64]) -> String {
+    let all = speeds.first().zip(speeds.last()).map_or_else(Vec::new, |(first, last)| of(scene, [*first, *last]));
     if all.is_empty() {
-        return String::new();
+        return table;
     }
     let lines: String = all.iter().map(|(block, doubt)| format!("- {}.\n", doubt.words(block))).collect();
-    format!("\\* What is found there stands on coefficients that the scene does not have:\n\n{lines}\n")
+    let table = table.trim_end();
+    format!("{table}\n\n\\* What is found there stands on coefficients that the scene does not have:\n\n{lines}\n")
 }
 
 /// The tables of a scene that may be left: the effect and the speeds between which it is known [rad/s].
@@ -58,8 +58,11 @@ mod tests {
             [&["bearing[1]"], &[], &[], &["bearing[2]"], &["bearing[2]"], &["bearing[1]", "bearing[2]"]];
         assert_eq!(held, expected);
         assert_eq!([mark(&scene, 20.0), mark(&scene, 60.0)], ["", " *"]);
-        assert_eq!(words(&scene, &[10.0, 20.0, 50.0]), "");
-        assert_eq!(words(&scene, &[0.0, 95.0]).matches("\n- bearing[").count(), 3);
+        let of = |speeds: &[f64]| below("| 1 |\n".into(), &scene, speeds);
+        assert_eq!(of(&[10.0, 20.0, 50.0]), "| 1 |\n");
+        let doubtful = of(&[0.0, 95.0]);
+        assert!(doubtful.starts_with("| 1 |\n\n\\* "), "{doubtful}");
+        assert_eq!(doubtful.matches("\n- bearing[").count(), 3);
         let tables = tables(&scene);
         assert_eq!((&tables[0]["from_rad_s"], &tables[1]["to_rad_s"]), (&json!(10.0), &json!(50.0)));
     }

@@ -81,8 +81,8 @@ impl<'s> Run<'s> {
     pub fn of(scene: &'s Scene, outputs: Vec<&'s Variable>) -> Self {
         let references = outputs.iter().map(|output| output.place.value_reference()).collect();
         let (simulation, values) = (General::from(scene.parameters()), vec![0.0; outputs.len()]);
-        let (stations, positions): (Vec<_>, Vec<_>) = stations(scene).into_iter().unzip();
-        let (largest, course, grown) = (Some(Largest::at(positions)), Course::of(scene), Vec::new());
+        let (stations, largest) = (Vec::new(), Some(Largest::default()));
+        let (course, grown) = (Course::of(scene), Vec::new());
         let (unheld, unjudged, doubted, doubts) = (None, None, None, Vec::new());
         Self {
             simulation,
@@ -101,8 +101,14 @@ impl<'s> Run<'s> {
         }
     }
 
+    /// The same, which also searches for the largest deflections of c and of the probes: that takes some time.
+    pub fn with_deflections(self) -> Self {
+        let (stations, positions): (Vec<_>, Vec<_>) = stations(self.scene).into_iter().unzip();
+        Self { stations, largest: Some(Largest::at(positions)), ..self }
+    }
+
     /// The largest deflections of c (`r_c`) and of the probes from the x axis, static deflections included: between the communication
-    /// points too, since the solver's dense output is searched.
+    /// points too, since the solver's dense output is searched. None unless the run is one [`Run::with_deflections`].
     pub fn largest(&self) -> impl Iterator<Item = (&str, Deflection)> {
         let found = self.largest.iter().flat_map(Largest::found);
         self.stations.iter().map(String::as_str).zip(found)
@@ -150,12 +156,9 @@ impl<'s> Run<'s> {
         outcome
     }
 
-    fn follow_to_end(
-        &mut self,
-        experiment: &Experiment,
-        mut seen: impl FnMut(&mut Self, f64) -> Result<()>,
-    ) -> Result<()> {
-        let Experiment { start, stop, step, tolerance } = *experiment;
+    /// Starts, and goes nowhere. A start that is refused is an error.
+    pub fn begin(&mut self, experiment: &Experiment) -> Result<()> {
+        let Experiment { start, stop, tolerance, .. } = *experiment;
         let Self { course, simulation, largest, .. } = self;
         course.begin(&mut Motion { simulation, largest }, start).map_err(stuck)?;
         let started = self.simulation.start_until(start, Some(tolerance), Some(stop));
@@ -164,6 +167,16 @@ impl<'s> Run<'s> {
         self.unheld = self.simulation.unheld();
         self.look_for_doubts();
         self.unjudged = self.simulation.unjudged();
+        Ok(())
+    }
+
+    fn follow_to_end(
+        &mut self,
+        experiment: &Experiment,
+        mut seen: impl FnMut(&mut Self, f64) -> Result<()>,
+    ) -> Result<()> {
+        self.begin(experiment)?;
+        let Experiment { start, stop, step, .. } = *experiment;
         seen(self, start)?;
         let mut from = start;
         for point in 1..=points(experiment) {

@@ -5,11 +5,15 @@ use crate::{package, paths, python, report, scenes};
 use anyhow::Result;
 use serde_json::{Value, json};
 use split_rotor_model::scene::{Input, Scene};
+use split_rotor_tools::run::Run;
 
 /// Packages the scene, simulates it with fmpy, and reports. An energy that does not add up is an error.
 pub fn demo(scene: &str) -> Result<()> {
     let found = scenes::find(scene)?;
-    let unheld = report::unheld(&found);
+    let mut run = Run::of(&found, Vec::new());
+    // A start that is refused is reported as the FMU runs.
+    let _ = run.begin(&found.experiment);
+    let unheld = report::unheld(&run);
     let Scene { name, inputs, .. } = found;
     let fmu = package::package(&[scene.to_owned()], None)?.remove(0);
     let out = paths::target().join("demo").join(name);

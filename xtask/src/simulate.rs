@@ -31,7 +31,9 @@ pub fn simulate(scene: &str, with_report: bool, out: Option<&Path>) -> Result<()
     let folder = sheets::folder(out, &format!("run/{}", scene.name))?;
     std::fs::write(folder.join("modelDescription.xml"), xml::model_description(&scene))?;
     let table = folder.join(RESULT);
-    let mut recorded = Recorded { tells: true, ..Recorded::of(&scene) };
+    let outputs: Vec<_> = run::outputs(&scene).collect();
+    let run = Run::of(&scene, outputs.clone()).with_deflections();
+    let mut recorded = Recorded { tells: true, ..Recorded::of(run) };
     let outcome = recorded.record(&scene.experiment, &table);
     std::fs::write(folder.join(DEFLECTIONS), format!("{:#}\n", recorded.deflections()))?;
     if recorded.print(&scene.title)? {
@@ -43,13 +45,13 @@ pub fn simulate(scene: &str, with_report: bool, out: Option<&Path>) -> Result<()
         let parts = (SEEN * step / (stop - start) * (1.0 - 1e-9)).ceil().max(1.0);
         let table = if parts > 1.0 {
             let often = Experiment { step: step / parts, ..scene.experiment };
-            Recorded::of(&scene).record(&often, &folder.join(SAMPLES))?;
+            Recorded::of(Run::of(&scene, outputs)).record(&often, &folder.join(SAMPLES))?;
             SAMPLES
         } else {
             RESULT
         };
         let view = report::linear_view(name);
-        let unheld = report::unheld(&scene);
+        let unheld = report::unheld(&recorded.run);
         let mut report = python::python()?;
         let solver = recorded.solving.as_secs_f64().to_string();
         report
@@ -137,10 +139,8 @@ impl<'s> Recorded<'s> {
         outcome
     }
 
-    fn of(scene: &'s Scene) -> Self {
-        let outputs: Vec<_> = run::outputs(scene).collect();
-        let residual = outputs.iter().position(|output| output.name == "energy.residual");
-        let run = Run::of(scene, outputs);
+    fn of(run: Run<'s>) -> Self {
+        let residual = run.outputs().iter().position(|output| output.name == "energy.residual");
         Self { run, residual, largest_residual: 0.0, solving: Duration::ZERO, tells: false }
     }
 
@@ -204,7 +204,12 @@ mod tests {
     use super::Recorded;
     use crate::paths;
     use split_rotor_model::scene::Scene;
+    use split_rotor_tools::run::{self, Run};
     use std::path::Path;
+
+    fn record(scene: &Scene, file: &Path) -> anyhow::Result<()> {
+        Recorded::of(Run::of(scene, run::outputs(scene).collect())).record(&scene.experiment, file)
+    }
 
     /// The lines that are left of the paper's rotor with this in its file, and what the run said.
     fn recorded(name: &str, other: &[(&str, &str)]) -> (Vec<Vec<f64>>, Result<(), String>) {
@@ -217,7 +222,7 @@ mod tests {
         let folder = paths::target().join("tests/run");
         std::fs::create_dir_all(&folder).unwrap();
         let file = folder.join(name);
-        let outcome = Recorded::of(&scene).record(&scene.experiment, &file).map_err(|error| error.to_string());
+        let outcome = record(&scene, &file).map_err(|error| error.to_string());
         let table = std::fs::read_to_string(file).unwrap();
         let number = |field: &str| field.parse().unwrap();
         (table.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect(), outcome)
@@ -239,7 +244,7 @@ mod tests {
         let folder = paths::target().join("tests/run");
         std::fs::create_dir_all(&folder).unwrap();
         let file = folder.join("torque.csv");
-        Recorded::of(&scene).record(&scene.experiment, &file).unwrap();
+        record(&scene, &file).unwrap();
         let table = std::fs::read_to_string(file).unwrap();
         let column = table.lines().next().unwrap().split(',').position(|name| name == "omega_phi").unwrap();
         for line in table.lines().skip(1) {

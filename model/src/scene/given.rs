@@ -26,7 +26,7 @@ impl Given {
         let wrong = |what: &str| Err(format!("{text:?} {what}"));
         let value = match units::read(text) {
             Ok(quantity) if quantity.may_count_turns(unit) => {
-                return wrong("may count turns or radians: turns a minute are rpm, radians rad/min");
+                return wrong(&format!("may count turns or radians: {}", units::RPM));
             }
             Ok(quantity) if quantity.fits(unit) => quantity.value,
             Ok(Quantity { exponents, unit: given, .. }) => {

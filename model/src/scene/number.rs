@@ -43,9 +43,11 @@ impl Reader<'_> {
             let impossible = format!("{in_file} = {} is not possible", self.given(value));
             let is_pure = unit.name.is_empty();
             return match units::read(text) {
-                Ok(quantity) if quantity.may_count_turns(unit) => {
-                    tell(self, format!("{in_file} = {} may count turns or radians", self.given(value)), RPM.into())
-                }
+                Ok(quantity) if quantity.may_count_turns(unit) => tell(
+                    self,
+                    format!("{in_file} = {} may count turns or radians", self.given(value)),
+                    units::RPM.into(),
+                ),
                 Ok(quantity) if quantity.fits(unit) => Some(quantity.value),
                 Ok(Quantity { exponents, unit: given, .. }) => {
                     let what = units::quantity(unit.exponents).unwrap_or("a quantity");
@@ -93,9 +95,6 @@ impl Reader<'_> {
         Some(f64::from(item?.0))
     }
 }
-
-/// What is said of a speed in 1/min.
-const RPM: &str = "turns a minute are rpm, radians rad/min";
 
 /// ` [m]`, or nothing for a pure number.
 pub(super) fn brackets(unit: &Unit) -> String {

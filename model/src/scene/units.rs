@@ -116,6 +116,9 @@ pub(super) struct Quantity<'t> {
     pub unit: &'t str,
 }
 
+/// What is said of a speed in 1/min.
+pub const RPM: &str = "turns a minute are rpm, radians rad/min";
+
 impl Quantity<'_> {
     /// Whether it can be given for this unit: radians are pure numbers.
     pub fn fits(&self, unit: &Unit) -> bool {

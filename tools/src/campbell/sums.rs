@@ -1,7 +1,7 @@
 //! Where the frequencies of two whirls add up to twice the spin. A body that is not symmetric swaps energy between them there: its bands of
 //! instability begin at such speeds, and may be narrower than the distance of the speeds that a user asks for.
 
-use split_rotor_model::linear::{Branch, Campbell, Machine, Obstacle};
+use split_rotor_model::linear::{Branch, Campbell, Machine, Obstacle, Point};
 use split_rotor_model::scene::Scene;
 
 /// So many speeds at least are looked at for the sums: that takes no revolutions.
@@ -10,11 +10,20 @@ const STEPS: usize = 400;
 /// Speeds that differ by less than this part are one \[1].
 const EQUAL: f64 = 1e-6;
 
-/// The speeds between these [rad/s], which ascend and are of one sign, by the modes of the body with the mean of both inertias.
+/// The speeds between these [rad/s] of at least the size `lowest`, by the modes of the body with the mean of both inertias.
 ///
 /// # Errors
 /// Where the modes of that body are not found.
-pub fn speeds(scene: &Scene, first: f64, last: f64) -> Result<Vec<f64>, Obstacle> {
+pub fn speeds(scene: &Scene, [first, last]: [f64; 2], lowest: f64) -> Result<Vec<f64>, Obstacle> {
+    // Both sides of 0 on their own: the frequencies bend there.
+    let sides = [(first, last.min(-lowest)), (first.max(lowest), last)];
+    let sides = sides.into_iter().filter(|(first, last)| first < last);
+    let found = sides.map(|(first, last)| on_one_side(scene, first, last)).collect::<Result<Vec<_>, _>>()?;
+    Ok(found.concat().into_iter().filter(|speed| speed.abs() >= lowest).collect())
+}
+
+/// The same between speeds of one sign, which ascend.
+fn on_one_side(scene: &Scene, first: f64, last: f64) -> Result<Vec<f64>, Obstacle> {
     let machine = Machine::with_mean_inertia(&scene.parameters())?;
     let even: Vec<_> = (0..=STEPS).map(|n| first + (last - first) * n as f64 / STEPS as f64).collect();
     let campbell = Campbell::of(&machine, &even)?;
@@ -28,7 +37,7 @@ pub fn speeds(scene: &Scene, first: f64, last: f64) -> Result<Vec<f64>, Obstacle
 
 /// Where the sum of both frequencies is twice the spin [rad/s], by straight lines between the speeds that both branches have.
 fn crossings(a: &Branch, b: &Branch) -> Vec<f64> {
-    let above = |one: &split_rotor_model::linear::Point| {
+    let above = |one: &Point| {
         let other = b.points.iter().find(|other| other.speed == one.speed)?;
         let [one_swings, other_swings] = [one, other].map(|point| point.mode.eigenvalue.im);
         let both = one_swings > 0.0 && other_swings > 0.0;

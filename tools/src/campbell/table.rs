@@ -1,7 +1,7 @@
 //! The table: critical speeds, thresholds, and the modes at a few speeds.
 
 use super::{Diagram, number};
-use crate::doubts::{mark, words};
+use crate::doubts::{below, mark};
 use crate::numbers::{SHOWN, rounded, rpm, spread};
 use split_rotor_model::linear::{Branch, Crossing, Direction, Mode};
 use std::fmt::Write;
@@ -15,8 +15,7 @@ pub fn table(diagram: &Diagram) -> String {
     critical_speeds(diagram, &mut text);
     stability(diagram, &mut text);
     modes(diagram, &mut text);
-    let speeds: Vec<_> = diagram.campbell.steady.iter().map(|steady| steady.speed).collect();
-    text + &words(diagram.scene, &speeds)
+    below(text, diagram.scene, &speeds)
 }
 
 fn critical_speeds(diagram: &Diagram, text: &mut String) {

@@ -60,28 +60,19 @@ impl<'s> Turning<'s> {
             bail!("{}: at none of these speeds a motion was found that repeats with each revolution{why}", file());
         }
         let apart = all.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
-        // Both sides of 0 on their own: the frequencies bend there.
-        let sides =
-            [(all[0], all[all.len() - 1].min(-LOWEST * fastest)), (all[0].max(LOWEST * fastest), all[all.len() - 1])];
-        let sought = sides
-            .into_iter()
-            .filter(|(first, last)| first < last)
-            .map(|(first, last)| sums::speeds(scene, first, last));
-        let (sums, no_sums) = match sought.collect::<Result<Vec<_>, _>>() {
-            Ok(found) => (found.concat(), None),
+        let (sums, no_sums) = match sums::speeds(scene, [all[0], all[all.len() - 1]], LOWEST * fastest) {
+            Ok(sums) => (sums, None),
             Err(obstacle) => (Vec::new(), Some(obstacle.to_string())),
         };
-        let sums: Vec<_> = sums.into_iter().filter(|speed| speed.abs() >= LOWEST * fastest).collect();
         for sum in &sums {
             let far = (WIDE * part_apart(scene) * sum.abs()).min(0.5 * apart);
-            orbits.extend(
-                beside_a_sum(&rotating, &orbits, *sum, far)
-                    .map_err(|obstacle| missed.push(obstacle))
-                    .unwrap_or_default(),
-            );
-            orbits.sort_by(|a, b| a.speed.total_cmp(&b.speed));
-            orbits.dedup_by(|a, b| a.speed == b.speed);
+            match beside_a_sum(&rotating, &orbits, *sum, far) {
+                Ok(found) => orbits.extend(found),
+                Err(obstacle) => missed.push(obstacle),
+            }
         }
+        orbits.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        orbits.dedup_by(|a, b| a.speed == b.speed);
         let changes = orbits.windows(2).filter(|pair| pair[0].loss().is_some() != pair[1].loss().is_some());
         let thresholds = changes.map(|pair| threshold(&rotating, pair)).collect::<Result<_, _>>().with_context(file)?;
         Ok(Self { scene, orbits, missed, sums, no_sums, apart, thresholds })
@@ -175,8 +166,7 @@ impl<'s> Turning<'s> {
                 &format!("| {} | {} | {} | {largest} |\n", rounded(orbit.speed), rounded(growth), rounded(frequency));
         }
         let speeds: Vec<_> = self.orbits.iter().map(|orbit| orbit.speed).collect();
-        let below = doubts::words(self.scene, &speeds);
-        if below.is_empty() { text } else { text + "\n" + &below }
+        doubts::below(text, self.scene, &speeds)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The table: where the orbits are largest, and how large they are at a few speeds.
 
 use super::{Found, Linear, Peak, lag, nonlinear};
-use crate::doubts::{mark, words};
+use crate::doubts::{below, mark};
 use crate::numbers::{SHOWN, micrometres, rounded, rpm, spread};
 use std::fmt::Write;
 
@@ -19,11 +19,7 @@ pub fn table(found: &Found) -> String {
         Err(obstacle) => text += &format!("No linear response: {obstacle}.\n"),
     }
     nonlinear::words(found, &mut text);
-    let below = words(found.scene, &found.speeds);
-    if !below.is_empty() {
-        text += "\n";
-    }
-    text + &below
+    below(text, found.scene, &found.speeds)
 }
 
 fn peaks(found: &Found, linear: &Linear, text: &mut String) {

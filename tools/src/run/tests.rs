@@ -30,7 +30,7 @@ fn parsed(text: &str) -> Scene {
 
 /// A run to its end: the largest deflections of c and of the probe, the largest samples, and how many evaluations it took.
 fn ran(scene: &Scene) -> ([Deflection; 2], [f64; 2], f64) {
-    let mut run = Run::of(scene, outputs(scene).collect());
+    let mut run = Run::of(scene, outputs(scene).collect()).with_deflections();
     let names = [["r_c.y", "r_c.z"], ["probe[1].r.y", "probe[1].r.z"]];
     let column = |name| outputs(scene).position(|output| output.name == name).expect("an output");
     let (columns, mut samples) = (names.map(|names| names.map(column)), [0.0_f64; 2]);

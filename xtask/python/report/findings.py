@@ -36,7 +36,8 @@ class Finding:
 def findings(result, view, unheld=""):
     """All that this run and its linear view have; `unheld` says in which directions nothing holds the rotor, "" where something does."""
     contact = _contact(result)
-    found = [_critical(view), *_passed(result, view), *_held(result, view), _unheld(unheld), _stability(result, view, contact is not None, unheld), _rest(result), *_motion(result), contact]
+    found = [_critical(view), *_passed(result, view), *_held(result, view), _unheld(unheld)]
+    found += [_stability(result, view, contact is not None, unheld), _rest(result), *_motion(result), contact]
     found += [_load(result), _time(result), _energy(result)]
     return [finding for finding in found if finding]
 

@@ -93,8 +93,7 @@ impl Plane {
             let cell = |&m: &usize| self.rows[n][m].map_or("none".into(), rounded);
             text += &line(rounded(y.values[n]), &mut columns.iter().map(cell));
         }
-        let below = doubts::words(scene, ends);
-        if below.is_empty() { text } else { text + "\n" + &below }
+        doubts::below(text, scene, ends)
     }
 
     /// As SVG: a shade for each range of speeds.

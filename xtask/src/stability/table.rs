@@ -3,7 +3,7 @@
 use super::{Column, Map};
 use crate::numbers::{rounded, rpm, spread};
 use crate::speeds;
-use split_rotor_tools::doubts::{mark, words};
+use split_rotor_tools::doubts::{below, mark};
 
 /// So many values are shown.
 const SHOWN: usize = 12;
@@ -29,8 +29,7 @@ pub fn table(map: &Map) -> String {
             text += &format!("| {value} | {} | {speed}{mark} | {rpm} | {whirl} |\n", side(column, map, at.speed));
         }
     }
-    let below = words(&map.scene, &map.speeds);
-    if below.is_empty() { text } else { text + "\n" + &below }
+    below(text, &map.scene, &map.speeds)
 }
 
 /// On which side of a threshold [rad/s] the machine is unstable.
