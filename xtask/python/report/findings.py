@@ -247,7 +247,10 @@ def _time(result):
     if result.timings is None:
         return None
     spent = result.timings
-    more = f", of {quantity(spent.total, 's')} with fmpy’s own work" if spent.total else f" for {number(result.scene.stop - result.scene.start)}\u00a0s"
+    lasted = quantity(result.scene.stop - result.scene.start, "s")
+    more = f" and of the search for the largest deflections, for {lasted}"
+    if spent.total:
+        more = f", of {quantity(spent.total, 's')} with fmpy’s own work"
     return Finding(quantity(spent.solver, "s"), f"CPU time of the solver{more}")
 
 

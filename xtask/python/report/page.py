@@ -72,7 +72,8 @@ def _costs(result):
         ("sum of the local error estimates", number(last["solver.error_estimate"], 2), ""),
     ]
     if spent:
-        rows.append(("CPU time of the solver", number(spent.solver, 2), "s"))
+        searched = "" if spent.total else ", search for the largest deflections included"
+        rows.append((f"CPU time of the solver{searched}", number(spent.solver, 2), "s"))
     if spent and spent.total:
         rows += [
             ("CPU time of the whole run, fmpy’s own work included", number(spent.total, 2), "s"),

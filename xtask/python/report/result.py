@@ -23,7 +23,7 @@ class Timings:
     """What a run took [s]."""
 
     solver: float
-    """CPU time of the solver: in fmpy, that within fmi2DoStep."""
+    """CPU time of the solver: in fmpy, that within fmi2DoStep; in `run`, with the search for the largest deflections."""
     total: float | None = None
     """CPU time from the set-up of the experiment to its end, the host's own work included; None without a host."""
     wall: float | None = None
