@@ -157,7 +157,10 @@ impl<'s> Recorded<'s> {
         println!("{title}");
         // Steps add up to a time with rounding in its last digits.
         let t: f64 = format!("{t:.11e}").parse()?;
-        println!("  time       up to {t} s, {:.3} s of CPU time with the search for the largest deflections", self.solving.as_secs_f64());
+        println!(
+            "  time       up to {t} s, {:.3} s of CPU time with the search for the largest deflections",
+            self.solving.as_secs_f64()
+        );
         let method = self.run.method();
         let cost = self.run.simulation.read()?.cost;
         let (steps, rejected, evaluations) = (cost.steps, cost.rejected, cost.evaluations);
