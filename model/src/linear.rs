@@ -4,12 +4,14 @@
 //! simulation, and their derivatives those of `stiff`.
 
 mod campbell;
+mod crossings;
 mod machine;
 mod modes;
 mod response;
 mod state_space;
 
-pub use campbell::{Branch, Campbell, Crossing, Point};
+pub use campbell::{Branch, Campbell, Point};
+pub use crossings::Crossing;
 pub(crate) use machine::stop_drives;
 pub use machine::{Machine, Obstacle, STATES, Steady, balanced};
 pub use modes::{Direction, Mode, Shape};

@@ -95,13 +95,6 @@ pub enum Obstacle {
         /// [rad/s].
         speed: f64,
     },
-    /// Between these speeds [rad/s] a mode changes from one side of a line to the other, and cannot be followed there.
-    NotFollowed {
-        /// [rad/s].
-        from: f64,
-        /// [rad/s].
-        to: f64,
-    },
     /// A law switches between the start and the steady state at this speed [rad/s].
     Switches {
         /// [rad/s].
@@ -135,13 +128,6 @@ impl fmt::Display for Obstacle {
                     f,
                     "at {speed} rad/s the modes are not known: the search for the eigenvalues of the linear equations did not converge, \
                      or they hold numbers that are not finite; choose other speeds, and report the scene"
-                )
-            }
-            Self::NotFollowed { from, to } => {
-                write!(
-                    f,
-                    "between {from} and {to} rad/s a mode crosses a line or begins to grow, and could not be followed to where it does: \
-                     look at more speeds (--steps), or at others"
                 )
             }
             Self::Switches { speed } => {

@@ -22,6 +22,8 @@ pub struct Mode {
     /// The area that its orbits sweep over that of circles, forward if positive \[1]: ±1 of circles, 0 of lines, and of what does not swing
     /// across the axis.
     pub sense: f64,
+    /// What rounding leaves of λ, at most [1/s].
+    rounding: f64,
 }
 
 /// Which way a mode whirls, by what its own orbits do.
@@ -75,7 +77,10 @@ const BESIDE: [f64; 4] = [1e-11, -3e-11, 1e-10, -3e-10];
 const SWINGS: f64 = 1e-7;
 
 /// A mode grows where Re λ is more than this part of its size: less is rounding \[1].
-pub(super) const GROWS: f64 = 1e-9;
+const GROWS: f64 = 1e-9;
+
+/// The same of the size of the fastest mode \[1]: an eigenvalue near 0 has the rounding of the largest.
+const OF_FASTEST: f64 = 1e-10;
 
 impl Mode {
     /// Its frequency [rad/s], negative where it whirls backward.
@@ -90,7 +95,12 @@ impl Mode {
 
     /// Whether it grows.
     pub fn grows(&self) -> bool {
-        self.eigenvalue.re > GROWS * self.eigenvalue.modulus()
+        self.eigenvalue.re > self.rounding
+    }
+
+    /// What rounding leaves of λ, at most [1/s].
+    pub(super) fn rounding(&self) -> f64 {
+        self.rounding
     }
 
     /// How like another one it is, from 0 to 1.
@@ -117,6 +127,7 @@ impl Steady {
             (self.is_held || size > UNHELD * largest) && value.im >= -SWINGS * size
         };
         let all = eigenvalues(&matrix).ok_or(lost.clone())?;
+        let fastest = all.iter().map(|value| value.modulus()).fold(0.0, f64::max);
         let mut values: Vec<_> = all.iter().copied().filter(held).collect();
         values.sort_by(|a, b| a.im.total_cmp(&b.im));
         let mut modes = Vec::new();
@@ -125,10 +136,10 @@ impl Steady {
                 values.into_iter().partition(|other| (other - value).modulus() <= EQUAL * value.modulus());
             values = other;
             match self.apart(value, equal.len()) {
-                Some(shapes) => modes.extend(shapes.into_iter().map(|shape| self.mode(value, shape))),
+                Some(shapes) => modes.extend(shapes.into_iter().map(|shape| self.mode(value, shape, fastest))),
                 None => {
                     for value in equal {
-                        modes.push(self.refined(value).ok_or(lost.clone())?);
+                        modes.push(self.refined(value, fastest).ok_or(lost.clone())?);
                     }
                 }
             }
@@ -137,7 +148,7 @@ impl Steady {
     }
 
     /// The mode of a value that no other one equals; None where its shape is not found.
-    fn refined(&self, value: Complex<f64>) -> Option<Mode> {
+    fn refined(&self, value: Complex<f64>, fastest: f64) -> Option<Mode> {
         let matrix = self.matrix.map(Complex::from);
         let right = inverse_iterated(&matrix, value)?;
         let left = inverse_iterated(&matrix.transpose(), value)?;
@@ -145,7 +156,7 @@ impl Steady {
         // Rayleigh's quotient of both sides errs by the square of what they err; of values that nearly agree it says nothing.
         let refined = (left.dot(&(matrix * right))) / both;
         let is_near = both.modulus() > 1e-4 && (refined - value).modulus() < 1e-6 * (1.0 + value.modulus());
-        Some(self.mode(if is_near { refined } else { value }, right))
+        Some(self.mode(if is_near { refined } else { value }, right, fastest))
     }
 
     /// The shapes of a value that so many modes have, parted by the way they whirl; None of a single one, and where there are fewer.
@@ -166,11 +177,12 @@ impl Steady {
         Some((0..count).map(shape).collect())
     }
 
-    fn mode(&self, value: Complex<f64>, shape: Shape) -> Mode {
+    fn mode(&self, value: Complex<f64>, shape: Shape, fastest: f64) -> Mode {
         let swings = value.im > SWINGS * value.modulus();
         let value = if swings { value } else { Complex::from(value.re) };
         let (direction, sense) = self.direction(&shape, swings);
-        Mode { eigenvalue: value * self.rate, shape, direction, sense }
+        let rounding = self.rate * f64::max(GROWS * value.modulus(), OF_FASTEST * fastest);
+        Mode { eigenvalue: value * self.rate, shape, direction, sense, rounding }
     }
 
     /// How place and tilt move across the axis.

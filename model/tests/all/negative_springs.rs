@@ -6,7 +6,7 @@ use crate::random_scenes::dice::Dice;
 use nalgebra::{Complex, ComplexField, SMatrix};
 use oracles::whirl::{Bearing, Whirl};
 use split_rotor_model::decompositions::eigenvalues;
-use split_rotor_model::linear::{Machine, Mode, Obstacle, Steady};
+use split_rotor_model::linear::{Campbell, Crossing, Machine, Mode, Obstacle, Steady};
 
 /// So many rotors are drawn.
 const ROTORS: u64 = 300;
@@ -102,6 +102,72 @@ fn exact_every_mode_that_grows_is_found_in_springs_of_either_sign() {
     within("modes", worst, MODES);
     within("residual", residual, RESIDUAL);
     within("watched", watched, WATCHED);
+}
+
+/// Speeds at which each rotor is looked at.
+const STEPS: u32 = 20;
+
+/// A threshold against the textbook's, of its speed \[1]: measured 3.0e-11.
+const THRESHOLDS: f64 = 2e-10;
+
+/// How far a critical speed is from a frequency of the textbook's equations, of itself \[1]: measured 2.8e-12.
+const CRITICAL: f64 = 2e-11;
+
+#[test]
+fn exact_ranges_of_speeds_at_which_rotors_in_springs_of_either_sign_grow_and_their_critical_speeds() {
+    let (mut counted, mut furthest, mut criticals, mut off_line) = (0, 0.0_f64, 0, 0.0_f64);
+    for number in 0..ROTORS {
+        let (whirl, text) = drawn(number);
+        let machine = Machine::of(Named::written(&text).simulation.parameters()).expect("a machine");
+        let exact = |speed: f64| {
+            let all = Whirl { speed, ..whirl.clone() }.eigenvalues();
+            let fastest = largest(all.iter().map(|value| value.modulus()));
+            all.into_iter().filter(move |value| value.modulus() > UNHELD * fastest)
+        };
+        let highest = 1.5 * exact(0.0).map(|value| value.modulus()).fold(whirl.speed.abs(), f64::max);
+        let speeds: Vec<_> = (0..=STEPS).map(|n| highest * f64::from(n) / f64::from(STEPS)).collect();
+        let campbell = Campbell::of(&machine, &speeds).unwrap_or_else(|obstacle| panic!("{obstacle}\n{text}"));
+        let thresholds = campbell.thresholds().unwrap_or_else(|obstacle| panic!("{obstacle}\n{text}"));
+        let critical = campbell.critical_speeds(1.0).unwrap_or_else(|obstacle| panic!("{obstacle}\n{text}"));
+        // Of a pair each counts: where it becomes two that do not swing, as many grow as before.
+        let growing = |speed: f64| exact(speed).filter(|value| value.re > 1e-7 * value.modulus()).count();
+        let above = |speed: f64| exact(speed).filter(|value| value.im > speed * (1.0 + 1e-9)).count();
+        for pair in speeds.windows(2) {
+            let within = |all: &[Crossing]| {
+                let here = all.iter().map(|one| one.speed).filter(|speed| (pair[0]..=pair[1]).contains(speed));
+                here.collect::<Vec<_>>()
+            };
+            let [before, after] = [pair[0], pair[1]].map(growing);
+            match &within(&thresholds)[..] {
+                [] => assert_eq!(before, after, "{pair:?}\n{text}"),
+                [threshold] => {
+                    assert_ne!(before, after, "{threshold} in {pair:?}\n{text}");
+                    let [mut from, mut to] = [pair[0], pair[1]];
+                    while to - from > 1e-12 * to {
+                        let speed = 0.5 * (from + to);
+                        *(if growing(speed) == before { &mut from } else { &mut to }) = speed;
+                    }
+                    furthest = furthest.max((threshold / to - 1.0).abs());
+                    counted += 1;
+                }
+                several => assert!(before.abs_diff(after) <= 2 * several.len(), "{several:?} in {pair:?}\n{text}"),
+            }
+            // At standstill every line begins at 0, where what nothing holds is.
+            if pair[0] > 0.0 {
+                let (found, change) = (within(&critical).len(), above(pair[0]).abs_diff(above(pair[1])));
+                let is_explained = found >= change && (found - change).is_multiple_of(2);
+                assert!(is_explained, "{found} for {change} in {pair:?}\n{text}");
+            }
+        }
+        for one in &critical {
+            let apart = exact(one.speed).map(|value| (value.im / one.speed - 1.0).abs());
+            off_line = off_line.max(apart.fold(f64::INFINITY, f64::min));
+            criticals += 1;
+        }
+    }
+    println!("{counted} thresholds, {criticals} critical speeds");
+    within("thresholds", furthest, THRESHOLDS);
+    within("critical speeds", off_line, CRITICAL);
 }
 
 #[test]

@@ -1,0 +1,225 @@
+//! Where modes cross a line: their frequency that of a multiple of the speed, or their growth 0.
+
+use super::campbell::{Branch, Campbell, Point};
+use super::{Mode, Obstacle, Steady};
+use nalgebra::ComplexField;
+
+/// Where a mode crosses a line.
+#[derive(Clone, Debug)]
+pub struct Crossing {
+    /// The number of its branch, from 0.
+    pub branch: usize,
+    /// [rad/s].
+    pub speed: f64,
+    /// The mode there.
+    pub mode: Mode,
+}
+
+/// A crossing is found to this part of its speed \[1], or after so many trials.
+const FOUND: f64 = 1e-13;
+const TRIALS: u32 = 100;
+
+/// What is left of the distance to the line there, of that at both ends \[1]: more is a jump from one mode to another.
+const CLOSED: f64 = 1e-6;
+
+/// Of the distance of two speeds, a crossing this near to one of them, at which the mode is on the line, is there \[1].
+const BESIDE_END: f64 = 1e-6;
+
+/// A mode is near a line where it is nearer than this part of its size \[1].
+const NEAR: f64 = 1e-4;
+
+/// A speed, and the modes that are above the line there.
+struct Seen {
+    speed: f64,
+    above: Vec<Mode>,
+}
+
+impl Seen {
+    /// How many eigenvalues these modes have: a mode that swings has two, and may become two that do not.
+    fn eigenvalues(&self) -> usize {
+        self.above.iter().map(|mode| if mode.eigenvalue.im > 0.0 { 2 } else { 1 }).sum()
+    }
+}
+
+/// A line, by how far a mode is above it at a speed [rad/s].
+struct Line<F: Fn(&Mode, f64) -> f64>(F);
+
+impl<F: Fn(&Mode, f64) -> f64> Line<F> {
+    fn is_above(&self, mode: &Mode, speed: f64) -> bool {
+        (self.0)(mode, speed) > mode.rounding()
+    }
+
+    fn is_on(&self, mode: &Mode, speed: f64) -> bool {
+        (self.0)(mode, speed).abs() <= mode.rounding()
+    }
+}
+
+impl Campbell<'_> {
+    /// Where the frequencies are `order` times the speed, by speed.
+    ///
+    /// # Errors
+    /// Where there is no steady state on the way, and where its eigenvalues are not found.
+    pub fn critical_speeds(&self, order: f64) -> Result<Vec<Crossing>, Obstacle> {
+        let line = Line(|mode: &Mode, speed: f64| mode.eigenvalue.im - order * speed.abs());
+        let mut found = self.crossings(&line)?;
+        // A mode that comes up beside the line, as the spin begins to hold the axis, has not crossed it; nor has one that does not swing.
+        let is_near = |speed: f64, mode: &Mode| (line.0)(mode, speed).abs() <= NEAR * mode.eigenvalue.modulus();
+        found.retain(|Crossing { speed, mode, .. }| mode.eigenvalue.im > 0.0 && is_near(*speed, mode));
+        Ok(found)
+    }
+
+    /// Where modes begin or cease to grow, by speed.
+    ///
+    /// # Errors
+    /// Where there is no steady state on the way, and where its eigenvalues are not found.
+    pub fn thresholds(&self) -> Result<Vec<Crossing>, Obstacle> {
+        self.crossings(&Line(|mode: &Mode, _| mode.eigenvalue.re))
+    }
+
+    fn crossings<F: Fn(&Mode, f64) -> f64>(&self, line: &Line<F>) -> Result<Vec<Crossing>, Obstacle> {
+        let mut found = Vec::new();
+        for pair in self.steady.windows(2) {
+            let ends = [&pair[0], &pair[1]];
+            found.extend(match self.along_branches(ends, line)? {
+                Some(crossings) => crossings,
+                None => self.by_numbers(ends, line)?,
+            });
+        }
+        found.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        Ok(found)
+    }
+
+    /// Between two neighbouring speeds, along the branches that are above the line at one of them: to the last digits. None where such a
+    /// branch begins, ends or is lost between them, and where it is on the line at one of them, as undamped modes are until they meet.
+    fn along_branches<F: Fn(&Mode, f64) -> f64>(
+        &self,
+        ends: [&Steady; 2],
+        line: &Line<F>,
+    ) -> Result<Option<Vec<Crossing>>, Obstacle> {
+        let mut found = Vec::new();
+        for (branch, Branch { points }) in self.branches.iter().enumerate() {
+            let ends = ends.map(|end| points.iter().find(|point| point.speed == end.speed));
+            let above = ends.map(|end| end.is_some_and(|end| line.is_above(&end.mode, end.speed)));
+            if above[0] == above[1] {
+                continue;
+            }
+            let [Some(from), Some(to)] = ends else { return Ok(None) };
+            if [from, to].into_iter().any(|end| line.is_on(&end.mode, end.speed)) {
+                return Ok(None);
+            }
+            let Some(Point { speed, mode }) = self.root([from, to], line)? else { return Ok(None) };
+            found.push(Crossing { branch, speed, mode });
+        }
+        Ok(Some(found))
+    }
+
+    /// Along the mode, from either end; where that cannot be followed, along the nearest eigenvalues; None where those lead nowhere either.
+    fn root<F: Fn(&Mode, f64) -> f64>(&self, ends: [&Point; 2], line: &Line<F>) -> Result<Option<Point>, Obstacle> {
+        let [from, to] = ends;
+        let by_shape = |near: &Point, speed: f64| self.machine.followed(near, speed);
+        let by_value = |near: &Point, speed: f64| self.machine.nearest(near, speed);
+        for ends in [[from, to], [to, from]] {
+            if let Some(point) = root_by(ends, line, by_shape)? {
+                return Ok(Some(point));
+            }
+        }
+        root_by(ends, line, by_value)
+    }
+
+    /// Between two neighbouring speeds, where the number of eigenvalues above the line changes, by halves.
+    fn by_numbers<F: Fn(&Mode, f64) -> f64>(
+        &self,
+        ends: [&Steady; 2],
+        line: &Line<F>,
+    ) -> Result<Vec<Crossing>, Obstacle> {
+        let seen = ends.map(|Steady { speed, .. }| {
+            let above = self.at(*speed).filter(|(_, mode)| line.is_above(mode, *speed));
+            Seen { speed: *speed, above: above.map(|(_, mode)| mode.clone()).collect() }
+        });
+        let mut found = Vec::new();
+        self.halve(ends[0], seen.each_ref(), line, TRIALS, &mut found)?;
+        let [before, after] = ends.map(|end| end.speed);
+        let slack = BESIDE_END * (after - before);
+        let mut crossings: Vec<Crossing> = Vec::new();
+        for (speed, mode, rises) in found {
+            let [there, elsewhere] = if rises { [after, before] } else { [before, after] };
+            let apart = |other: &Mode| (other.eigenvalue - mode.eigenvalue).modulus();
+            let nearest = |a: &(usize, &Mode), b: &(usize, &Mode)| apart(a.1).total_cmp(&apart(b.1));
+            let is_new = |(n, _): &(usize, &Mode)| {
+                !crossings.iter().any(|other| other.branch == *n && (other.speed - speed).abs() <= slack)
+            };
+            let above = self.at(there).filter(|(_, mode)| line.is_above(mode, there)).filter(is_new).min_by(nearest);
+            // It may have crossed the line again until there.
+            let (branch, _) = above.or_else(|| self.at(elsewhere).min_by(nearest)).expect("modes at one of the ends");
+            let beside = [before, after].into_iter().find(|end| (end - speed).abs() <= slack);
+            let on_line = beside.and_then(|end| {
+                let (_, mode) = self.at(end).find(|(n, mode)| *n == branch && line.is_on(mode, end))?;
+                Some((end, mode.clone()))
+            });
+            let (speed, mode) = on_line.unwrap_or((speed, mode));
+            crossings.push(Crossing { branch, speed, mode });
+        }
+        Ok(crossings)
+    }
+
+    /// Adds each crossing between these speeds, as a speed, the mode, and whether it is above the line from there on.
+    fn halve<F: Fn(&Mode, f64) -> f64>(
+        &self,
+        near: &Steady,
+        [from, to]: [&Seen; 2],
+        line: &Line<F>,
+        trials: u32,
+        found: &mut Vec<(f64, Mode, bool)>,
+    ) -> Result<(), Obstacle> {
+        if from.eigenvalues() == to.eigenvalues() {
+            return Ok(());
+        }
+        let speed = 0.5 * (from.speed + to.speed);
+        if trials == 0 || to.speed - from.speed <= FOUND * speed.abs() {
+            let rises = to.eigenvalues() > from.eigenvalues();
+            let (more, less) = if rises { (to, from) } else { (from, to) };
+            let height = |mode: &Mode| (line.0)(mode, more.speed);
+            let mut above = more.above.clone();
+            above.sort_by(|a, b| height(a).total_cmp(&height(b)));
+            // The lowest ones have just crossed it.
+            let count = above.len().saturating_sub(less.above.len()).max(1);
+            found.extend(above.into_iter().take(count).map(|mode| (speed, mode, rises)));
+            return Ok(());
+        }
+        let (_, modes) = self.machine.modes(speed, Some(near))?;
+        let above = modes.into_iter().filter(|mode| line.is_above(mode, speed)).collect();
+        let between = Seen { speed, above };
+        self.halve(near, [from, &between], line, trials - 1, found)?;
+        self.halve(near, [&between, to], line, trials - 1, found)
+    }
+}
+
+/// By Illinois' rule; None where the mode cannot be followed, or no root is met.
+fn root_by<F: Fn(&Mode, f64) -> f64>(
+    [from, to]: [&Point; 2],
+    line: &Line<F>,
+    at: impl Fn(&Point, f64) -> Result<Option<Mode>, Obstacle>,
+) -> Result<Option<Point>, Obstacle> {
+    let [mut at_a, mut at_b] = [from, to].map(|end| (line.0)(&end.mode, end.speed));
+    let close = CLOSED * at_a.abs().max(at_b.abs());
+    let (mut a, mut b) = (from.speed, to.clone());
+    for _ in 0..TRIALS {
+        if (b.speed - a).abs() <= FOUND * b.speed.abs() || at_b == 0.0 {
+            return Ok((at_b.abs() <= close).then_some(b));
+        }
+        let speed = b.speed - at_b * (b.speed - a) / (at_b - at_a);
+        let Some(mode) = at(&b, speed)? else { return Ok(None) };
+        let value = (line.0)(&mode, speed);
+        let is_still = speed == b.speed;
+        let (last, at_last) = (std::mem::replace(&mut b, Point { speed, mode }), std::mem::replace(&mut at_b, value));
+        if (value > 0.0) != (at_last > 0.0) {
+            (a, at_a) = (last.speed, at_last);
+        } else {
+            at_a *= 0.5;
+        }
+        if is_still {
+            return Ok((at_b.abs() <= close).then_some(b));
+        }
+    }
+    Ok(None)
+}
