@@ -22,8 +22,8 @@ const TRIALS: u32 = 100;
 /// What is left of the distance to the line there, of that at both ends \[1]: more is a jump from one mode to another.
 const CLOSED: f64 = 1e-6;
 
-/// Of the distance of two speeds, a crossing this near to one of them, at which the mode is on the line, is there \[1].
-const BESIDE_END: f64 = 1e-6;
+/// So near to a crossing, of the distance of two speeds, it is sought on which side of the line the mode is \[1].
+const BESIDE: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1];
 
 /// A mode is near a line where it is nearer than this part of its size \[1].
 const NEAR: f64 = 1e-4;
@@ -138,38 +138,52 @@ impl Campbell<'_> {
         });
         let mut found = Vec::new();
         self.halve(ends[0], seen.each_ref(), line, TRIALS, &mut found)?;
-        let [before, after] = ends.map(|end| end.speed);
-        let slack = BESIDE_END * (after - before);
         let mut crossings: Vec<Crossing> = Vec::new();
-        for (speed, mode, rises) in found {
-            let [there, elsewhere] = if rises { [after, before] } else { [before, after] };
-            let apart = |other: &Mode| (other.eigenvalue - mode.eigenvalue).modulus();
-            let nearest = |a: &(usize, &Mode), b: &(usize, &Mode)| apart(a.1).total_cmp(&apart(b.1));
-            let is_new = |(n, _): &(usize, &Mode)| {
-                !crossings.iter().any(|other| other.branch == *n && (other.speed - speed).abs() <= slack)
-            };
-            let above = self.at(there).filter(|(_, mode)| line.is_above(mode, there)).filter(is_new).min_by(nearest);
+        for (at, rises) in found {
+            let [there, elsewhere] = if rises { [1, 0] } else { [0, 1] }.map(|n: usize| ends[n].speed);
+            let alike =
+                |a: &(usize, &Mode), b: &(usize, &Mode)| at.mode.likeness(a.1).total_cmp(&at.mode.likeness(b.1));
+            let is_new = |(n, _): &(usize, &Mode)| crossings.iter().all(|other| other.branch != *n);
+            let above = self.at(there).filter(|(_, mode)| line.is_above(mode, there)).filter(is_new).max_by(alike);
             // It may have crossed the line again until there.
-            let (branch, _) = above.or_else(|| self.at(elsewhere).min_by(nearest)).expect("modes at one of the ends");
-            let beside = [before, after].into_iter().find(|end| (end - speed).abs() <= slack);
-            let on_line = beside.and_then(|end| {
-                let (_, mode) = self.at(end).find(|(n, mode)| *n == branch && line.is_on(mode, end))?;
-                Some((end, mode.clone()))
-            });
-            let (speed, mode) = on_line.unwrap_or((speed, mode));
+            let (branch, _) = above.or_else(|| self.at(elsewhere).max_by(alike)).expect("modes at one of the ends");
+            let Point { speed, mode } = self.polished(&at, ends[1].speed - ends[0].speed, line)?.unwrap_or(at);
             crossings.push(Crossing { branch, speed, mode });
         }
         Ok(crossings)
     }
 
-    /// Adds each crossing between these speeds, as a speed, the mode, and whether it is above the line from there on.
+    /// A crossing from one side of the line to the other, to the last digits, between the nearest speeds at which more than rounding parts
+    /// the mode from the line. None where it is on the same side at both, or cannot be followed to them.
+    fn polished<F: Fn(&Mode, f64) -> f64>(
+        &self,
+        at: &Point,
+        distance: f64,
+        line: &Line<F>,
+    ) -> Result<Option<Point>, Obstacle> {
+        for part in BESIDE {
+            let ends = [-part, part].map(|part| at.speed + part * distance);
+            if ends[0] * ends[1] <= 0.0 {
+                break;
+            }
+            let [Some(from), Some(to)] = ends.map(|speed| self.machine.followed(at, speed).transpose()) else { break };
+            let [from, to] = [Point { speed: ends[0], mode: from? }, Point { speed: ends[1], mode: to? }];
+            if [&from, &to].into_iter().all(|end| !line.is_on(&end.mode, end.speed)) {
+                let [before, after] = [&from, &to].map(|end| line.is_above(&end.mode, end.speed));
+                return if before == after { Ok(None) } else { self.root([&from, &to], line) };
+            }
+        }
+        Ok(None)
+    }
+
+    /// Adds each crossing between these speeds, and whether the mode is above the line from there on.
     fn halve<F: Fn(&Mode, f64) -> f64>(
         &self,
         near: &Steady,
         [from, to]: [&Seen; 2],
         line: &Line<F>,
         trials: u32,
-        found: &mut Vec<(f64, Mode, bool)>,
+        found: &mut Vec<(Point, bool)>,
     ) -> Result<(), Obstacle> {
         if from.eigenvalues() == to.eigenvalues() {
             return Ok(());
@@ -183,7 +197,7 @@ impl Campbell<'_> {
             above.sort_by(|a, b| height(a).total_cmp(&height(b)));
             // The lowest ones have just crossed it.
             let count = above.len().saturating_sub(less.above.len()).max(1);
-            found.extend(above.into_iter().take(count).map(|mode| (speed, mode, rises)));
+            found.extend(above.into_iter().take(count).map(|mode| (Point { speed, mode }, rises)));
             return Ok(());
         }
         let (_, modes) = self.machine.modes(speed, Some(near))?;
@@ -202,10 +216,11 @@ fn root_by<F: Fn(&Mode, f64) -> f64>(
 ) -> Result<Option<Point>, Obstacle> {
     let [mut at_a, mut at_b] = [from, to].map(|end| (line.0)(&end.mode, end.speed));
     let close = CLOSED * at_a.abs().max(at_b.abs());
+    let closed = |at_b: f64, b: Point| (at_b.abs() <= close || line.is_on(&b.mode, b.speed)).then_some(b);
     let (mut a, mut b) = (from.speed, to.clone());
     for _ in 0..TRIALS {
         if (b.speed - a).abs() <= FOUND * b.speed.abs() || at_b == 0.0 {
-            return Ok((at_b.abs() <= close).then_some(b));
+            return Ok(closed(at_b, b));
         }
         let speed = b.speed - at_b * (b.speed - a) / (at_b - at_a);
         let Some(mode) = at(&b, speed)? else { return Ok(None) };
@@ -218,7 +233,7 @@ fn root_by<F: Fn(&Mode, f64) -> f64>(
             at_a *= 0.5;
         }
         if is_still {
-            return Ok((at_b.abs() <= close).then_some(b));
+            return Ok(closed(at_b, b));
         }
     }
     Ok(None)
