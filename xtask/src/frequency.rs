@@ -155,3 +155,23 @@ fn rows(points: &[Point]) -> Vec<sheets::Row> {
     };
     points.iter().filter_map(row).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_torque_that_does_not_move_the_spin_is_explained() {
+        let folder = crate::paths::target().join("tests/frequency");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let file = folder.join("held.toml");
+        let scene = "[rotor]\nm = 6.0\nJa = 0.01\nJt = 0.06\n[start]\nomega.x = 500.0\n[[effects.bearing]]\nposition = 0.1\nkyy = 1e6\nkzz = 1e6\n\
+            [[effects.port]]\nposition = 0.1\n";
+        std::fs::write(&file, scene).expect("a file");
+        let file = file.display().to_string();
+        let refused = frequency(&file, None, ["port[1].m.x", "omega_phi"], None, 3, Some(&folder));
+        let words = refused.expect_err("the spin is held").to_string();
+        assert!(words.contains("port[1].m.x does not move omega_phi in the linear view"), "{words}");
+        assert!(words.contains("The linear view holds the spin"), "{words}");
+    }
+}
