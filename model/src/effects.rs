@@ -116,12 +116,12 @@ pub trait Effect: Clone + Default + Send + 'static {
         Act::none()
     }
 
-    /// By how much each of its loads changes with a small change of the motion, squared [N²] or [(N·m)²].
+    /// By how much each of its loads changes with a small change of the motion, squared \[N²] or [(N·m)²].
     fn load_changes(&self, _at: &Pose, _change: &Change) -> [f64; MOST_LOADS] {
         [0.0; MOST_LOADS]
     }
 
-    /// How large each of its loads is after this change of the motion from where excursions are counted from, squared [N²] or
+    /// How large each of its loads is after this change of the motion from where excursions are counted from, squared \[N²] or
     /// [(N·m)²].
     #[inline(always)]
     fn load_sizes(&self, at: &Pose, excursion: &Change) -> [f64; MOST_LOADS] {

@@ -1,5 +1,5 @@
 //! The groups of a motion whose errors count together, and how large each is: r \[m] and v [m/s] along e and across it, K
-//! [kg·m²/s] along K and across it, γ \[rad], φ \[rad], the work supplied and lost \[J]; then the [loads](super::loads) [N], [N·m].
+//! [kg·m²/s] along K and across it, γ \[rad], φ \[rad], the work supplied and lost \[J]; then the loads \[N], [N·m].
 
 use super::Rotor;
 use crate::effects::Effects;
