@@ -19,12 +19,17 @@ if TYPE_CHECKING:
 
 
 class Columns(Mapping[str, "npt.NDArray[Any]"]):
-    """A table: an array for each column by its name, whose end tells the unit; NaN where there is no value."""
+    """A table: an array for each column by its name, whose end tells the unit; NaN where there is no value, names with commas between."""
 
     def __init__(self, rows: Sequence[Mapping[str, Any]]) -> None:
         names = list(rows[0]) if rows else []
-        columns = {name: [row[name] for row in rows] for name in names}
-        self._columns = {name: np.array([np.nan if one is None else one for one in of]) for name, of in columns.items()}
+        self._columns = {name: np.array([self._cell(row[name]) for row in rows]) for name in names}
+
+    @staticmethod
+    def _cell(value: Any) -> Any:
+        if isinstance(value, list):
+            return ", ".join(value)
+        return np.nan if value is None else value
 
     def __getitem__(self, name: str) -> npt.NDArray[Any]:
         try:

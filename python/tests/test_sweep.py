@@ -251,7 +251,7 @@ def test_inputs_over_time_are_the_scenes_under_an_fmu_too(scene, tmp_path):
         (["--table", "nosuch.csv"], "nosuch.csv"),
         (["--table", "empty.csv"], "the column `rotor.q` is empty, and no parameter"),
         (["--table", "dates.csv"], 'm = "2026-01-01"'),
-        (["--vary", "rotor.Ja", "0.04", "0.05", "--fmu", "paper.fmu"], "paper.fmu is of another scene: rotor.m = 5.0, not 12.0"),
+        (["--vary", "rotor.Ja", "0.04", "0.05", "--fmu", "paper.fmu"], "paper.fmu is of another scene: rotor.m = 5.0, not 11.999"),
         (["--vary", "experiment.stop", "1", "2", "--fmu", "turbo.fmu"], "experiment.stop cannot vary under an FMU"),
         (["--vary", "solver.method_number", "2", "3", "--fmu", "turbo.fmu"], "solver.method_number cannot vary under an FMU"),
         (["--vary", "rotor.m", "2", "3", "--fmu", "other.fmu"], "other.fmu is of another scene: probe[1].position is in one of them only"),
