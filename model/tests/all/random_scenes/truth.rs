@@ -45,6 +45,10 @@ pub struct Output {
 /// Of what hardly changes, errors count beside this part of its value [1]: rounding is no error.
 const LEAST: f64 = 1e-6;
 
+/// A bearing's force counts beside that of an axial way of this part of its position [1]: along t that is a number with the rounding of
+/// the position, and the whole motion may be less than that.
+const OF_LEVER: f64 = 1e-8;
+
 /// Why a scene is drawn anew.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unfit {
@@ -170,11 +174,16 @@ fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by:
     let turning = largest(shown.iter().map(|now| now.motion.omega.norm()));
     let own = output_differences(in_long_steps, shown, judged);
     let shifts = output_differences(in_long_steps, shifted, judged);
+    let bearings = trial.machine.bearings.iter().enumerate();
+    let levers: Vec<_> = bearings
+        .map(|(n, bearing)| (format!("bearing[{}].F", n + 1), OF_LEVER * bearing.axial[0] * bearing.position.abs()))
+        .collect();
     let output = |(n, (name, beside)): (usize, (String, Beside))| {
+        let lever = levers.iter().find(|(of, _)| *of == name).map_or(0.0, |(_, force)| *force);
         let size = match beside {
             // A hard ring is hit for moments, mostly between two points.
             Beside::Excursion if n < farthest.len() && judged == 1 => {
-                excursion(n).max(farthest[n]).max(LEAST * value(n))
+                excursion(n).max(farthest[n]).max(LEAST * value(n)).max(lever)
             }
             // A velocity of the axis is known to the last digits of that of the mass centre.
             Beside::Excursion => excursion(n).max(LEAST * value(n)).max(LEAST * trial.machine.eccentricity() * turning),
