@@ -45,7 +45,7 @@ impl Instance {
         if !same_time(from, now, step) {
             // Some hosts do not heed a status.
             let stands = match self.memory.step_failed {
-                true => ": the step before was discarded, and the motion stands there, as the output solver.time says",
+                true => ": the step before was discarded, and the motion has not gone on (output solver.time)",
                 false => "",
             };
             return Err(Failure::Error(format!(

@@ -27,7 +27,8 @@ fn refused(instance: &mut Instance, from: Real, step: Real, words: &[&str]) {
 
 #[test]
 fn fmi_the_experiment_may_start_at_any_time() {
-    /// What the rounding of times does to the motion, relative to the larger of its size and 1; measured 1.6e-11 (omega.y from −8 s), allow 1e-10.
+    /// What the rounding of times does to the motion, relative to the larger of its size and 1; measured 1.6e-11 (omega.y
+    /// from −8 s), allow 1e-10.
     const ROUNDING: Real = 1e-10;
     // At 1e-4 with all that the solver does; at tighter tolerances rounding has a say in its first steps, where loads have hardly
     // changed, and so in those that follow: at 1e-6 two runs differ by up to 1.9e-8.

@@ -143,8 +143,7 @@ fn column(scene: &Scene, with: &[(&Axis, f64)], speeds: &[f64]) -> Result<Column
     let here = || told(scene, with);
     let machine = machine(scene, with)?;
     let campbell = Campbell::of(&machine, speeds).with_context(here)?;
-    let points = || campbell.branches.iter().flat_map(|branch| &branch.points);
-    let grows = |speed: &f64| points().any(|point| point.speed == *speed && point.mode.grows());
+    let grows = |speed: &f64| campbell.at(*speed).any(|(_, mode)| mode.grows());
     let grows = speeds.iter().map(grows).collect();
     Ok(Column { value: with[0].1, grows, thresholds: campbell.thresholds().with_context(here)? })
 }

@@ -19,6 +19,13 @@ pub struct Branch {
     pub points: Vec<Point>,
 }
 
+impl Branch {
+    /// Its point at one of the speeds [rad/s], if it has one there.
+    pub fn at(&self, speed: f64) -> Option<&Point> {
+        self.points.iter().find(|point| point.speed == speed)
+    }
+}
+
 /// The modes of a machine from one speed to another.
 pub struct Campbell<'m> {
     pub(super) machine: &'m Machine,
@@ -69,12 +76,9 @@ impl<'m> Campbell<'m> {
     }
 
     /// The modes at one of the speeds [rad/s], each with its branch.
-    pub(super) fn at(&self, speed: f64) -> impl Iterator<Item = (usize, &Mode)> {
-        let of = move |(n, branch): (usize, &'_ Branch)| {
-            Some((n, branch.points.iter().position(|point| point.speed == speed)?))
-        };
-        let here = self.branches.iter().enumerate().filter_map(of);
-        here.map(|(branch, point)| (branch, &self.branches[branch].points[point].mode))
+    pub fn at(&self, speed: f64) -> impl Iterator<Item = (usize, &Mode)> {
+        let points = self.branches.iter().map(move |branch| branch.at(speed));
+        points.enumerate().filter_map(|(branch, point)| Some((branch, &point?.mode)))
     }
 
     /// Whether any mode grows at one of the speeds.

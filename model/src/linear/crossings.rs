@@ -1,6 +1,6 @@
 //! Where modes cross a line: their frequency that of a multiple of the speed, or their growth 0.
 
-use super::campbell::{Branch, Campbell, Point};
+use super::campbell::{Campbell, Point};
 use super::{Mode, Obstacle, Steady};
 use nalgebra::ComplexField;
 
@@ -45,12 +45,16 @@ impl Seen {
 struct Line<F: Fn(&Mode, f64) -> f64>(F);
 
 impl<F: Fn(&Mode, f64) -> f64> Line<F> {
+    fn height(&self, mode: &Mode, speed: f64) -> f64 {
+        (self.0)(mode, speed)
+    }
+
     fn is_above(&self, mode: &Mode, speed: f64) -> bool {
-        (self.0)(mode, speed) > mode.rounding()
+        self.height(mode, speed) > mode.rounding
     }
 
     fn is_on(&self, mode: &Mode, speed: f64) -> bool {
-        (self.0)(mode, speed).abs() <= mode.rounding()
+        self.height(mode, speed).abs() <= mode.rounding
     }
 }
 
@@ -63,7 +67,7 @@ impl Campbell<'_> {
         let line = Line(|mode: &Mode, speed: f64| mode.eigenvalue.im - order * speed.abs());
         let mut found = self.crossings(&line)?;
         // A mode that comes up beside the line, as the spin begins to hold the axis, has not crossed it; nor has one that does not swing.
-        let is_near = |speed: f64, mode: &Mode| (line.0)(mode, speed).abs() <= NEAR * mode.eigenvalue.modulus();
+        let is_near = |speed: f64, mode: &Mode| line.height(mode, speed).abs() <= NEAR * mode.eigenvalue.modulus();
         found.retain(|Crossing { speed, mode, .. }| mode.eigenvalue.im > 0.0 && is_near(*speed, mode));
         Ok(found)
     }
@@ -97,8 +101,8 @@ impl Campbell<'_> {
         line: &Line<F>,
     ) -> Result<Option<Vec<Crossing>>, Obstacle> {
         let mut found = Vec::new();
-        for (branch, Branch { points }) in self.branches.iter().enumerate() {
-            let ends = ends.map(|end| points.iter().find(|point| point.speed == end.speed));
+        for (branch, of) in self.branches.iter().enumerate() {
+            let ends = ends.map(|end| of.at(end.speed));
             let above = ends.map(|end| end.is_some_and(|end| line.is_above(&end.mode, end.speed)));
             if above[0] == above[1] {
                 continue;
@@ -192,7 +196,7 @@ impl Campbell<'_> {
         if trials == 0 || to.speed - from.speed <= FOUND * speed.abs() {
             let rises = to.eigenvalues() > from.eigenvalues();
             let (more, less) = if rises { (to, from) } else { (from, to) };
-            let height = |mode: &Mode| (line.0)(mode, more.speed);
+            let height = |mode: &Mode| line.height(mode, more.speed);
             let mut above = more.above.clone();
             above.sort_by(|a, b| height(a).total_cmp(&height(b)));
             // The lowest ones have just crossed it.
@@ -214,7 +218,7 @@ fn root_by<F: Fn(&Mode, f64) -> f64>(
     line: &Line<F>,
     at: impl Fn(&Point, f64) -> Result<Option<Mode>, Obstacle>,
 ) -> Result<Option<Point>, Obstacle> {
-    let [mut at_a, mut at_b] = [from, to].map(|end| (line.0)(&end.mode, end.speed));
+    let [mut at_a, mut at_b] = [from, to].map(|end| line.height(&end.mode, end.speed));
     let close = CLOSED * at_a.abs().max(at_b.abs());
     let closed = |at_b: f64, b: Point| (at_b.abs() <= close || line.is_on(&b.mode, b.speed)).then_some(b);
     let (mut a, mut b) = (from.speed, to.clone());
@@ -224,7 +228,7 @@ fn root_by<F: Fn(&Mode, f64) -> f64>(
         }
         let speed = b.speed - at_b * (b.speed - a) / (at_b - at_a);
         let Some(mode) = at(&b, speed)? else { return Ok(None) };
-        let value = (line.0)(&mode, speed);
+        let value = line.height(&mode, speed);
         let is_still = speed == b.speed;
         let (last, at_last) = (std::mem::replace(&mut b, Point { speed, mode }), std::mem::replace(&mut at_b, value));
         if (value > 0.0) != (at_last > 0.0) {

@@ -23,7 +23,7 @@ pub struct Mode {
     /// across the axis.
     pub sense: f64,
     /// What rounding leaves of λ, at most [1/s].
-    rounding: f64,
+    pub(super) rounding: f64,
 }
 
 /// Which way a mode whirls, by what its own orbits do.
@@ -96,11 +96,6 @@ impl Mode {
     /// Whether it grows.
     pub fn grows(&self) -> bool {
         self.eigenvalue.re > self.rounding
-    }
-
-    /// What rounding leaves of λ, at most [1/s].
-    pub(super) fn rounding(&self) -> f64 {
-        self.rounding
     }
 
     /// How like another one it is, from 0 to 1.

@@ -38,7 +38,7 @@ fn on_one_side(scene: &Scene, first: f64, last: f64) -> Result<Vec<f64>, Obstacl
 /// Where the sum of both frequencies is twice the spin [rad/s], by straight lines between the speeds that both branches have.
 fn crossings(a: &Branch, b: &Branch) -> Vec<f64> {
     let above = |one: &Point| {
-        let other = b.points.iter().find(|other| other.speed == one.speed)?;
+        let other = b.at(one.speed)?;
         let [one_swings, other_swings] = [one, other].map(|point| point.mode.eigenvalue.im);
         let both = one_swings > 0.0 && other_swings > 0.0;
         both.then(|| (one.speed, one_swings + other_swings - 2.0 * one.speed.abs()))

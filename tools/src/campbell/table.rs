@@ -77,7 +77,7 @@ fn modes(diagram: &Diagram, text: &mut String) {
     for (branch, of) in diagram.campbell.branches.iter().enumerate() {
         *text += &format!("| {} |", number(branch));
         for speed in &shown {
-            let point = of.points.iter().find(|point| point.speed == *speed);
+            let point = of.at(*speed);
             *text += &format!(" {} |", point.map_or(String::new(), |point| told(&point.mode)));
         }
         *text += "\n";

@@ -247,10 +247,11 @@ def _time(result):
     if result.timings is None:
         return None
     spent = result.timings
-    lasted = quantity(result.scene.stop - result.scene.start, "s")
-    more = f" and of the search for the largest deflections, for {lasted}"
     if spent.total:
         more = f", of {quantity(spent.total, 's')} with fmpy’s own work"
+    else:
+        lasted = quantity(result.scene.stop - result.scene.start, "s")
+        more = f" and of the search for the largest deflections, for {lasted}"
     return Finding(quantity(spent.solver, "s"), f"CPU time of the solver{more}")
 
 
