@@ -35,26 +35,26 @@ pub struct Linear {
 }
 
 /// What of a station's orbit is looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Sight {
     /// What a fixed probe along y sees.
     Y,
     /// What a fixed probe along z sees.
     Z,
+    /// What a fixed probe in this direction sees, from y towards z \[rad].
+    Along(f64),
     /// The larger semi-axis, which no fixed probe sees unless it stands along that.
     Major,
 }
 
 impl Sight {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Y, Self::Z, Self::Major];
-
     /// As tables call it.
-    pub fn name(self) -> &'static str {
+    pub fn name(self) -> String {
         match self {
-            Self::Y => "y",
-            Self::Z => "z",
-            Self::Major => "larger semi-axis",
+            Self::Y => "y".into(),
+            Self::Z => "z".into(),
+            Self::Along(angle) => format!("{}° from y towards z", (angle.to_degrees() * 1e4).round() / 1e4),
+            Self::Major => "larger semi-axis".into(),
         }
     }
 
@@ -63,6 +63,7 @@ impl Sight {
         match self {
             Self::Y => orbit.y.modulus(),
             Self::Z => orbit.z.modulus(),
+            Self::Along(angle) => (orbit.y * angle.cos() + orbit.z * angle.sin()).modulus(),
             Self::Major => orbit.major(),
         }
     }
@@ -121,9 +122,19 @@ pub struct Station {
     pub name: String,
     /// From c, along t \[m].
     pub position: f64,
+    /// The direction of its sensor, from y towards z \[rad].
+    angle: f64,
 }
 
 impl Station {
+    /// What is looked at there.
+    pub fn sights(&self) -> impl Iterator<Item = Sight> + use<> {
+        let (sine, cosine) = self.angle.sin_cos();
+        // What is as good as along y or z is there already.
+        let along = (sine.abs().min(cosine.abs()) > 1e-9).then_some(Sight::Along(self.angle));
+        [Sight::Y, Sight::Z].into_iter().chain(along).chain([Sight::Major])
+    }
+
     /// As tables and pictures call it.
     pub fn title(&self) -> String {
         format!("{} at {} m", self.name, self.position)
@@ -222,18 +233,22 @@ fn stations(scene: &Scene) -> Vec<Station> {
         // In a general scene an effect may be off.
         let blocks = blocks.filter(|(info, index)| value(&info.switch_name(*index)) != Some(0.0));
         let names = blocks.map(|(info, index)| info.block_name(*index));
-        names.filter_map(|name| Some(Station { position: value(&format!("{name}.position"))?, name })).collect()
+        let station = |name: String| {
+            let of = |what| value(&format!("{name}.{what}"));
+            Some(Station { position: of("position")?, angle: of("angle").unwrap_or(0.0), name })
+        };
+        names.filter_map(station).collect()
     };
     let probes = of(&["probe"]);
     let rest = if probes.is_empty() { of(&["bearing", "rub"]) } else { probes };
-    std::iter::once(Station { name: "c".into(), position: 0.0 }).chain(rest).collect()
+    std::iter::once(Station { name: "c".into(), position: 0.0, angle: 0.0 }).chain(rest).collect()
 }
 
 /// Where what is seen of the orbit of a station is larger than beside it.
 fn peaks_of(machine: &Machine, station: &Station, points: &[Point]) -> Result<Vec<Peak>, Obstacle> {
     let at = |speed: f64, near: &Point| Point::of(machine, speed, Some(near));
     let mut all = Vec::new();
-    for sight in Sight::ALL {
+    for sight in station.sights() {
         let found = peaks::of(points, |point| (point.speed, point.seen(station, sight)), at)?;
         all.extend(found.into_iter().map(|point| Peak { sight, point }));
     }
@@ -255,7 +270,7 @@ fn once(orbit: Orbit) -> rows::Row {
 
 #[cfg(test)]
 mod tests {
-    use super::{Found, Sight};
+    use super::{Found, Peak, Sight};
     use nalgebra::{Complex, ComplexField};
     use split_rotor_model::scene::Scene;
     use std::path::Path;
@@ -264,7 +279,7 @@ mod tests {
     const TEXT: &str = "[rotor]\nm = 1000.0\nJa = 60.0\nJt = 150.0\n\
         [[effects.bearing]]\nposition = -0.8\nkyy = 0.9e7\nkzz = 1.4e7\ncyy = 2e4\nczz = 2e4\nkxx = 1e7\ncxx = 1e4\n\
         [[effects.bearing]]\nposition = 0.8\nkyy = 0.9e7\nkzz = 1.4e7\ncyy = 2e4\nczz = 2e4\n\
-        [[effects.unbalance]]\nmass = 1e-3\nradius = 40.0\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\n";
+        [[effects.unbalance]]\nmass = 1e-3\nradius = 40.0\nposition = 0.0\n[[effects.probe]]\nposition = 0.0\nangle = \"30 deg\"\n";
 
     #[test]
     fn regress_each_direction_of_a_probe_has_its_peak() {
@@ -285,10 +300,27 @@ mod tests {
             // The mass of the unbalance adds to the rotor's by a part of 1e-6.
             assert!((seen / largest - 1.0).abs() < 1e-5 && (seen / size - 1.0).abs() < 1e-3, "{seen} {largest} {size}");
         }
+        // Along 30° from y: U ω² (cos 30°/(k_y − m ω² + 2icω) + sin 30° (−i)/(k_z − m ω² + 2icω)).
+        let sensor = |speed: f64| {
+            let [along_y, along_z] = [1.8e7, 2.8e7]
+                .map(|k: f64| 0.04 * speed * speed / Complex::new(k - 1000.0 * speed * speed, 4e4 * speed));
+            (along_y * 0.75_f64.sqrt() - Complex::i() * along_z * 0.5).modulus()
+        };
+        let of_sensor = |peak: &&Peak| peak.sight == Sight::Along(30_f64.to_radians());
+        let seen: Vec<_> = linear.peaks[probe].iter().filter(of_sensor).collect();
+        assert_eq!(seen.len(), 2, "one of each direction");
+        for peak in seen {
+            let (speed, size) = (peak.point.speed, peak.point.seen(&found.stations[probe], peak.sight));
+            assert!((size / sensor(speed) - 1.0).abs() < 1e-4, "{size} {}", sensor(speed));
+            assert!(sensor(speed) > sensor(speed * 1.001) && sensor(speed) > sensor(speed * 0.999), "{speed}");
+        }
         assert!(linear.peaks[probe].iter().any(|peak| peak.sight == Sight::Major), "the larger semi-axis is kept");
         let table = found.table();
         assert!(
-            table.contains("0-to-peak") && table.contains("| y | 135.68") && table.contains("| z | 168.54"),
+            table.contains("0-to-peak")
+                && table.contains("| 30° from y towards z |")
+                && table.contains("| y | 135.68")
+                && table.contains("| z | 168.54"),
             "{table}"
         );
         assert!(found.peaks().iter().any(|row| row.contains(&("seen_along", "y".into()))));

@@ -69,8 +69,11 @@ impl Effect for Support {
 
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
-        let force = change.station(-at.l) * self.c1 + change.station_velocity(-at.l) * self.d1;
-        let moment = change.axis * self.c2 + change.axis_rate * self.d2;
+        let (mut force, mut moment) = (change.station(-at.l) * self.c1, change.axis * self.c2);
+        if self.works() {
+            force += change.station_velocity(-at.l) * self.d1;
+            moment += change.axis_rate * self.d2;
+        }
         [force.norm_squared(), moment.norm_squared()]
     }
 

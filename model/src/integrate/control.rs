@@ -1,7 +1,7 @@
 //! Step size control: a proportional–integral controller (Gustafsson 1991; Hairer, Nørsett and Wanner, Solving
 //! Ordinary Differential Equations I, 2nd ed., section IV.2 of volume II and the codes dopri5 and dop853).
 
-use super::power::power;
+use super::power::{exp2, log2, power};
 use crate::stored::stored;
 
 /// Proposes step sizes from the error norms of a method.
@@ -11,7 +11,7 @@ pub struct Controller {
     alpha: f64,
     /// Exponent of the previous error.
     beta: f64,
-    /// Error norm of the last accepted step.
+    /// log₂ of the error norm of the last accepted step.
     previous: f64,
     /// Whether the last attempt was rejected.
     rejected: bool,
@@ -33,15 +33,16 @@ const LEAST_ERROR: f64 = 1e-4;
 impl Controller {
     /// The controller of a method whose error estimate falls with the power `order` of the step.
     pub fn new(order: f64) -> Self {
-        Self { alpha: 1.0 / order - 0.75 * BETA, beta: BETA, previous: LEAST_ERROR, rejected: false }
+        Self { alpha: 1.0 / order - 0.75 * BETA, beta: BETA, previous: log2(LEAST_ERROR), rejected: false }
     }
 
     /// The factor to the next step size after a step of error norm `error` ≤ 1 was accepted.
     pub fn accepted(&mut self, error: f64) -> f64 {
         // eq. 23: h_new = h·clip(safety·err^(−α)·err_prev^β)
-        let factor = SAFETY * power(error, -self.alpha) * power(self.previous, self.beta);
+        let log = log2(error);
+        let factor = SAFETY * exp2(-self.alpha * log) * exp2(self.beta * self.previous);
         let greatest = if self.rejected { 1.0 } else { GREATEST_FACTOR };
-        self.previous = error.max(LEAST_ERROR);
+        self.previous = log.max(log2(LEAST_ERROR));
         self.rejected = false;
         factor.clamp(LEAST_FACTOR, greatest)
     }

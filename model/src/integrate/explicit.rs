@@ -5,7 +5,7 @@ mod stages;
 
 use super::answer::Answer;
 use super::control::Controller;
-use super::lanes::are_finite;
+use super::lanes::{are_finite, pair, pairs, put};
 use super::power::power;
 use super::segment::Segment;
 use super::sizes::{Sizes, Squares, largest_square};
@@ -253,7 +253,7 @@ impl<const N: usize> Explicit<N> {
             (segment.rough, segment.answer) = (false, Answer::none());
         }
         // The segment ends at y: r_2 holds the difference until the rest is asked for.
-        segment.r[0] = std::array::from_fn(|n| y[n] - self.y[n]);
+        (0..pairs(N)).for_each(|p| put(&mut segment.r[0], p, pair(&y, p) - pair(&self.y, p)));
         self.t = end;
         self.y = y;
         self.cost.steps += 1.0;

@@ -39,6 +39,12 @@ pub fn nothing() -> f64x2 {
     f64x2::splat(-0.0)
 }
 
+/// The larger ones of two pairs, each on its own. What is not a number may be passed over.
+#[inline(always)]
+pub fn larger(a: f64x2, b: f64x2) -> f64x2 {
+    a.fast_max(b)
+}
+
 /// The sum of both.
 #[inline(always)]
 pub fn sum(pair: f64x2) -> f64 {

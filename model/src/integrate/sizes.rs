@@ -2,7 +2,7 @@
 //! thought of beforehand.
 
 use super::System;
-use super::lanes::{both, nothing, pair, pairs, put, sum};
+use super::lanes::{self, both, nothing, pair, pairs, put, sum};
 use crate::stored::stored;
 use std::ops::Range;
 
@@ -94,9 +94,9 @@ impl<const N: usize> Sizes<N> {
         let kept = 1.0 - (1.0 - KEPT * KEPT) * share;
         for p in 0..pairs(F::GROUPS) {
             let now = pair(seen, p);
-            let largest = pair(&self.largest, p).max(now);
+            let largest = lanes::larger(now, pair(&self.largest, p));
             let least = largest * both(LEAST * LEAST);
-            let recent = (pair(&self.recent, p) * both(kept)).max(now).max(least);
+            let recent = lanes::larger(lanes::larger(now, pair(&self.recent, p) * both(kept)), least);
             put(&mut self.largest, p, largest);
             put(&mut self.recent, p, recent);
         }
@@ -125,11 +125,12 @@ impl<const N: usize> Sizes<N> {
         let mut weights = [0.0; MOST_GROUPS];
         for p in 0..pairs(F::GROUPS) {
             // eq. 22: sc = max(rtol·S, atol·n, ε·R)
-            let size = pair(&self.recent, p).max(pair(seen, p)) * both(tolerance.relative * tolerance.relative);
+            let size =
+                lanes::larger(pair(seen, p), pair(&self.recent, p)) * both(tolerance.relative * tolerance.relative);
             let rounded = pair(rounded, p) * both(ROUNDING * ROUNDING);
-            let least = size.max(pair(&tolerance.absolute, p)).max(rounded);
+            let least = lanes::larger(lanes::larger(size, pair(&tolerance.absolute, p)), rounded);
             // A load that does not act has no size, and no error.
-            put(&mut weights, p, both(1.0) / least.max(both(f64::MIN_POSITIVE)));
+            put(&mut weights, p, both(1.0) / lanes::larger(least, both(f64::MIN_POSITIVE)));
         }
         // The last pair may reach beyond the groups.
         if F::GROUPS < MOST_GROUPS {
@@ -145,7 +146,7 @@ pub fn largest_square<F: System<N>, const N: usize>(_system: &F, parts: &Squares
     let (mut most, mut all) = (both(0.0), nothing());
     for p in 0..pairs(F::GROUPS) {
         let weighed = pair(parts, p) * pair(weights, p);
-        most = most.max(weighed);
+        most = lanes::larger(weighed, most);
         all += weighed;
     }
     let [first, second] = most.to_array();

@@ -6,7 +6,7 @@ use crate::integrate::sizes::{MOST_GROUPS, Squares};
 use crate::rotation::{Chart, Tilt};
 use crate::rotor::groups::RIGID;
 use crate::state::{Coordinates, own, rigid};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 impl<E: Effects> Rotor<'_, E> {
     /// Where the loads of a state of N numbers stand among the groups.
@@ -30,6 +30,8 @@ impl<E: Effects> Rotor<'_, E> {
         let chart = self.frame.chart;
         let tilt = Tilt::new(chart, at.gamma);
         let (r_c, axis) = match chart {
+            // Most motions begin upright.
+            Chart::FromE if origin.gamma == Vector2::zeros() => (way, tilt.axis - Vector3::x()),
             Chart::FromE => (way, tilt.axis - Tilt::new(chart, origin.gamma).axis),
             // Where it has turned over, the axis of the start is not known any more: loads count by themselves.
             Chart::FromMinusE => (at.r, tilt.axis),

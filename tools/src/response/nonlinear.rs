@@ -146,7 +146,7 @@ fn tell(branch: &Branch, text: &mut String) {
 
 /// The motions in which what is seen of a station is larger than beside them.
 fn peaks<'b>(branch: &'b Branch, station: &'b Station) -> impl Iterator<Item = (Sight, &'b Orbit)> {
-    Sight::ALL.into_iter().flat_map(move |sight| {
+    station.sights().flat_map(move |sight| {
         let size = move |orbit: &Orbit| sight.of(&orbit.path(station.position).once);
         let is_peak = move |three: &&[Orbit]| size(&three[1]) > size(&three[0]) && size(&three[1]) >= size(&three[2]);
         branch.orbits.windows(3).filter(is_peak).map(move |three| (sight, &three[1]))

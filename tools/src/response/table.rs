@@ -27,7 +27,7 @@ fn peaks(found: &Found, linear: &Linear, text: &mut String) {
         *text += "No resonance peak in this range.\n\n";
         return;
     }
-    *text += "Peaks of each station, 0-to-peak, as a fixed probe along y or along z sees them, and of the larger semi-axis of the orbit.\n\n";
+    *text += "Peaks of each station, 0-to-peak, as a fixed probe along y, along z, or along a probe's `angle` sees them, and of the larger semi-axis of the orbit.\n\n";
     *text += "| peak at [rad/s] | [rpm] | station | seen along | 0-to-peak [µm] | half axes [µm] | behind the mark, y [°] |\n\
               |--:|--:|---|---|--:|---|--:|\n";
     for (station, peaks) in found.stations.iter().zip(&linear.peaks) {

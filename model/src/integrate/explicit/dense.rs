@@ -93,6 +93,7 @@ impl<const N: usize> Explicit<N> {
         }
         // Called: they are few, and each step that is read takes them once.
         stages! { 13 14 15 }
+        self.cost.evaluations += P::TABLEAU.dense_stages.len() as f64;
         let (first, last) = (self.k[0], self.k[P::TABLEAU.last]);
         let difference = self.segment.r[0];
         // eq. 24: r₃ = h k₁ − Δy, r₄ = 2Δy − h(k₁ + k_last)

@@ -52,7 +52,8 @@ impl<const N: usize> Explicit<N> {
         if early {
             attempt.error = self.error_norm::<P, F, ALL>(system, &attempt.seen);
         }
-        self.k[P::TABLEAU.last] = self.known(system.rates::<ALL, USUAL>(t + h, &y));
+        self.k[P::TABLEAU.last] = system.rates::<ALL, USUAL>(t + h, &y);
+        self.cost.evaluations += P::TABLEAU.last as f64;
         if late {
             attempt.error = self.error_norm::<P, F, ALL>(system, &attempt.seen);
         }
@@ -62,7 +63,7 @@ impl<const N: usize> Explicit<N> {
     /// A stage of a step of size h from (t, y), of those before it; `newest` is the last of them.
     #[inline(always)]
     pub(super) fn stage<F: System<N>, const ALL: bool, const USUAL: bool>(
-        &mut self,
+        &self,
         system: &F,
         (t, h, y): (f64, f64, &[f64; N]),
         stage: &Stage,
@@ -70,14 +71,7 @@ impl<const N: usize> Explicit<N> {
     ) -> [f64; N] {
         let there = self.advanced::<F, USUAL>(y, h, stage.a, newest);
         // eq. 21: k_i = f(t + c_i h, y + h Σ a_ij k_j)
-        self.known(system.rates::<ALL, USUAL>(t + stage.c * h, &there))
-    }
-
-    /// A rate that was evaluated.
-    #[inline(always)]
-    fn known(&mut self, rate: [f64; N]) -> [f64; N] {
-        self.cost.evaluations += 1.0;
-        rate
+        system.rates::<ALL, USUAL>(t + stage.c * h, &there)
     }
 
     /// y + h Σ b_j k_j as y + h (k₁ + Σ b_j (k_j − k₁)), which is the same because Σ b_j = 1. The sum of the rounded b_j
