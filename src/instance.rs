@@ -77,8 +77,10 @@ mod warned {
     pub const OF_DIVERGENCE: usize = 4;
     /// That it is not known whether the motion grows.
     pub const OF_UNJUDGED: usize = 5;
+    /// That contacts are chaotic.
+    pub const OF_RATTLE: usize = 6;
     /// How many there are.
-    pub const COUNT: usize = 6;
+    pub const COUNT: usize = 7;
 }
 
 /// What the host said of the experiment, and what it set itself.
@@ -256,7 +258,7 @@ impl Instance {
         Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once that the tilt is large, where that matters, and that the motion diverges; and whenever the linear motion begins to grow.
+    /// Says once that the tilt is large, where that matters, that the motion diverges, and that contacts are chaotic; and whenever the linear motion begins to grow.
     fn warn(&mut self) {
         let told = &mut self.memory.warned;
         if !told[warned::OF_TILT]
@@ -283,6 +285,12 @@ impl Instance {
         {
             told[warned::OF_DIVERGENCE] = true;
             self.logger.log(Severity::Warning, Category::Warning, &divergence.to_string());
+        }
+        if !told[warned::OF_RATTLE]
+            && let Some(rattle) = self.memory.simulation.rattle()
+        {
+            told[warned::OF_RATTLE] = true;
+            self.logger.log(Severity::Warning, Category::Warning, &rattle.to_string());
         }
         self.warn_of_doubts();
     }

@@ -16,6 +16,7 @@ mod met;
 mod method;
 mod nominals;
 mod plan;
+mod rattle;
 pub(crate) mod rest;
 pub(crate) mod start;
 mod tangents;
@@ -28,6 +29,7 @@ pub use exchange::Settled;
 pub use general::General;
 pub use growth::{Growth, Unjudged};
 pub use largest::{Deflection, Largest};
+pub use rattle::Rattle;
 pub use tangents::Tangents;
 pub use unheld::Unheld;
 
@@ -384,6 +386,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         match self.run.as_ref()? {
             Run::Method(integration) => integration.divergence(),
             Run::Exchange(exchange) => exchange.divergence(),
+        }
+    }
+
+    /// Where contacts with a ring are chaotic, as that was when it was found. Where a host integrates, nobody looks.
+    pub fn rattle(&self) -> Option<Rattle> {
+        match self.run.as_ref()? {
+            Run::Method(integration) => integration.rattle(),
+            Run::Exchange(_) => None,
         }
     }
 

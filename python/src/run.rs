@@ -57,9 +57,11 @@ pub fn run<'py>(py: Python<'py>, scene: &Scene, names: Option<Vec<String>>) -> P
     let of_tilt = run.simulation.warns_of_tilt().map(str::to_owned);
     let unheld = run.unheld().filter(|unheld| !unheld.is_mere_axial()).map(ToString::to_string);
     let of_unjudged = run.unjudged().map(|unjudged| unjudged.to_string());
+    let of_rattle = run.simulation.rattle().map(|rattle| rattle.to_string());
     let doubts = run.doubts().iter().map(|(block, doubt)| doubt.words(block));
     let of_motion = unheld.into_iter().chain(of_tilt).chain(run.grown().iter().map(Growth::to_string));
-    let warnings: Vec<_> = scene.warnings().into_iter().chain(of_motion).chain(of_unjudged).chain(doubts).collect();
+    let warnings: Vec<_> =
+        scene.warnings().into_iter().chain(of_motion).chain(of_unjudged).chain(of_rattle).chain(doubts).collect();
     result.set_item("warnings", warnings)?;
     let largest = PyDict::new(py);
     for (name, Deflection { largest: size, at, .. }) in run.largest() {

@@ -10,7 +10,7 @@ use split_rotor_model::stored::{self, Damaged, Stored, Walk, choice};
 const MAGIC: &[u8; 8] = b"rotorFMU";
 
 /// Changes whenever what is stored does.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// Magic, version, GUID, length of the numbers.
 const HEAD: usize = MAGIC.len() + 4 + GUID + 8;

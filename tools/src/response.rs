@@ -304,7 +304,7 @@ mod tests {
         let sensor = |speed: f64| {
             let [along_y, along_z] = [1.8e7, 2.8e7]
                 .map(|k: f64| 0.04 * speed * speed / Complex::new(k - 1000.0 * speed * speed, 4e4 * speed));
-            (along_y * 0.75_f64.sqrt() - Complex::i() * along_z * 0.5).modulus()
+            (along_y * 0.75_f64.sqrt() - Complex::<f64>::i() * along_z * 0.5).modulus()
         };
         let of_sensor = |peak: &&Peak| peak.sight == Sight::Along(30_f64.to_radians());
         let seen: Vec<_> = linear.peaks[probe].iter().filter(of_sensor).collect();

@@ -193,6 +193,9 @@ impl<'s> Recorded<'s> {
         if let Some(unjudged) = self.run.unjudged() {
             println!("  unknown    {unjudged}");
         }
+        if let Some(rattle) = self.run.simulation.rattle() {
+            println!("  chaotic    {rattle}");
+        }
         Ok(true)
     }
 }

@@ -88,9 +88,9 @@ impl Events {
         std::array::from_fn(|n| if values[n] == 0.0 { least(self.positive[n]) } else { values[n] })
     }
 
-    /// Whether a law must switch before the motion goes on.
-    pub(super) fn is_due(&self) -> bool {
-        self.due.is_some()
+    /// The number of the indicator whose law must switch before the motion goes on.
+    pub(super) fn due(&self) -> Option<u32> {
+        self.due
     }
 
     /// The next step begins elsewhere.

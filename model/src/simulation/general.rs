@@ -1,6 +1,6 @@
 //! A run of any scene, compiled once: what is generic is compiled again in each program that calls it, minutes of it for the list of all effects.
 
-use super::{Any, Divergence, Growth, Integrator, Largest, Unheld, Unjudged};
+use super::{Any, Divergence, Growth, Integrator, Largest, Rattle, Unheld, Unjudged};
 use crate::effects::All;
 use crate::error::Invalid;
 use crate::integrate::Fault;
@@ -74,6 +74,7 @@ passed_on! {
     advance_looking(&mut, t: f64, largest: &mut Option<Largest>) -> Result<(), Fault>;
     look(&, largest: &mut Largest) -> ();
     divergence(&,) -> Option<Divergence>;
+    rattle(&,) -> Option<Rattle>;
     time(&,) -> Option<f64>;
     get(&mut, place: Place) -> Result<Option<f64>, Invalid>;
     value(&, place: Place) -> Option<f64>;

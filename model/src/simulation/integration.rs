@@ -10,6 +10,7 @@ use super::largest::Looks;
 use super::met::Met;
 use super::method::Method;
 use super::plan::Plan;
+use super::rattle::{Rattle, Rattles};
 use super::start::{Motion, tolerance};
 use crate::effects::{Block, Effects};
 use crate::energy::{Ledger, kinetic};
@@ -47,6 +48,7 @@ pub(super) struct Integration<const N: usize> {
     tilted: bool,
     watch: Watch,
     bounds: Bounds,
+    rattles: Rattles,
     met: Met,
     events: Events,
     /// Where an input was set since the last communication step.
@@ -54,7 +56,7 @@ pub(super) struct Integration<const N: usize> {
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, bounds, met, events, held
+    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, bounds, rattles, met, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -202,6 +204,7 @@ impl<const N: usize> Integration<N> {
             tilted: false,
             watch: Watch::default(),
             bounds: Bounds::default(),
+            rattles: Rattles::default(),
             met: Met::default(),
             events: Events::default(),
             held: None,
@@ -237,6 +240,11 @@ impl<const N: usize> Integration<N> {
     /// Where the motion diverges, as it was when that was found.
     pub(super) fn divergence(&self) -> Option<Divergence> {
         self.bounds.found()
+    }
+
+    /// Where contacts are chaotic, as that was when it was found.
+    pub(super) fn rattle(&self) -> Option<Rattle> {
+        self.rattles.found()
     }
 
     /// Where the method stands: time \[s] and state.
@@ -396,10 +404,12 @@ impl<const N: usize> Integration<N> {
             {
                 self.method.adapt(auto, self.tolerance, &self.frame.under(effects), self.stop);
             }
-            if self.events.is_due() {
-                let y = *self.method.state();
-                let motion = self.frame.under(effects).motion(self.method.time(), &y);
+            if let Some(number) = self.events.due() {
+                let (t, y) = (self.method.time(), *self.method.state());
+                let rotor = self.frame.under(effects);
+                let (motion, switch) = (rotor.motion(t, &y), self.rattles.switches(&rotor, t, &y, number));
                 self.events.switch(effects, &motion, &y);
+                self.rattles.switched(&self.frame.under(effects), t, &y, switch);
                 self.method.go_on_under(&self.frame.under(effects));
                 if let Some(series) = &mut self.series {
                     series.look(&self.frame.under(effects));
@@ -432,6 +442,8 @@ impl<const N: usize> Integration<N> {
             // Where a law only switched, the turns of the step before are counted already.
             if moved {
                 looks.look(self, effects, t.min(self.method.time()));
+                let ends = [self.method.start_state(), self.method.state()];
+                self.rattles.follow(&self.frame.under(effects), self.last_step(), ends);
                 self.settle(effects, t);
             }
             if looks.looks() {
@@ -471,6 +483,7 @@ impl<const N: usize> Integration<N> {
         let Some(held) = self.held.take() else { return Ok(()) };
         if self.t < self.method.time() {
             self.events.forget();
+            self.rattles.restart();
         }
         let y = self.jumped(effects, &held);
         if E::FACTS.imposes {
@@ -635,6 +648,7 @@ impl<const N: usize> Integration<N> {
             let phi = chart.axial_angle(turns, rigid(&y)[PHI], gamma);
             let crossed = crossed_exactly(gamma);
             self.frame.chart = chart.other();
+            self.rattles.restart();
             let phi = self.frame.chart.own_angle(phi, crossed);
             self.frame.turns = phi.turns;
             let mut y = y;

@@ -41,6 +41,7 @@ mod paper;
 mod periodic;
 mod port;
 mod random_scenes;
+mod rattle;
 mod rotation;
 mod rub;
 mod scene_errors;

@@ -1,0 +1,204 @@
+//! Looks whether contacts are chaotic: a small change of the motion then grows from contact to contact until it is as large as the motion.
+
+use super::events::indicators;
+use crate::body::Inertia;
+use crate::effects::Effects;
+use crate::integrate::System;
+use crate::integrate::stiff::Differentiable;
+use crate::log::shown;
+use crate::rotor::Rotor;
+use crate::state::{GAMMA, PHI, own};
+use crate::stored::stored;
+use nalgebra::{SMatrix, SVector};
+use std::fmt::{self, Display, Formatter};
+
+/// Contacts that are chaotic, as they were when that was found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rattle {
+    /// At which contact the look began \[s], and at which one a small change had grown by [`GROWTH`] \[s].
+    pub span: [f64; 2],
+}
+
+stored!(Rattle { span });
+
+impl Display for Rattle {
+    /// What to warn of.
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let [from, to] = self.span.map(shown);
+        write!(
+            f,
+            "the contacts with the ring are chaotic: from t = {from:?} s to t = {to:?} s a small change of the motion grows by a factor of \
+             {GROWTH}, so from there on another tolerance, or a start that is a little different, gives another motion; trust what many \
+             runs have in common, not a single run"
+        )
+    }
+}
+
+/// A small change that grows by this from contact to contact is chaos \[1].
+const GROWTH: f64 = 1e4;
+
+/// Beside what it is at most at the first contacts, at each of which a ring begins to press or lets go: there it has turned into the
+/// directions that grow.
+const FIRST: u32 = 10;
+
+/// What has not grown after so many is not looked at again until there were twice as many as by then; what has grown by this factor \[1] is
+/// looked at for as many more.
+const LAST: u32 = 100;
+const MUCH: f64 = 100.0;
+
+/// An indicator's slope is that to a place which is off by this part of the radius of gyration \[1].
+const NEAR: f64 = 1e-9;
+
+/// The effect that contacts are of.
+const RING: &str = "rub";
+
+/// The coordinates but φ, whose change grows with the time where the spin changes.
+const CHANGED: usize = PHI;
+
+type Matrix = SMatrix<f64, CHANGED, CHANGED>;
+
+/// Follows a small change of the motion, to first order, and by one factorisation a step: to see by what power of 10 it grows.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Rattles {
+    /// How often a ring began to press or let go.
+    switches: u32,
+    /// At which of these the look began, or will.
+    first: u32,
+    /// When it began \[s], while it lasts.
+    since: Option<f64>,
+    /// The small change \[m], [m/s], [kg·m²/s], \[rad], and how far it went at the first contacts \[1].
+    change: [f64; CHANGED],
+    reached: f64,
+    found: Option<Rattle>,
+}
+
+stored!(Rattles { switches, first, since, change, reached, found });
+
+/// Where a law switches: the motion beside comes there `later` \[s], to first order, and goes on until then as before, at this rate.
+pub(super) struct Switch {
+    later: f64,
+    rate: [f64; CHANGED],
+}
+
+impl Rattles {
+    /// The contacts that were found first to be chaotic.
+    pub fn found(&self) -> Option<Rattle> {
+        self.found
+    }
+
+    /// What is looked at begins anew at the next contact: the motion goes on otherwise.
+    pub fn restart(&mut self) {
+        if self.since.take().is_some() {
+            self.first = self.switches;
+        }
+    }
+
+    /// The motion has gone on by a step between these times \[s] and states.
+    #[inline(always)]
+    pub fn follow<E: Effects, const N: usize>(
+        &mut self,
+        rotor: &Rotor<'_, E>,
+        [from, to]: [f64; 2],
+        ends: [&[f64; N]; 2],
+    ) {
+        if E::FACTS.indicators == 0 || self.since.is_none() {
+            return;
+        }
+        let middle: [f64; N] = std::array::from_fn(|n| 0.5 * (ends[0][n] + ends[1][n]));
+        let (jacobian, first) = (rotor.jacobian(0.5 * (from + to), &middle), own(N));
+        let matrix = Matrix::from_fn(|i, j| (to - from) * jacobian[first + i][first + j]);
+        match stepped(&matrix, &SVector::from(self.change)) {
+            Some(change) => self.change = change.into(),
+            None => self.restart(),
+        }
+    }
+
+    /// At time `t` \[s] and state `y` the law switches whose indicator has this number.
+    pub fn switches<E: Effects, const N: usize>(
+        &self,
+        rotor: &Rotor<'_, E>,
+        t: f64,
+        y: &[f64; N],
+        number: u32,
+    ) -> Option<Switch> {
+        self.since?;
+        let rate = changed(&rotor.rates::<true, false>(t, y));
+        let indicator = |y: &[f64; N]| indicators(rotor.effects, &rotor.motion(t, y), y)[number as usize];
+        let slope = |along: &[f64; CHANGED]| {
+            let (mut beside, part) = (*y, NEAR / size(&rotor.frame.body, along));
+            beside[own(N)..].iter_mut().zip(along).for_each(|(y, along)| *y += part * along);
+            (indicator(&beside) - indicator(y)) / part
+        };
+        let later = -slope(&self.change) / slope(&rate);
+        later.is_finite().then_some(Switch { later, rate })
+    }
+
+    /// It has, and goes on as that of this rotor.
+    pub fn switched<E: Effects, const N: usize>(
+        &mut self,
+        rotor: &Rotor<'_, E>,
+        t: f64,
+        y: &[f64; N],
+        switch: Option<Switch>,
+    ) {
+        if self.found.is_some() || !rotor.effects.active().any(|block| block.kind().name == RING) {
+            return;
+        }
+        if let Some(Switch { later, rate }) = switch {
+            let after = changed(&rotor.rates::<true, false>(t, y));
+            // eq. 123: x₊ = x₋ + (f₋ − f₊) τ
+            self.change = std::array::from_fn(|n| self.change[n] + (rate[n] - after[n]) * later);
+        }
+        self.switches = self.switches.saturating_add(1);
+        let body = &rotor.frame.body;
+        let Some(since) = self.since else {
+            if self.switches >= self.first {
+                (self.since, self.first, self.reached) = (Some(t), self.switches, 0.0);
+                self.change = start(body);
+            }
+            return;
+        };
+        let (seen, size) = (self.switches.saturating_sub(self.first), size(body, &self.change));
+        if seen <= FIRST {
+            self.reached = self.reached.max(size);
+        } else if size > GROWTH * self.reached {
+            self.found = Some(Rattle { span: [since, t] });
+            self.since = None;
+        } else if seen >= if size > MUCH * self.reached { 2 * LAST } else { LAST } {
+            (self.since, self.first) = (None, self.switches.saturating_mul(2));
+        }
+    }
+}
+
+/// What of a rate is one of a small change.
+fn changed<const N: usize>(rate: &[f64; N]) -> [f64; CHANGED] {
+    std::array::from_fn(|n| rate[own(N) + n])
+}
+
+/// A change of place and tilt that favours no direction.
+fn start(body: &Inertia) -> [f64; CHANGED] {
+    let mut change = [0.0; CHANGED];
+    change[..3].copy_from_slice(&[0.3, 0.8, -0.5].map(|part| part * radius(body)));
+    change[GAMMA].copy_from_slice(&[0.7, 0.4]);
+    change
+}
+
+/// How far place and axis go with a change \[1].
+fn size(body: &Inertia, change: &[f64; CHANGED]) -> f64 {
+    let norm = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
+    norm(&change[..3]) / radius(body) + norm(&change[GAMMA])
+}
+
+/// √(Jt/m) \[m].
+fn radius(body: &Inertia) -> f64 {
+    (body.per_m / body.per_jt).sqrt()
+}
+
+/// What a small change becomes in a step, over which the matrix of the linear equations is this.
+fn stepped(matrix: &Matrix, change: &SVector<f64, CHANGED>) -> Option<SVector<f64, CHANGED>> {
+    let square = matrix * matrix;
+    // eq. 122: (1 − hA/2 + (hA)²/10 − (hA)³/120) x₁ = (1 + hA/2 + (hA)²/10 + (hA)³/120) x₀, which makes nothing grow that swings
+    let (even, odd) = (Matrix::identity() + square * 0.1, matrix * (Matrix::identity() * 0.5 + square / 120.0));
+    let after = (even - odd).lu().solve(&((even + odd) * change))?;
+    after.iter().all(|x| x.is_finite()).then_some(after)
+}
