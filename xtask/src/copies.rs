@@ -5,7 +5,7 @@ use crate::debug::Objcopy;
 use crate::platforms::Toolchain;
 use crate::progress::Progress;
 use crate::run::{cargo, output, run};
-use crate::{c, library, paths, scenes};
+use crate::{alone, c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects::CATALOGUE;
 use split_rotor_model::scene::Scene;
@@ -16,11 +16,7 @@ use std::process::Command;
 
 /// Until it is dropped no other xtask works on copies: they share what is built of them.
 fn alone() -> Result<File> {
-    let folder = paths::target().join("copies");
-    fs::create_dir_all(&folder)?;
-    let lock = File::create(folder.join("lock"))?;
-    lock.lock()?;
-    Ok(lock)
+    alone::alone(&paths::target().join("copies/lock"), || println!("waiting for another job that works on copies"))
 }
 
 /// A fresh copy of what git knows, as it stands here, in target/copies/`name`.

@@ -2,6 +2,7 @@
 
 mod abroad;
 mod accuracy;
+mod alone;
 mod bench;
 mod c;
 mod c_host;
