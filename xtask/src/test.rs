@@ -1,5 +1,7 @@
 //! `test`: everything that must hold, as a list of jobs.
 
+mod times;
+
 use crate::hard_cases::{self, Extent};
 use crate::progress::Progress;
 use crate::run::{cargo, run, side_by_side};
@@ -12,7 +14,7 @@ use std::env;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::thread;
-use std::time::Instant;
+use times::Watch;
 
 /// What a job does, and what runs it, at length where asked; where it cannot, that is an error, which names what is to be installed.
 type Job = (&'static str, fn(long: bool) -> Result<()>);
@@ -45,7 +47,8 @@ const LONG: [Job; 17] = [
     ("against ROSS", |_| ross::ross()),
 ];
 
-/// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took.
+/// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took
+/// ([`times`]).
 pub fn test(part: &str, long: bool) -> Result<()> {
     let of = |jobs: &'static [Job]| jobs.iter().filter(|(name, _)| name.contains(part)).collect::<Vec<_>>();
     let (short, others) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
@@ -60,12 +63,18 @@ pub fn test(part: &str, long: bool) -> Result<()> {
         ),
         [(name, job)] => {
             println!("\n== {name}");
-            let start = Instant::now();
-            job(long)?;
-            println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
-            Ok(())
+            let watch = Watch::of(name);
+            let done = job(long);
+            let stopped = watch.stop();
+            done.and(stopped)
         }
-        _ => [short, others].iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs, long)),
+        _ => {
+            times::clear()?;
+            let groups = [short, others];
+            let done = groups.iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs, long));
+            let printed = times::print();
+            done.and(printed)
+        }
     }
 }
 
