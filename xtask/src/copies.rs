@@ -8,7 +8,6 @@ use crate::run::{cargo, output, run};
 use crate::{alone, c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects::CATALOGUE;
-use split_rotor_model::scene::Scene;
 use split_rotor_tools::platform::{LINUX64, WIN64};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -37,22 +36,21 @@ fn copied_to(copy: PathBuf) -> Result<PathBuf> {
     Ok(copy)
 }
 
-/// The machine code of a scene's library, built in this copy.
-fn text(copy: &Path, scene: &Scene) -> Result<Vec<u8>> {
-    let target = paths::target().join("copies/target");
-    let library = library::build(&Toolchain::own()?, None, copy, scene, &target)?;
-    let section = target.join("text");
-    run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).arg(library).arg(&section))?;
+/// The machine code of a library.
+fn text(library: &[u8]) -> Result<Vec<u8>> {
+    let [whole, section] = ["library", "text"].map(|name| paths::target().join("copies").join(name));
+    fs::write(&whole, library)?;
+    run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).args([&whole, &section]))?;
     Ok(fs::read(section)?)
 }
 
-/// The machine code of `paper` is the same to the byte where every effect that it does not call for is taken out of the
-/// catalogue, at the same path.
+/// The machine code of `paper` as it travels is the same to the byte where every effect that it does not call for is taken out of the
+/// catalogue.
 pub fn absence_is_free() -> Result<()> {
     let _alone = alone()?;
+    let (scene, own) = (scenes::find("paper")?, Toolchain::own()?);
+    let all = text(&library::of(&scene, &own, 0, &Progress::of(1))?.library)?;
     let copy = copied("absence")?;
-    let scene = scenes::find(&copy.join("scenes/paper.toml").display().to_string())?;
-    let all = text(&copy, &scene)?;
     let effects = copy.join("model/src/effects");
     let catalogue = effects.with_extension("rs");
     let mut source = fs::read_to_string(&catalogue)?;
@@ -63,7 +61,8 @@ pub fn absence_is_free() -> Result<()> {
         source = source.replace(&format!("{line}\n"), "");
     }
     fs::write(&catalogue, source)?;
-    let few = text(&copy, &scene)?;
+    let built = library::build(&own, None, &copy, &scene, &paths::target().join("copies/code"))?;
+    let few = text(&fs::read(built)?)?;
     println!("machine code of {}: {} bytes with every effect, {} with its own alone", scene.name, all.len(), few.len());
     ensure!(!all.is_empty() && all == few, "effects that {} does not call for changed its machine code", scene.name);
     Ok(())
