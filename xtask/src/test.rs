@@ -26,13 +26,13 @@ const SHORT: [Job; 3] = [
 ];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 17] = [
+const LONG: [Job; 16] = [
     ("bits of every platform", |_| abroad::bits_of_every_platform()),
     ("counts that must hold", |_| bench::must_hold()),
     ("third-party clients", |_| clients()),
     ("fuzz", |_| fuzz::fuzz()),
     ("sanitizers", |_| sanitize::sanitizers()),
-    ("bits of a plain build", |_| plain_build()),
+    ("bits of a plain, wide build", |_| plain_wide_build()),
     ("call rules of a driven scene", |_| driven_tests()),
     ("the example of an effect", |_| copies::example_is_right()),
     ("Python package", |_| wheel::wheel().map(drop)),
@@ -41,7 +41,6 @@ const LONG: [Job; 17] = [
     ("hard cases in full", |_| whole_gallery()),
     ("absence is free", |_| copies::absence_is_free()),
     ("bytes elsewhere", |_| copies::place_leaves_no_trace()),
-    ("bits of wide builds", |_| wide_builds()),
     ("peers", |_| peers()),
     ("against ROSS", |_| ross::ross()),
 ];
@@ -120,17 +119,15 @@ fn driven_tests() -> Result<()> {
     run(cargo().args(test).args(files.map(|name| format!("{name}::"))))
 }
 
-/// The bits are the same where nothing is optimised; where all is, the packaged FMUs have them too.
-fn plain_build() -> Result<()> {
+/// The bits are the same where nothing is optimised, with wide vectors and fused arithmetic at the disposal of every library, where this
+/// machine has them. Where all is optimised, the packaged FMUs have them too.
+fn plain_wide_build() -> Result<()> {
     // There the laws of all effects stand on the stack one within another: 2 MB of it.
     let stack = (8 << 20).to_string();
-    run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", "unoptimised"]).env("RUST_MIN_STACK", stack))
-}
-
-/// The bits are the same with wide vectors and fused arithmetic at the compiler's disposal, where this machine has them.
-fn wide_builds() -> Result<()> {
-    let bits = ["test", "--quiet", "--test", "bits", "--release", "--target-dir"];
-    run(cargo().args(bits).arg(paths::target().join("wide")).env("RUSTFLAGS", "-Ctarget-cpu=native"))
+    run(cargo()
+        .args(["test", "--quiet", "--test", "bits", "--profile", "unoptimised"])
+        .env("RUST_MIN_STACK", stack)
+        .env("RUSTFLAGS", "-Ctarget-cpu=native"))
 }
 
 /// The packaged FMUs under a host in C and under fmpy, those of every list of effects only at length; then the hard cases by them, the
