@@ -87,6 +87,9 @@ pub fn place_leaves_no_trace() -> Result<()> {
     Ok(fs::remove_dir_all(copy)?)
 }
 
+/// To compile a library that nobody runs, quickly.
+const UNOPTIMISED: [(&str, &str); 2] = [("CARGO_PROFILE_FMU_OPT_LEVEL", "0"), ("CARGO_PROFILE_FMU_LTO", "off")];
+
 /// Adds the effect of the page, runs the test that holds every effect to its power, and packages the page's scene.
 pub fn example_is_right() -> Result<()> {
     let _alone = alone()?;
@@ -105,7 +108,9 @@ pub fn example_is_right() -> Result<()> {
     let target = paths::target().join("copies/target");
     let within = |arguments: &[&str]| {
         let (command, rest) = arguments.split_first().context("a command")?;
-        run(cargo().current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest))
+        let mut cargo = cargo();
+        cargo.current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest);
+        run(cargo.envs(UNOPTIMISED))
     };
     // Compiled as plainly as the xtask after it, with which it shares what both stand on.
     within(&["test", "--profile", "dev", "--package", "split-rotor-model", "--test", "power"])?;
