@@ -5,10 +5,9 @@ use crate::debug::Objcopy;
 use crate::platforms::Toolchain;
 use crate::progress::Progress;
 use crate::run::{cargo, output, run};
-use crate::{c, library, paths, scenes};
+use crate::{alone, c, library, paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::effects::CATALOGUE;
-use split_rotor_model::scene::Scene;
 use split_rotor_tools::platform::{LINUX64, WIN64};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -16,11 +15,7 @@ use std::process::Command;
 
 /// Until it is dropped no other xtask works on copies: they share what is built of them.
 fn alone() -> Result<File> {
-    let folder = paths::target().join("copies");
-    fs::create_dir_all(&folder)?;
-    let lock = File::create(folder.join("lock"))?;
-    lock.lock()?;
-    Ok(lock)
+    alone::alone(&paths::target().join("copies/lock"), || println!("waiting for another job that works on copies"))
 }
 
 /// A fresh copy of what git knows, as it stands here, in target/copies/`name`.
@@ -41,22 +36,21 @@ fn copied_to(copy: PathBuf) -> Result<PathBuf> {
     Ok(copy)
 }
 
-/// The machine code of a scene's library, built in this copy.
-fn text(copy: &Path, scene: &Scene) -> Result<Vec<u8>> {
-    let target = paths::target().join("copies/target");
-    let library = library::build(&Toolchain::own()?, None, copy, scene, &target)?;
-    let section = target.join("text");
-    run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).arg(library).arg(&section))?;
+/// The machine code of a library.
+fn text(library: &[u8]) -> Result<Vec<u8>> {
+    let [whole, section] = ["library", "text"].map(|name| paths::target().join("copies").join(name));
+    fs::write(&whole, library)?;
+    run(c::tool("objcopy", "binutils")?.args(["-O", "binary", "--only-section=.text"]).args([&whole, &section]))?;
     Ok(fs::read(section)?)
 }
 
-/// The machine code of `paper` is the same to the byte where every effect that it does not call for is taken out of the
-/// catalogue, at the same path.
+/// The machine code of `paper` as it travels is the same to the byte where every effect that it does not call for is taken out of the
+/// catalogue.
 pub fn absence_is_free() -> Result<()> {
     let _alone = alone()?;
+    let (scene, own) = (scenes::find("paper")?, Toolchain::own()?);
+    let all = text(&library::of(&scene, &own, 0, &Progress::of(1))?.library)?;
     let copy = copied("absence")?;
-    let scene = scenes::find(&copy.join("scenes/paper.toml").display().to_string())?;
-    let all = text(&copy, &scene)?;
     let effects = copy.join("model/src/effects");
     let catalogue = effects.with_extension("rs");
     let mut source = fs::read_to_string(&catalogue)?;
@@ -67,7 +61,8 @@ pub fn absence_is_free() -> Result<()> {
         source = source.replace(&format!("{line}\n"), "");
     }
     fs::write(&catalogue, source)?;
-    let few = text(&copy, &scene)?;
+    let built = library::build(&own, None, &copy, &scene, &paths::target().join("copies/code"))?;
+    let few = text(&fs::read(built)?)?;
     println!("machine code of {}: {} bytes with every effect, {} with its own alone", scene.name, all.len(), few.len());
     ensure!(!all.is_empty() && all == few, "effects that {} does not call for changed its machine code", scene.name);
     Ok(())
@@ -92,6 +87,9 @@ pub fn place_leaves_no_trace() -> Result<()> {
     Ok(fs::remove_dir_all(copy)?)
 }
 
+/// To compile a library that nobody runs, quickly.
+const UNOPTIMISED: [(&str, &str); 2] = [("CARGO_PROFILE_FMU_OPT_LEVEL", "0"), ("CARGO_PROFILE_FMU_LTO", "off")];
+
 /// Adds the effect of the page, runs the test that holds every effect to its power, and packages the page's scene.
 pub fn example_is_right() -> Result<()> {
     let _alone = alone()?;
@@ -110,7 +108,9 @@ pub fn example_is_right() -> Result<()> {
     let target = paths::target().join("copies/target");
     let within = |arguments: &[&str]| {
         let (command, rest) = arguments.split_first().context("a command")?;
-        run(cargo().current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest))
+        let mut cargo = cargo();
+        cargo.current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest);
+        run(cargo.envs(UNOPTIMISED))
     };
     // Compiled as plainly as the xtask after it, with which it shares what both stand on.
     within(&["test", "--profile", "dev", "--package", "split-rotor-model", "--test", "power"])?;

@@ -1,6 +1,7 @@
 //! The library of a list of effects: built where what it is made of has changed, kept for all scenes of that list, and a copy of it with
 //! the values of a scene.
 
+use crate::alone::{alone, once};
 use crate::debug::{self, Objcopy};
 use crate::paths;
 use crate::platforms::Toolchain;
@@ -11,7 +12,7 @@ use split_rotor_model::scene::Scene;
 use split_rotor_model::{section, xml};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -41,19 +42,33 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
     let kept = folder.join("lists").join(format!("{:016x}{}", name.finish(), toolchain.platform.suffix));
     let stamp = kept.with_extension("stamp");
     let objcopy = Objcopy::of(toolchain);
-    let debug = objcopy.is_some().then(|| debug::beside(&kept));
-    let is_here = debug.as_ref().is_none_or(|debug| debug.is_file());
-    if let Some(library) = fs::read(&kept).ok().filter(|_| is_here && is_fresh(&stamp, toolchain)) {
-        return Ok(Kept { library, debug });
-    }
-    fs::create_dir_all(&builder)?;
-    fs::create_dir_all(folder.join("lists"))?;
-    // Until the library is read: another xtask would overwrite it.
-    let lock = File::create(builder.join("lock"))?;
-    lock.lock()?;
+    let look = || {
+        let debug = objcopy.is_some().then(|| debug::beside(&kept));
+        let is_here = debug.as_ref().is_none_or(|debug| debug.is_file());
+        let library = fs::read(&kept).ok().filter(|_| is_here && is_fresh(&stamp, toolchain))?;
+        Some(Kept { library, debug })
+    };
+    let (of_scene, platform) = (&scene.name, toolchain.platform.name);
+    let waits = || progress.tell(&format!("waiting for another build, before {of_scene}, {platform}"));
+    // First the list's lock: another xtask may be compiling it. Then that of the builder, whose folder other lists need too.
+    once(&kept.with_extension("lock"), look, waits, || {
+        let _builder = alone(&builder.join("lock"), waits)?;
+        make(scene, toolchain, objcopy.as_ref(), &builder, (&kept, &stamp), progress)
+    })
+}
+
+/// Compiles the library and keeps it.
+fn make(
+    scene: &Scene,
+    toolchain: &Toolchain,
+    objcopy: Option<&Objcopy>,
+    builder: &Path,
+    (kept, stamp): (&Path, &Path),
+    progress: &Progress,
+) -> Result<Kept> {
     let (name, platform) = (&scene.name, toolchain.platform.name);
     let before =
-        if toolchain.begins_with_std(&builder) { ", and as long for Rust's standard library before it" } else { "" };
+        if toolchain.begins_with_std(builder) { ", and as long for Rust's standard library before it" } else { "" };
     progress
         .tell(&format!("compiling the library for the effects of {name}, {platform}: half a minute to two{before}"));
     let began = SystemTime::now();
@@ -64,12 +79,13 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
             )
         });
     }
-    let built = build(toolchain, objcopy.as_ref(), paths::root(), scene, &builder)?;
+    let built = build(toolchain, objcopy, paths::root(), scene, builder)?;
     let library = objcopy.map_or_else(|| Ok(fs::read(&built)?), |objcopy| objcopy.split(&built))?;
     toolchain.check(&library)?;
     // Without its stamp a library is not taken, so one that is cut is none.
-    let _ = fs::remove_file(&stamp);
-    fs::write(&kept, &library)?;
+    let _ = fs::remove_file(stamp);
+    fs::write(kept, &library)?;
+    let debug = objcopy.map(|_| debug::beside(kept));
     if let Some(debug) = &debug {
         // What has been published of the last one is that file.
         let _ = fs::remove_file(debug);
@@ -77,7 +93,7 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
     }
     let sources = sources(&fs::read_to_string(built.with_extension("d"))?);
     if sources.iter().all(|file| is_older(file, began)) {
-        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources, toolchain)?, sources.join("\n")))?;
+        fs::write(stamp, format!("{}\n{}", fingerprint(&sources, toolchain)?, sources.join("\n")))?;
     }
     Ok(Kept { library, debug })
 }

@@ -2,6 +2,7 @@
 
 mod abroad;
 mod accuracy;
+mod alone;
 mod bench;
 mod c;
 mod c_host;
@@ -43,6 +44,7 @@ mod test;
 mod unpacked;
 mod wheel;
 
+use accuracy::Peers;
 use anyhow::{Result, anyhow, ensure};
 use clap::{Parser, Subcommand};
 use hard_cases::Extent;
@@ -315,7 +317,10 @@ fn dispatch(command: Command) -> Result<()> {
         }
         Command::Run { scene, no_report, out } => simulate::simulate(&scene, !no_report, out.as_deref()),
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),
-        Command::Accuracy { scene, peers, out, .. } => accuracy::accuracy(&scene, peers, out.as_deref()).map(drop),
+        Command::Accuracy { scene, peers, out, .. } => {
+            let peers = if peers { Peers::Measured } else { Peers::Absent };
+            accuracy::accuracy(&scene, peers, out.as_deref()).map(drop)
+        }
         Command::HardCases { part, short, mutants, packaged } => {
             let extent = Extent { part, whole: !short, mutants, ..Extent::default() };
             if packaged { hard_cases::run(&extent) } else { hard_cases::hard_cases(&extent) }

@@ -1,78 +1,87 @@
 //! `test`: everything that must hold, as a list of jobs.
 
+mod times;
+
+use crate::accuracy::{self, Peers};
 use crate::hard_cases::{self, Extent};
 use crate::progress::Progress;
 use crate::run::{cargo, run, side_by_side};
-use crate::{
-    abroad, accuracy, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel,
-};
-use anyhow::{Result, bail, ensure};
+use crate::{abroad, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel};
+use anyhow::{Context, Result, bail, ensure};
 use split_rotor_model::scene::Scene;
 use std::env;
+use std::fs;
 use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::thread;
-use std::time::Instant;
+use times::Watch;
 
-/// What a job does, and what runs it, at length where asked; where it cannot, that is an error, which names what is to be installed.
-type Job = (&'static str, fn(long: bool) -> Result<()>);
+/// What a job does, the folders in target/ that it alone needs, and what runs it, at length where asked; where it cannot, that is an error,
+/// which names what is to be installed.
+type Job = (&'static str, &'static [&'static str], fn(long: bool) -> Result<()>);
 
 /// What always runs. Several run side by side, here and below, so what takes longest comes first.
 const SHORT: [Job; 3] = [
-    ("Rust's tests", |_| rust_tests()),
-    ("packaged FMUs and hard cases", packaged_fmus),
-    ("documentation of the code", |_| documentation()),
+    ("Rust's tests", &[], |_| rust_tests()),
+    ("packaged FMUs and hard cases", &[], packaged_fmus),
+    ("documentation of the code", &[], |_| documentation()),
 ];
 
 /// What takes long, or needs more than the README asks for.
-const LONG: [Job; 17] = [
-    ("bits of every platform", |_| abroad::bits_of_every_platform()),
-    ("counts that must hold", |_| bench::must_hold()),
-    ("third-party clients", |_| clients()),
-    ("fuzz", |_| fuzz::fuzz()),
-    ("sanitizers", |_| sanitize::sanitizers()),
-    ("bits of a plain build", |_| plain_build()),
-    ("call rules of a driven scene", |_| driven_tests()),
-    ("the example of an effect", |_| copies::example_is_right()),
-    ("Python package", |_| wheel::wheel().map(drop)),
-    ("long runs", |_| long_runs()),
-    ("memcheck", |_| memcheck::valgrind()),
-    ("hard cases in full", |_| whole_gallery()),
-    ("absence is free", |_| copies::absence_is_free()),
-    ("bytes elsewhere", |_| copies::place_leaves_no_trace()),
-    ("bits of wide builds", |_| wide_builds()),
-    ("peers", |_| peers()),
-    ("against ROSS", |_| ross::ross()),
+const LONG: [Job; 16] = [
+    ("bits of every platform", &["abroad"], |_| abroad::bits_of_every_platform()),
+    ("counts that must hold", &[], |_| bench::must_hold()),
+    ("third-party clients", &[], |_| clients()),
+    ("fuzz", &["fuzz"], |_| fuzz::fuzz()),
+    ("sanitizers", &["sanitized"], |_| sanitize::sanitizers()),
+    ("bits of a plain, wide build", &["unoptimised"], |_| plain_wide_build()),
+    ("call rules of a driven scene", &[], |_| driven_tests()),
+    ("the example of an effect", &["copies/example", "copies/target"], |_| copies::example_is_right()),
+    ("Python package", &[], |_| wheel::wheel().map(drop)),
+    ("long runs", &[], |_| long_runs()),
+    ("memcheck", &[], |_| memcheck::valgrind()),
+    ("hard cases in full", &[], |_| whole_gallery()),
+    ("absence is free", &["copies/absence", "copies/code"], |_| copies::absence_is_free()),
+    ("bytes elsewhere", &[], |_| copies::place_leaves_no_trace()),
+    ("peers", &["peers"], |_| peers()),
+    ("against ROSS", &[], |_| ross::ross()),
 ];
 
-/// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took.
+/// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took
+/// ([`times`]).
 pub fn test(part: &str, long: bool) -> Result<()> {
-    let of = |jobs: &'static [Job]| jobs.iter().filter(|(name, _)| name.contains(part)).collect::<Vec<_>>();
+    let of = |jobs: &'static [Job]| jobs.iter().filter(|(name, ..)| name.contains(part)).collect::<Vec<_>>();
     let (short, others) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
-    let names = |jobs: &[Job]| jobs.iter().map(|(name, _)| format!("\n  {name}")).collect::<String>();
+    let names = |jobs: &[Job]| jobs.iter().map(|(name, ..)| format!("\n  {name}")).collect::<String>();
     match *[&short[..], &others].concat() {
         // Nothing run would pass for nothing wrong.
         [] => bail!(
             "no job's name holds {part:?}{}: there are{}\nand with --long also{}",
-            known::meant(part, SHORT.iter().chain(&LONG).map(|(name, _)| *name)),
+            known::meant(part, SHORT.iter().chain(&LONG).map(|(name, ..)| *name)),
             names(&SHORT),
             names(&LONG)
         ),
-        [(name, job)] => {
+        [(name, _, job)] => {
             println!("\n== {name}");
-            let start = Instant::now();
-            job(long)?;
-            println!("== {name}: {:.0} s", start.elapsed().as_secs_f64());
-            Ok(())
+            let watch = Watch::of(name);
+            let done = job(long);
+            let stopped = watch.stop();
+            done.and(stopped)
         }
-        _ => [short, others].iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs, long)),
+        _ => {
+            times::clear()?;
+            let groups = [short, others];
+            let done = groups.iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs, long));
+            let printed = times::print();
+            done.and(printed)
+        }
     }
 }
 
 /// Runs these jobs side by side, each by an xtask of its own, whose words are shown when it has ended.
 fn together(jobs: &[&Job], long: bool) -> Result<()> {
     let (progress, running) = (Progress::of(jobs.len()), Mutex::new(Vec::new()));
-    side_by_side(jobs, |_, (name, _)| {
+    side_by_side(jobs, |_, (name, folders, _)| {
         progress.tell(&format!("== {name} begins"));
         let now = |change: &dyn Fn(&mut Vec<&str>)| {
             let mut running = running.lock().expect("no worker panics");
@@ -89,7 +98,10 @@ fn together(jobs: &[&Job], long: bool) -> Result<()> {
         progress.inc(1);
         now(&|running| running.retain(|other| other != name));
         ensure!(output.status.success(), "the job {name:?} failed ({})", output.status);
-        Ok(())
+        // All jobs together would leave twice as much on the disk.
+        folders.iter().map(|folder| paths::target().join(folder)).filter(|folder| folder.exists()).try_for_each(
+            |folder| fs::remove_dir_all(&folder).with_context(|| format!("cannot remove {}", folder.display())),
+        )
     })
 }
 
@@ -112,17 +124,15 @@ fn driven_tests() -> Result<()> {
     run(cargo().args(test).args(files.map(|name| format!("{name}::"))))
 }
 
-/// The bits are the same where nothing is optimised; where all is, the packaged FMUs have them too.
-fn plain_build() -> Result<()> {
+/// The bits are the same where nothing is optimised, with wide vectors and fused arithmetic at the disposal of every library, where this
+/// machine has them. Where all is optimised, the packaged FMUs have them too.
+fn plain_wide_build() -> Result<()> {
     // There the laws of all effects stand on the stack one within another: 2 MB of it.
     let stack = (8 << 20).to_string();
-    run(cargo().args(["test", "--quiet", "--test", "bits", "--profile", "unoptimised"]).env("RUST_MIN_STACK", stack))
-}
-
-/// The bits are the same with wide vectors and fused arithmetic at the compiler's disposal, where this machine has them.
-fn wide_builds() -> Result<()> {
-    let bits = ["test", "--quiet", "--test", "bits", "--release", "--target-dir"];
-    run(cargo().args(bits).arg(paths::target().join("wide")).env("RUSTFLAGS", "-Ctarget-cpu=native"))
+    run(cargo()
+        .args(["test", "--quiet", "--test", "bits", "--profile", "unoptimised"])
+        .env("RUST_MIN_STACK", stack)
+        .env("RUSTFLAGS", "-Ctarget-cpu=native"))
 }
 
 /// The packaged FMUs under a host in C and under fmpy, those of every list of effects only at length; then the hard cases by them, the
@@ -158,9 +168,9 @@ fn long_runs() -> Result<()> {
     run(cargo().args(all).args(["--skip", "what_auto_costs"]))
 }
 
-/// What a user would pick instead of us still runs, all of it.
+/// What a user would pick instead of us still runs, all of it. What it takes is measured by `cargo xtask accuracy --peers`.
 fn peers() -> Result<()> {
-    let left_out = accuracy::accuracy("paper", true, None)?;
+    let left_out = accuracy::accuracy("paper", Peers::Tried, Some(&paths::target().join("test/peers")))?;
     if !left_out.is_empty() {
         bail!("{}", left_out.join(" "));
     }

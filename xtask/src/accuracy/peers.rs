@@ -1,7 +1,7 @@
 //! What a user would pick instead, measured in the same run: libraries from PyPI, each in an environment of its own, and
 //! two Rust crates. What cannot be installed is named and left out.
 
-use super::interleaved;
+use super::{TRIED, interleaved};
 use crate::progress::Progress;
 use crate::run::{Conversation, cargo, run};
 use crate::{paths, python};
@@ -20,8 +20,9 @@ use std::process::Command;
 /// The effects whose laws stand in the peers' equations.
 const EFFECTS: [&str; 3] = ["gravity", "support", "drive"];
 
-/// A method of a peer begins no further setting once it took so long [s of CPU time].
+/// A method of a peer begins no further setting once it took so long [s of CPU time]; and where peers are only tried.
 const BUDGET: f64 = 8.0;
+const BUDGET_TRIED: f64 = 0.5;
 
 /// Between two points of the reference the axis may lean further than at both.
 const TILT_MARGIN: f64 = 1.2;
@@ -79,12 +80,12 @@ fn refusal(scene: &Scene) -> Option<String> {
     (!unknown.is_empty()).then(|| format!("Peers are left out: they know {known}, not {unknown_names}."))
 }
 
-/// Runs them all, and adds their rows to ours; why there are none of some.
-pub fn measure(subject: &Subject, reference: &Reference, rows: &mut Vec<Row>) -> Vec<String> {
+/// Runs them all, or only tries them, and adds their rows to ours; why there are none of some.
+pub fn measure(subject: &Subject, reference: &Reference, rows: &mut Vec<Row>, tried: bool) -> Vec<String> {
     if let Some(why) = refusal(subject.scene) {
         return vec![why];
     }
-    let task = task(subject, reference).to_string();
+    let task = task(subject, reference, tried).to_string();
     let progress = Progress::of(PEERS.len());
     let mut left_out = Vec::new();
     for (name, program) in PEERS {
@@ -127,7 +128,7 @@ fn answers(
 }
 
 /// What every peer reads.
-fn task(subject: &Subject, reference: &Reference) -> Value {
+fn task(subject: &Subject, reference: &Reference, tried: bool) -> Value {
     let Subject { scene, experiment, .. } = subject;
     let named = scene.variables.iter().filter_map(|variable| {
         let start = scene.starts.get(&variable.place.value_reference())?;
@@ -135,14 +136,18 @@ fn task(subject: &Subject, reference: &Reference) -> Value {
     });
     let times: Vec<_> = (0..=POINTS).map(|n| span::time(experiment, n)).collect();
     let parts: Vec<_> = (0..=POINTS).map(span::part).collect();
+    let mut tolerances = sweep::swept_tolerances();
+    if tried {
+        tolerances.truncate(TRIED);
+    }
     json!({
         "values": named.collect::<Map<_, _>>(),
         "times": times,
         "parts": parts,
         "largest_tilt": TILT_MARGIN * reference.largest_tilt(),
-        "tolerances": sweep::swept_tolerances(),
+        "tolerances": tolerances,
         "repeats": repeats::rule(),
-        "budget": BUDGET,
+        "budget": if tried { BUDGET_TRIED } else { BUDGET },
     })
 }
 
