@@ -1,4 +1,4 @@
-"""What an FMU logs of a motion that grows: once for each onset along a run; and once where it diverges."""
+"""What an FMU logs of a motion that grows: once for each onset along a run; and once where it diverges, or contacts are chaotic."""
 
 import re
 
@@ -51,6 +51,23 @@ def test_regress_that_the_motion_diverges_is_logged_once(fmus):
         assert 0.119 < t < 0.14 and deflection > 0.125e6
         assert abs(deflection / (1e-5 * np.cosh(200.0 * t)) - 1.0) < 0.06, "as it is printed"
         assert host.read("r_c.y") > 1e6  # the run goes on
+
+
+def test_that_contacts_are_chaotic_is_logged_once(fmus):
+    """A rotor that falls in its ring off the middle bounces chaotically; one that falls straight down, far from the next bounce, does not."""
+    switches = {"effects.gravity": True, "effects.support": False, "effects.rub[1]": True}
+    start = {"rotor.m": 5.0, "rotor.l": 0.0, "start.omega.x": 100.0, "start.r_c.x": 0.0, "rub[1].gap": 1e-3, "rub[1].stiffness": 1e7, "rub[1].radius": 0.05, "rub[1].v0": 0.1}
+    for y, stop, said in ((4e-4, 0.5, 1), (0.0, 0.05, 0)):
+        with Host(fmus["rotor"]) as host:
+            host.slave.setBoolean([host.reference(name) for name in switches], list(switches.values()))
+            host.start(start | {"start.r_c.y": y})
+            for i in range(round(stop / 1e-3)):
+                assert host.step(1e-3 * i, 1e-3) == 0
+            warnings = [line for line in host.log if "the contacts with the ring are chaotic" in line]
+            assert len(warnings) == said, host.log
+            for line in warnings:
+                begins, ends = map(float, re.search(r"from t = ([\d.e-]+) s to t = ([\d.e-]+) s", line).groups())
+                assert 0.012 < begins < 0.0143 and 0.1 < ends < 0.5, "it falls by a gap in 14.3 ms"
 
 
 def test_regress_a_rotor_that_nothing_holds_in_a_direction_is_warned_of_once(fmus):

@@ -39,7 +39,7 @@ pub fn nothing() -> f64x2 {
     f64x2::splat(-0.0)
 }
 
-/// The larger ones of two pairs, each on its own. What is not a number may be passed over.
+/// The larger ones of two pairs of numbers, each on its own: `max`, which passes over what is not a number, takes eight instructions.
 #[inline(always)]
 pub fn larger(a: f64x2, b: f64x2) -> f64x2 {
     a.fast_max(b)

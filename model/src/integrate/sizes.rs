@@ -128,7 +128,8 @@ impl<const N: usize> Sizes<N> {
             let size =
                 lanes::larger(pair(seen, p), pair(&self.recent, p)) * both(tolerance.relative * tolerance.relative);
             let rounded = pair(rounded, p) * both(ROUNDING * ROUNDING);
-            let least = lanes::larger(lanes::larger(size, pair(&tolerance.absolute, p)), rounded);
+            // What rounding does in a step without end may not be a number, and says nothing.
+            let least = lanes::larger(size, pair(&tolerance.absolute, p)).max(rounded);
             // A load that does not act has no size, and no error.
             put(&mut weights, p, both(1.0) / lanes::larger(least, both(f64::MIN_POSITIVE)));
         }

@@ -113,7 +113,8 @@ impl Rattles {
         }
     }
 
-    /// At time `t` \[s] and state `y` the law switches whose indicator has this number.
+    /// At time `t` \[s] and state `y` the law will switch whose indicator has this number. None where nothing is followed, or the motion
+    /// only grazes the switch.
     pub fn switches<E: Effects, const N: usize>(
         &self,
         rotor: &Rotor<'_, E>,
@@ -123,7 +124,8 @@ impl Rattles {
     ) -> Option<Switch> {
         self.since?;
         let rate = changed(&rotor.rates::<true, false>(t, y));
-        let indicator = |y: &[f64; N]| indicators(rotor.effects, &rotor.motion(t, y), y)[number as usize];
+        let all = |y: &[f64; N]| indicators(rotor.effects, &rotor.motion(t, y), y);
+        let indicator = |y: &[f64; N]| all(y).get(number as usize).copied().unwrap_or(f64::NAN);
         let slope = |along: &[f64; CHANGED]| {
             let (mut beside, part) = (*y, NEAR / size(&rotor.frame.body, along));
             beside[own(N)..].iter_mut().zip(along).for_each(|(y, along)| *y += part * along);
@@ -133,7 +135,7 @@ impl Rattles {
         later.is_finite().then_some(Switch { later, rate })
     }
 
-    /// It has, and goes on as that of this rotor.
+    /// The law has switched at time `t` \[s] and state `y`: the motion goes on as that of this rotor.
     pub fn switched<E: Effects, const N: usize>(
         &mut self,
         rotor: &Rotor<'_, E>,
