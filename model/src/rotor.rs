@@ -386,6 +386,13 @@ impl<E: Effects, const N: usize> Differentiable<N> for Rotor<'_, E> {
 }
 
 impl<E: Effects> Rotor<'_, E> {
+    /// The derivative of the rates along this change of the state.
+    #[inline(never)]
+    pub(crate) fn slope_along<const N: usize>(&self, t: f64, y: &[f64; N], change: &[f64; N]) -> [f64; N] {
+        let state: [Dual<1>; N] = std::array::from_fn(|n| Dual { re: y[n], eps: [change[n]] });
+        self.rates_in::<_, N, true>(self.frame.chart, t, &state).map(|rate| rate.eps[0])
+    }
+
     /// The derivatives of the rates along the numbers of the state from this one on.
     #[inline(never)]
     fn slopes_along<const N: usize>(&self, t: f64, y: &[f64; N], first: usize) -> [[f64; AT_ONCE]; N] {

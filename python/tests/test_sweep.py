@@ -254,7 +254,7 @@ def test_inputs_over_time_are_the_scenes_under_an_fmu_too(scene, tmp_path):
         (["--vary", "rotor.Ja", "0.04", "0.05", "--fmu", "paper.fmu"], "paper.fmu is of another scene: rotor.m = 5.0, not 11.999"),
         (["--vary", "experiment.stop", "1", "2", "--fmu", "turbo.fmu"], "experiment.stop cannot vary under an FMU"),
         (["--vary", "solver.method_number", "2", "3", "--fmu", "turbo.fmu"], "solver.method_number cannot vary under an FMU"),
-        (["--vary", "rotor.m", "2", "3", "--fmu", "other.fmu"], "other.fmu is of another scene: probe[1].position is in one of them only"),
+        (["--vary", "rotor.m", "2", "3", "--fmu", "other.fmu"], "other.fmu is of another scene: probe[1].angle is in one of them only"),
     ],
 )
 def test_what_cannot_be_swept_is_told_at_the_start(scene, tmp_path, monkeypatch, capsys, more, told):

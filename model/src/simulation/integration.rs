@@ -442,8 +442,10 @@ impl<const N: usize> Integration<N> {
             // Where a law only switched, the turns of the step before are counted already.
             if moved {
                 looks.look(self, effects, t.min(self.method.time()));
-                let ends = [self.method.start_state(), self.method.state()];
-                self.rattles.follow(&self.frame.under(effects), self.last_step(), ends);
+                if E::FACTS.indicators > 0 {
+                    let ends = [self.method.start_state(), self.method.state()];
+                    self.rattles.follow(&self.frame.under(effects), self.last_step(), ends);
+                }
                 self.settle(effects, t);
             }
             if looks.looks() {

@@ -4,18 +4,16 @@ use super::events::indicators;
 use crate::body::Inertia;
 use crate::effects::Effects;
 use crate::integrate::System;
-use crate::integrate::stiff::Differentiable;
 use crate::log::shown;
 use crate::rotor::Rotor;
 use crate::state::{GAMMA, PHI, own};
 use crate::stored::stored;
-use nalgebra::{SMatrix, SVector};
 use std::fmt::{self, Display, Formatter};
 
 /// Contacts that are chaotic, as they were when that was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rattle {
-    /// At which contact the look began \[s], and at which one a small change had grown by [`GROWTH`] \[s].
+    /// At which contact the look began \[s], and at which one a small change had grown ten thousandfold \[s].
     pub span: [f64; 2],
 }
 
@@ -41,10 +39,14 @@ const GROWTH: f64 = 1e4;
 /// directions that grow.
 const FIRST: u32 = 10;
 
-/// What has not grown after so many is not looked at again until there were twice as many as by then; what has grown by this factor \[1] is
-/// looked at for as many more.
-const LAST: u32 = 100;
-const MUCH: f64 = 100.0;
+/// It must have grown so by the last of so many; what has fallen behind after the least is not looked at again until there were twice as
+/// many as by then.
+const LAST: u32 = 200;
+const LEAST: u32 = 40;
+
+/// The series of a step ends with a term of this part of its sum \[1], or after so many: a step of `stiff` may be too long for it.
+const SMALL: f64 = 1e-4;
+const MOST_TERMS: u32 = 24;
 
 /// An indicator's slope is that to a place which is off by this part of the radius of gyration \[1].
 const NEAR: f64 = 1e-9;
@@ -55,9 +57,7 @@ const RING: &str = "rub";
 /// The coordinates but φ, whose change grows with the time where the spin changes.
 const CHANGED: usize = PHI;
 
-type Matrix = SMatrix<f64, CHANGED, CHANGED>;
-
-/// Follows a small change of the motion, to first order, and by one factorisation a step: to see by what power of 10 it grows.
+/// Follows a small change of the motion, to first order: to see by what power of 10 it grows.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Rattles {
     /// How often a ring began to press or let go.
@@ -66,13 +66,14 @@ pub(super) struct Rattles {
     first: u32,
     /// When it began \[s], while it lasts.
     since: Option<f64>,
-    /// The small change \[m], [m/s], [kg·m²/s], \[rad], and how far it went at the first contacts \[1].
+    /// The small change \[m], [m/s], [kg·m²/s], \[rad], how far it went at the first contacts \[1], and so far.
     change: [f64; CHANGED],
     reached: f64,
+    largest: f64,
     found: Option<Rattle>,
 }
 
-stored!(Rattles { switches, first, since, change, reached, found });
+stored!(Rattles { switches, first, since, change, reached, largest, found });
 
 /// Where a law switches: the motion beside comes there `later` \[s], to first order, and goes on until then as before, at this rate.
 pub(super) struct Switch {
@@ -94,23 +95,31 @@ impl Rattles {
     }
 
     /// The motion has gone on by a step between these times \[s] and states.
-    #[inline(always)]
     pub fn follow<E: Effects, const N: usize>(
         &mut self,
         rotor: &Rotor<'_, E>,
         [from, to]: [f64; 2],
         ends: [&[f64; N]; 2],
     ) {
-        if E::FACTS.indicators == 0 || self.since.is_none() {
+        if self.since.is_none() {
             return;
         }
-        let middle: [f64; N] = std::array::from_fn(|n| 0.5 * (ends[0][n] + ends[1][n]));
-        let (jacobian, first) = (rotor.jacobian(0.5 * (from + to), &middle), own(N));
-        let matrix = Matrix::from_fn(|i, j| (to - from) * jacobian[first + i][first + j]);
-        match stepped(&matrix, &SVector::from(self.change)) {
-            Some(change) => self.change = change.into(),
-            None => self.restart(),
+        let (h, middle) = (to - from, std::array::from_fn(|n| 0.5 * (ends[0][n] + ends[1][n])));
+        let (mut power, mut sum, first) = ([0.0; N], self.change, own(N));
+        power[first..][..CHANGED].copy_from_slice(&self.change);
+        let body = &rotor.frame.body;
+        for n in 1..=MOST_TERMS {
+            // eq. 122: xₙ = (h/n) A xₙ₋₁
+            let next = rotor.slope_along(0.5 * (from + to), &middle, &power);
+            let part: [f64; CHANGED] = std::array::from_fn(|i| next[first + i] * (h / f64::from(n)));
+            power[first..][..CHANGED].copy_from_slice(&part);
+            sum = std::array::from_fn(|i| sum[i] + part[i]);
+            if n > 1 && size(body, &part) < SMALL * size(body, &sum) {
+                self.change = sum;
+                return;
+            }
         }
+        self.restart();
     }
 
     /// At time `t` \[s] and state `y` the law will switch whose indicator has this number. None where nothing is followed, or the motion
@@ -155,18 +164,22 @@ impl Rattles {
         let body = &rotor.frame.body;
         let Some(since) = self.since else {
             if self.switches >= self.first {
-                (self.since, self.first, self.reached) = (Some(t), self.switches, 0.0);
+                (self.since, self.first, self.largest) = (Some(t), self.switches, 0.0);
                 self.change = start(body);
             }
             return;
         };
-        let (seen, size) = (self.switches.saturating_sub(self.first), size(body, &self.change));
+        let seen = self.switches.saturating_sub(self.first);
+        self.largest = self.largest.max(size(body, &self.change));
         if seen <= FIRST {
-            self.reached = self.reached.max(size);
-        } else if size > GROWTH * self.reached {
+            self.reached = self.largest;
+            return;
+        }
+        let behind = || libm::pow(GROWTH, f64::from(seen) / f64::from(LAST)) * self.reached > self.largest;
+        if self.largest > GROWTH * self.reached {
             self.found = Some(Rattle { span: [since, t] });
             self.since = None;
-        } else if seen >= if size > MUCH * self.reached { 2 * LAST } else { LAST } {
+        } else if seen >= LEAST && behind() {
             (self.since, self.first) = (None, self.switches.saturating_mul(2));
         }
     }
@@ -194,13 +207,4 @@ fn size(body: &Inertia, change: &[f64; CHANGED]) -> f64 {
 /// √(Jt/m) \[m].
 fn radius(body: &Inertia) -> f64 {
     (body.per_m / body.per_jt).sqrt()
-}
-
-/// What a small change becomes in a step, over which the matrix of the linear equations is this.
-fn stepped(matrix: &Matrix, change: &SVector<f64, CHANGED>) -> Option<SVector<f64, CHANGED>> {
-    let square = matrix * matrix;
-    // eq. 122: (1 − hA/2 + (hA)²/10 − (hA)³/120) x₁ = (1 + hA/2 + (hA)²/10 + (hA)³/120) x₀, which makes nothing grow that swings
-    let (even, odd) = (Matrix::identity() + square * 0.1, matrix * (Matrix::identity() * 0.5 + square / 120.0));
-    let after = (even - odd).lu().solve(&((even + odd) * change))?;
-    after.iter().all(|x| x.is_finite()).then_some(after)
 }
