@@ -258,7 +258,8 @@ impl Instance {
         Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once that the tilt is large, where that matters, that the motion diverges, and that contacts are chaotic; and whenever the linear motion begins to grow.
+    /// Says once that the tilt is large, where that matters, that the motion diverges, and that contacts are chaotic; and whenever the
+    /// linear motion begins to grow.
     fn warn(&mut self) {
         let told = &mut self.memory.warned;
         if !told[warned::OF_TILT]

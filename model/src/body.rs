@@ -58,6 +58,11 @@ impl Inertia {
         Self { asymmetric: None, ..self }
     }
 
+    /// Radius of gyration across t, √(Jt/m) \[m].
+    pub fn radius(&self) -> f64 {
+        (self.per_m / self.per_jt).sqrt()
+    }
+
     /// ω [rad/s] of angular momentum K [kg·m²/s] about c, the axis being t; of a symmetric body.
     #[inline(always)]
     pub fn angular_velocity<S: Scalar>(&self, momentum: &Vector3<S>, axis: &Vector3<S>) -> AngularVelocity<S> {

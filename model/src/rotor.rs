@@ -5,7 +5,7 @@ pub mod groups;
 mod loads;
 
 use crate::body::Inertia;
-use crate::dual::Dual;
+use crate::dual::{Dual, Tangent};
 use crate::effects::{Act, Effects, Motion, Wrench};
 use crate::integrate::sizes::Squares;
 use crate::integrate::stiff::Differentiable;
@@ -389,7 +389,7 @@ impl<E: Effects> Rotor<'_, E> {
     /// The derivative of the rates along this change of the state.
     #[inline(never)]
     pub(crate) fn slope_along<const N: usize>(&self, t: f64, y: &[f64; N], change: &[f64; N]) -> [f64; N] {
-        let state: [Dual<1>; N] = std::array::from_fn(|n| Dual { re: y[n], eps: [change[n]] });
+        let state: [Tangent; N] = std::array::from_fn(|n| Tangent { re: y[n], eps: [change[n]] });
         self.rates_in::<_, N, true>(self.frame.chart, t, &state).map(|rate| rate.eps[0])
     }
 

@@ -109,7 +109,7 @@ impl Rotating {
         setup.start = Start { r_c: setup.start.r_c, ..Start::default() };
         let body = parameters.shape().inertia();
         let machine = Machine::of(&parameters).ok();
-        Ok(Self { run: parameters.into(), machine, length: (body.per_m / body.per_jt).sqrt(), speed })
+        Ok(Self { run: parameters.into(), machine, length: body.radius(), speed })
     }
 
     /// At rest but for its spin: where it would stand without its unbalance, else where the scene places it.

@@ -57,8 +57,7 @@ impl Bounds {
     /// Those of this rotor.
     pub fn of<E: Effects>(rotor: &Rotor<'_, E>) -> Self {
         let body = &rotor.frame.body;
-        let radius = (body.per_m / body.per_jt).sqrt();
-        let size = rotor.effects.active().flat_map(lengths).fold(radius.max(body.l.abs()), f64::max);
+        let size = rotor.effects.active().flat_map(lengths).fold(body.radius().max(body.l.abs()), f64::max);
         Self { size, limits: [FAR * size; DIRECTIONS], found: None }
     }
 

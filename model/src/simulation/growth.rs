@@ -204,7 +204,7 @@ impl Watch {
     /// nothing acts: rates that are constant grow by no power of e.
     fn scaled(matrix: &Linear, body: &Inertia) -> Linear {
         let is_rate = |n: usize| (VELOCITY..GAMMA.start).contains(&n);
-        let radius = (body.per_m / body.per_jt).sqrt();
+        let radius = body.radius();
         let unit = |n: usize| match n {
             0..MOMENTUM => radius,
             n if is_rate(n) => 1.0 / body.per_jt,

@@ -111,7 +111,7 @@ impl Rattles {
         for n in 1..=MOST_TERMS {
             // eq. 122: xₙ = (h/n) A xₙ₋₁
             let next = rotor.slope_along(0.5 * (from + to), &middle, &power);
-            let part: [f64; CHANGED] = std::array::from_fn(|i| next[first + i] * (h / f64::from(n)));
+            let part = changed(&next).map(|rate| rate * (h / f64::from(n)));
             power[first..][..CHANGED].copy_from_slice(&part);
             sum = std::array::from_fn(|i| sum[i] + part[i]);
             if n > 1 && size(body, &part) < SMALL * size(body, &sum) {
@@ -193,7 +193,7 @@ fn changed<const N: usize>(rate: &[f64; N]) -> [f64; CHANGED] {
 /// A change of place and tilt that favours no direction.
 fn start(body: &Inertia) -> [f64; CHANGED] {
     let mut change = [0.0; CHANGED];
-    change[..3].copy_from_slice(&[0.3, 0.8, -0.5].map(|part| part * radius(body)));
+    change[..3].copy_from_slice(&[0.3, 0.8, -0.5].map(|part| part * body.radius()));
     change[GAMMA].copy_from_slice(&[0.7, 0.4]);
     change
 }
@@ -201,10 +201,5 @@ fn start(body: &Inertia) -> [f64; CHANGED] {
 /// How far place and axis go with a change \[1].
 fn size(body: &Inertia, change: &[f64; CHANGED]) -> f64 {
     let norm = |part: &[f64]| part.iter().map(|x| x * x).sum::<f64>().sqrt();
-    norm(&change[..3]) / radius(body) + norm(&change[GAMMA])
-}
-
-/// √(Jt/m) \[m].
-fn radius(body: &Inertia) -> f64 {
-    (body.per_m / body.per_jt).sqrt()
+    norm(&change[..3]) / body.radius() + norm(&change[GAMMA])
 }

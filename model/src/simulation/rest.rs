@@ -282,7 +282,7 @@ impl<const N: usize> Block<'_, N> {
 /// the rotor: a top stands on its own weight, and before its spring has taken that up, nothing turns it over. The state itself where it
 /// lies on another side of an event, or is not found: the laws are then far from linear.
 pub(super) fn settled<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> [f64; N] {
-    let (mut state, length) = (*y, (rotor.frame.body.per_m / rotor.frame.body.per_jt).sqrt());
+    let (mut state, length) = (*y, rotor.frame.body.radius());
     for _ in 0..MOST_SETTLING {
         let acceleration = Coordinates::from_slice(rigid(&rotor.rates_of_all(t, &state))).v;
         let slopes = Block { jacobian: &rotor.jacobian(t, &state), of: 0..3 }.rates_of::<3>(3);
