@@ -9,7 +9,7 @@ import pytest
 
 SCENES = [
     scene
-    for scene in project.PACKAGED
+    for scene in project.PACKAGED + project.OVER_GENERAL
     if scene != "long_run" and "[[input]]" not in (project.ROOT / "scenes" / f"{scene}.toml").read_text(encoding="utf-8")
 ]
 """The first takes as long as all others; the second are told their inputs by `run`, and fmpy is not."""
@@ -21,7 +21,8 @@ def test_exact_bits_of_the_packaged_fmu(scene, fmus, xtask):
     assert done.returncode == 0, done.stderr
     folder = project.ROOT / "target" / "run" / scene
     fmu = fmus[scene]
-    assert (folder / "modelDescription.xml").read_bytes() == (fmu.directory / "modelDescription.xml").read_bytes()
+    if scene in project.PACKAGED:
+        assert (folder / "modelDescription.xml").read_bytes() == (fmu.directory / "modelDescription.xml").read_bytes()
     experiment = fmu.description.defaultExperiment
     of_fmu = fmu.simulate(start_time=float(experiment.startTime), output_interval=float(experiment.stepSize))
     with (folder / "result.csv").open(encoding="utf-8") as table:

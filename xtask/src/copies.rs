@@ -87,10 +87,8 @@ pub fn place_leaves_no_trace() -> Result<()> {
     Ok(fs::remove_dir_all(copy)?)
 }
 
-/// To compile a library that nobody runs, quickly.
-const UNOPTIMISED: [(&str, &str); 2] = [("CARGO_PROFILE_FMU_OPT_LEVEL", "0"), ("CARGO_PROFILE_FMU_LTO", "off")];
-
-/// Adds the effect of the page, runs the test that holds every effect to its power, and packages the page's scene.
+/// Adds the effect of the page, runs the test that holds every effect to its power, and compiles the library of the page's scene; nobody
+/// runs that one, so nothing is optimised.
 pub fn example_is_right() -> Result<()> {
     let _alone = alone()?;
     let page = fs::read_to_string(paths::root().join("docs/adding-an-effect.md"))?;
@@ -106,13 +104,11 @@ pub fn example_is_right() -> Result<()> {
     fs::write(copy.join("model/src/effects/tether.rs"), file)?;
     fs::write(copy.join("scenes/tethered.toml"), scene)?;
     let target = paths::target().join("copies/target");
-    let within = |arguments: &[&str]| {
-        let (command, rest) = arguments.split_first().context("a command")?;
+    let within = |command: &str, arguments: &[&str]| {
         let mut cargo = cargo();
-        cargo.current_dir(&copy).args([command, "--quiet", "--target-dir"]).arg(&target).args(rest);
-        run(cargo.envs(UNOPTIMISED))
+        cargo.current_dir(&copy).args([command, "--quiet", "--profile", "unoptimised", "--target-dir"]).arg(&target);
+        run(cargo.args(arguments).env("SPLIT_ROTOR_SCENE", "scenes/tethered.toml"))
     };
-    // Compiled as plainly as the xtask after it, with which it shares what both stand on.
-    within(&["test", "--profile", "dev", "--package", "split-rotor-model", "--test", "power"])?;
-    within(&["run", "--package", "xtask", "--", "package", "tethered", "--platforms", "here"])
+    within("test", &["--package", "split-rotor-model", "--test", "power"])?;
+    within("build", &["--package", "split-rotor", "--lib"])
 }

@@ -117,9 +117,12 @@ pub fn signed(library: Vec<u8>) -> Result<Vec<u8>> {
     Ok(fs::read(&file)?)
 }
 
-/// Says to a build which list of effects it is for.
-pub fn of_list<'c>(command: &'c mut Command, scene: &Scene) -> &'c mut Command {
-    command.env("SPLIT_ROTOR_LIST", scene.list()).env("SPLIT_ROTOR_ROOM", scene.room().to_string())
+/// Says to a build which list of effects it is for, by a file in this folder too.
+pub fn of_list<'c>(command: &'c mut Command, scene: &Scene, folder: &Path) -> Result<&'c mut Command> {
+    fs::create_dir_all(folder)?;
+    let (list, file) = (scene.list(), folder.join("section"));
+    fs::write(&file, section::blank(&list, scene.room()))?;
+    Ok(command.env("SPLIT_ROTOR_LIST", list).env("SPLIT_ROTOR_SECTION", file).arg("--no-default-features"))
 }
 
 /// Builds the library of the scene's list, of the project in the folder `root`: with its debug information within, if something will split it.
@@ -133,7 +136,7 @@ pub fn build(
     toolchain.prepare(root)?;
     let within = objcopy.map_or(&[][..], |_| &debug::WITHIN);
     let flags = [&[flags(root)?.as_str()], toolchain.flags(), within].concat().join("\x1f");
-    run(of_list(&mut toolchain.cargo()?, scene)
+    run(of_list(&mut toolchain.cargo()?, scene, target)?
         .current_dir(root)
         .args(["--package", "split-rotor", "--profile", "fmu", "--lib", "--crate-type", "cdylib", "--target-dir"])
         .arg(target)

@@ -9,6 +9,7 @@ use crate::{licences, paths, scenes};
 use anyhow::{Context, Result, bail};
 use split_rotor_model::scene::Scene;
 use split_rotor_tools::archive::{archive, fill};
+use split_rotor_tools::general::{self, GENERAL};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -65,6 +66,21 @@ pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> 
     }
     drop(progress);
     Ok(scenes.iter().map(fmu).collect())
+}
+
+/// Makes the FMUs of these scenes for this machine, into target/fmu, over the library of every effect: none is compiled for them.
+pub fn over_general(names: &[String]) -> Result<Vec<PathBuf>> {
+    let (general, own) = (scenes::find(GENERAL)?, Toolchain::own()?);
+    let library = library::of(&general, &own, 0, &Progress::of(1))?.library;
+    let origin = licences::of("split-rotor", std::slice::from_ref(&own))?;
+    let write = |name: &String| {
+        let fmu = paths::fmu(name);
+        let (scene, library) = general::over(&general, library.clone(), scenes::find(name)?)?;
+        archive(&fmu, |add| fill(&scene, &[(own.platform, library)], &origin, add))?;
+        println!("{}, over the library of every effect", fmu.display());
+        Ok(fmu)
+    };
+    names.iter().map(write).collect()
 }
 
 fn same_name(scenes: &[Scene]) -> Option<(&Scene, &Scene)> {

@@ -35,7 +35,8 @@ pub fn sanitizers() -> Result<()> {
             let (library, folder) = (library::filled(built.clone(), scene)?, folder.join("unpacked"));
             let sheet = sheet::sheet(&xml::model_description(scene))?;
             let fmu = unpacked::write(&folder, &scene.name, &sheet, (Platform::here()?, &library))?;
-            run(c_host::arguments(&mut strict(&host), &fmu)?)
+            // Each call is checked: fewer of the same.
+            run(c_host::arguments(&mut strict(&host), &fmu)?.args(["--cycles", "1000", "--steps", "200"]))
         })
     })
 }
@@ -63,8 +64,8 @@ fn linear(host: &Path) -> Result<()> {
 /// The library of the scene's list, instrumented, built in this folder. The next list's overwrites it.
 fn build(scene: &Scene, folder: &Path) -> Result<PathBuf> {
     let target = format!("{ARCH}-unknown-linux-gnu");
-    run(library::of_list(&mut cargo(), scene)
-        .args(["rustc", "--quiet", "--package", "split-rotor", "--release", "--lib", "--crate-type", "cdylib"])
+    run(library::of_list(cargo().args(["rustc", "--quiet"]), scene, folder)?
+        .args(["--package", "split-rotor", "--release", "--lib", "--crate-type", "cdylib"])
         // With a target named, build scripts and macros are not instrumented.
         .args(["--target", &target])
         .arg("--target-dir")
@@ -72,6 +73,7 @@ fn build(scene: &Scene, folder: &Path) -> Result<PathBuf> {
         .env("CARGO_ENCODED_RUSTFLAGS", ["-Zsanitizer=address", "-Cforce-frame-pointers=yes"].join("\x1f"))
         // The stable compiler has the sanitizer, behind a switch meant for the standard library.
         .env("RUSTC_BOOTSTRAP", "1")
+        .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
         .env("CARGO_PROFILE_RELEASE_DEBUG", "line-tables-only")
         .env("CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS", "true")
         .env_remove("RUSTFLAGS"))?;

@@ -135,18 +135,27 @@ fn plain_wide_build() -> Result<()> {
         .env("RUSTFLAGS", "-Ctarget-cpu=native"))
 }
 
-/// The packaged FMUs under a host in C and under fmpy, those of every list of effects only at length; then the hard cases by them, the
-/// long ones shortened, and that each can fail.
+/// The packaged FMUs under a host in C and under fmpy, those of all scenes only at length; then the hard cases by them, the long ones
+/// shortened, and that each can fail.
 fn packaged_fmus(long: bool) -> Result<()> {
-    let scenes = if long { Scene::names(&paths::scenes()) } else { first() };
-    c_host::plain(&package::package(&scenes, None)?)?;
-    run(pytest(&["tests/fmu", "tests/clients"])?.env("SPLIT_ROTOR_PACKAGED", scenes.join(" ")))?;
+    let (compiled, others) = if long { by_library() } else { (first(), Vec::new()) };
+    c_host::plain(&[package::package(&compiled, None)?, package::over_general(&others)?].concat())?;
+    let names = [("SPLIT_ROTOR_PACKAGED", compiled), ("SPLIT_ROTOR_OVER_GENERAL", others)];
+    run(pytest(&["tests/fmu", "tests/clients"])?.envs(names.map(|(variable, names)| (variable, names.join(" ")))))?;
     hard_cases::run(&Extent { mutants: true, ..Extent::default() })
 }
 
 /// Each list of effects takes a minute to compile: of the scenes those of the hard cases, one through all charts, and that of the README.
 fn first() -> Vec<String> {
     hard_cases::scenes().into_iter().chain(["tumbling", "turbo"]).map(str::to_owned).collect()
+}
+
+/// Scenes of lists like others' (bearings, a drive, ports, no contact): their FMUs are made over the library of every effect.
+const OVER_GENERAL: [&str; 5] = ["centrifuge", "coupled", "flywheel", "overhung", "run_up"];
+
+/// The scenes whose lists are compiled, and the others.
+pub fn by_library() -> (Vec<String>, Vec<String>) {
+    Scene::names(&paths::scenes()).into_iter().partition(|name| !OVER_GENERAL.contains(&name.as_str()))
 }
 
 /// The hard cases that were shortened, in full.

@@ -31,15 +31,15 @@ fn build() -> io::Result<Option<PathBuf>> {
             eprintln!("  building the commands: {} s", began.elapsed().as_secs());
         }
     });
-    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).with_file_name("Cargo.toml");
-    let built = Command::new(cargo).args(["build", "--release", "--manifest-path"]).arg(manifest).status();
+    // Of the workspace and as its tests are built, so that neither builds anew what the other has.
+    let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../Cargo.toml");
+    let built = Command::new(cargo).args(["build", "--bin", "xtask", "--manifest-path"]).arg(workspace).status();
     drop(done);
     // What panicked there was a line that could not be written.
     let _ = signs.join();
-    // This program is target/debug/launch.
-    let this = env::current_exe()?;
-    let target = this.ancestors().nth(2).unwrap_or(&this);
-    Ok(built?.success().then(|| target.join("release").join(format!("xtask{}", env::consts::EXE_SUFFIX))))
+    // Beside this program.
+    let xtask = env::current_exe()?.with_file_name(format!("xtask{}", env::consts::EXE_SUFFIX));
+    Ok(built?.success().then_some(xtask))
 }
 
 /// Runs it with the words that this program was given.
