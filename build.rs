@@ -40,6 +40,7 @@ mod scene {
     use split_rotor_model::{section, xml};
     use std::path::PathBuf;
 
+    /// Compiles in the scene that the environment names, or else the usual one.
     pub fn compile_in() {
         let usual = if cfg!(feature = "driven") { "scenes/driven.toml" } else { "scenes/paper.toml" };
         let file = std::env::var_os("SPLIT_ROTOR_SCENE").map_or(usual.into(), PathBuf::from);
@@ -47,7 +48,7 @@ mod scene {
         match Scene::read(&file) {
             Err(error) => error.to_string().lines().for_each(|line| println!("cargo::error={line}")),
             Ok(scene) => {
-                tell_tests(&scene);
+                set_test_cfgs(&scene);
                 let mut section = section::blank(&scene.list(), scene.room());
                 section::fill(&mut section, &xml::guid(&scene), &scene.starts);
                 super::write(&scene.list(), &section);
@@ -55,8 +56,8 @@ mod scene {
         }
     }
 
-    /// Says as a cfg for which tests the scene is one, so that the others are told as ignored, not as passed.
-    fn tell_tests(scene: &Scene) {
+    /// Sets a cfg for each kind of test that the scene allows, so that the others are reported as ignored, not as passed.
+    fn set_test_cfgs(scene: &Scene) {
         let has = |name: &str| scene.effects.iter().any(|(info, _)| info.name == name);
         let has_inputs = scene.variables.iter().any(|variable| matches!(variable.meta.role, Role::Input { .. }));
         for (cfg, holds) in [
