@@ -15,7 +15,7 @@ pub use state::{State, kind_name};
 pub use values::{Room, Type, fill};
 
 use crate::scene::{self, Effects, Simulation};
-use split_rotor_model::effects::Effects as _;
+use split_rotor_model::effects::{Block, Effects as _};
 use split_rotor_model::error::Invalid;
 use split_rotor_model::integrate::Cost;
 use split_rotor_model::log::{ALL, Category};
@@ -59,6 +59,8 @@ pub struct Memory {
     step_failed: bool,
     /// What was said of this run.
     warned: [bool; warned::COUNT],
+    /// Of which ports it was said that they go on by what they learnt, each as the bit of its number.
+    learnt: u32,
     /// Up to which ω_φ it was said that laws are doubtful: the lowest and the highest [rad/s].
     doubted: Option<[f64; 2]>,
 }
@@ -95,16 +97,16 @@ struct Experiment {
 
 impl Clone for Memory {
     fn clone(&self) -> Self {
-        let &Self { state, ref simulation, experiment, step_failed, warned, doubted } = self;
-        Self { state, simulation: simulation.clone(), experiment, step_failed, warned, doubted }
+        let &Self { state, ref simulation, experiment, step_failed, warned, learnt, doubted } = self;
+        Self { state, simulation: simulation.clone(), experiment, step_failed, warned, learnt, doubted }
     }
 
     /// In place, as that of a simulation.
     fn clone_from(&mut self, source: &Self) {
-        let Self { state, simulation, experiment, step_failed, warned, doubted } = source;
+        let Self { state, simulation, experiment, step_failed, warned, learnt, doubted } = source;
         self.simulation.clone_from(simulation);
         (self.state, self.experiment, self.step_failed, self.warned) = (*state, *experiment, *step_failed, *warned);
-        self.doubted = *doubted;
+        (self.learnt, self.doubted) = (*learnt, *doubted);
     }
 }
 
@@ -118,6 +120,7 @@ impl Memory {
             experiment: Experiment::default(),
             step_failed: false,
             warned: [false; warned::COUNT],
+            learnt: 0,
             doubted: None,
         }
     }
@@ -294,6 +297,27 @@ impl Instance {
             self.logger.log(Severity::Warning, Category::Warning, &rattle.to_string());
         }
         self.warn_of_doubts();
+        self.tell_of_learnt();
+    }
+
+    /// Says once of each port that it goes on by what it learnt of its partner.
+    fn tell_of_learnt(&mut self) {
+        let (learnt, known) = (self.memory.simulation.learnt(), self.memory.learnt);
+        self.memory.learnt |= learnt;
+        if learnt & !known == 0 {
+            return;
+        }
+        let effects = &self.memory.simulation.parameters().effects;
+        let ports = effects.blocks().map(Block::kind).filter(|kind| kind.has_partner);
+        for (_, kind) in ports.enumerate().filter(|(number, _)| (learnt & !known) >> number & 1 == 1) {
+            let (port, learn) = (kind.block_name(), kind.full_name("learn"));
+            self.tell(Category::Events, || {
+                format!(
+                    "{port}: its partner answers the motion; between communication points its load follows what was learnt of that \
+                     (to hold loads instead, set {learn} = false)"
+                )
+            });
+        }
     }
 
     /// Says once of each effect where its law is doubtful: a table is left, or a rotor turns backwards.

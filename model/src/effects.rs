@@ -9,6 +9,7 @@ mod doubt;
 mod list;
 pub mod load;
 mod motion;
+pub mod partner;
 pub mod series;
 pub mod table;
 mod terminal;
@@ -19,6 +20,7 @@ pub use doubt::Doubt;
 pub use list::{Block, Called, Effects, Switched, follows_all_inputs};
 pub use load::{Change, MOST_LOADS, Pose};
 pub use motion::Motion;
+pub use partner::{Exchange, Law};
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
@@ -96,6 +98,9 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// Whether its law may be [doubtful](Effect::doubts) at some speeds.
     const MAY_BE_DOUBTED: bool = false;
+
+    /// Whether it may have a [partner](Effect::exchange), whose law it goes on with.
+    const HAS_PARTNER: bool = false;
 
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
@@ -183,6 +188,29 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// Extrapolates the input of this number over the step that begins.
     fn extrapolate(&mut self, _number: usize, _signal: &mut Signal) {}
+
+    /// Whether a value was set of its inputs at the communication point `t` \[s], which may be the answer of a partner.
+    fn is_answered(&self, _t: f64) -> bool {
+        false
+    }
+
+    /// What it shows its partner at the communication point, and what was set there; asked of what [has one](Effect::HAS_PARTNER).
+    fn exchange(&self, _motion: &Motion<f64>) -> Option<Exchange> {
+        None
+    }
+
+    /// Goes on with this law of its partner.
+    fn go_on_with(&mut self, _law: &Law) {}
+
+    /// Whether such a law is in force.
+    fn has_law(&self) -> bool {
+        false
+    }
+
+    /// How many communication steps values of inputs are late, where that is given \[1].
+    fn lag(&self) -> Option<f64> {
+        None
+    }
 
     /// Hears that one of its inputs was set, of what it was `before`; whether that changes how anything goes on.
     fn input_set(&mut self, _before: &Self, set: InputSet) -> bool {

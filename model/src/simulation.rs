@@ -15,6 +15,7 @@ mod largest;
 mod met;
 mod method;
 mod nominals;
+mod partners;
 mod plan;
 mod rattle;
 pub(crate) mod rest;
@@ -33,7 +34,7 @@ pub use rattle::Rattle;
 pub use tangents::Tangents;
 pub use unheld::Unheld;
 
-use crate::effects::{Effects, InputSet, MOST_INDICATORS, follows_all_inputs};
+use crate::effects::{Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::taylor::Scratch;
@@ -47,6 +48,7 @@ use crate::variables::{Instant, Parameters, Reading, Start};
 use integration::Integration;
 use largest::Looks;
 use nominals::Nominals;
+use partners::Partner;
 use start::{BESIDE, Motion};
 
 /// Who integrates a motion.
@@ -66,6 +68,8 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
     integrator: Integrator,
     parameters: Parameters<E>,
     run: Option<Run<N>>,
+    /// Of each port.
+    partners: Vec<Partner>,
     /// What the communication point shows, once somebody asked.
     instant: Option<Instant<N>>,
     scratch: Scratch,
@@ -73,14 +77,16 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
 
 impl<E: Clone, const N: usize> Clone for Simulation<E, N> {
     fn clone(&self) -> Self {
-        let &Self { integrator, ref parameters, run, instant, scratch: _ } = self;
-        Self { integrator, parameters: parameters.clone(), run, instant, scratch: Scratch::default() }
+        let &Self { integrator, ref parameters, run, ref partners, instant, scratch: _ } = self;
+        let (parameters, partners) = (parameters.clone(), partners.clone());
+        Self { integrator, parameters, run, partners, instant, scratch: Scratch::default() }
     }
 
     /// In place: by far the most of it is a run, which is else copied three times on its way.
     fn clone_from(&mut self, source: &Self) {
-        let Self { integrator, parameters, run, instant, scratch: _ } = source;
+        let Self { integrator, parameters, run, partners, instant, scratch: _ } = source;
         self.parameters.clone_from(parameters);
+        self.partners.clone_from(partners);
         (self.integrator, self.run, self.instant) = (*integrator, *run, *instant);
     }
 }
@@ -233,6 +239,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             Integrator::Method => Run::Method(Integration::start(effects, &start, &instant, &parameters.setup, span)),
         });
         self.parameters.effects = parameters.effects;
+        self.partners = vec![Partner::default(); E::FACTS.partners];
         self.instant = None;
         Ok(())
     }
@@ -280,6 +287,9 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     fn advance_seen<L: Looks>(&mut self, t: f64, looks: &mut L) -> Result<(), Fault> {
         self.instant = None;
+        if E::FACTS.partners > 0 {
+            self.hear_partners();
+        }
         if self.parameters.effects.extrapolates() {
             if let (true, Some(Run::Method(integration))) = (looks.looks(), &self.run) {
                 looks.look(integration, &self.parameters.effects, integration.time());
@@ -321,6 +331,46 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         if let Ok(Instant { reading, state }) = self.instant().copied() {
             self.parameters.effects.step_to(&reading.motion, &state[..own(N)]);
         }
+    }
+
+    /// Learns from what partners answered at the communication point, and goes on by their laws.
+    fn hear_partners(&mut self) {
+        let t = self.time().unwrap_or_default();
+        if !self.parameters.effects.active().any(|block| block.is_answered(t)) {
+            return;
+        }
+        let Ok(&Instant { reading, .. }) = self.instant() else { return };
+        // The communication point moves on.
+        self.instant = None;
+        let (lag, partners) = (self.parameters.effects.lag(), &mut self.partners);
+        let mut changes = false;
+        self.parameters.effects.for_each_partner(|number, block| {
+            if !(block.is_active() && block.is_answered(t)) {
+                return;
+            }
+            let (partner, own) = (&mut partners[number], []);
+            if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
+                let before = *partner.law();
+                partner.hear(t, &exchange, lag);
+                changes |= *partner.law() != before;
+            }
+        });
+        if changes {
+            self.hold();
+            self.follow_partners();
+        }
+    }
+
+    /// The ports that go on by a law which they learnt, each as the bit of its number among them.
+    pub fn learnt(&self) -> u32 {
+        let learnt = self.partners.iter().enumerate().filter(|(_, partner)| partner.has_learnt());
+        learnt.fold(0, |bits, (number, _)| bits | 1 << number)
+    }
+
+    /// Ports go on by the laws of their partners.
+    fn follow_partners(&mut self) {
+        let partners = &self.partners;
+        self.parameters.effects.for_each_partner(|number, block| block.go_on_with(partners[number].law()));
     }
 
     /// Extrapolates inputs over the step that begins, where an effect does so.
@@ -652,9 +702,12 @@ impl<E: Effects, const N: usize> Hosted<'_, E, N> {
 
 impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { integrator, parameters, run, instant, scratch: _ } = self;
+        let Self { integrator, parameters, run, partners, instant, scratch: _ } = self;
         choice(integrator, &[Integrator::Method, Integrator::Host], walk)?;
         parameters.walk(walk)?;
+        partners.resize(E::FACTS.partners, Partner::default());
+        partners.iter_mut().try_for_each(|partner| partner.walk(walk))?;
+        parameters.effects.for_each_partner(|number, block| block.go_on_with(partners[number].law()));
         // What it shows follows from the rest.
         *instant = None;
         let mut kind = match run {

@@ -1,7 +1,7 @@
 //! What a run remembers, as a row of numbers: written down once, by the same walk that reads it back. (serde derives nothing for arrays
 //! whose length is generic.)
 
-use nalgebra::{Vector2, Vector3};
+use nalgebra::SMatrix;
 
 /// Walks past every number that somebody remembers: to write it down, or to put another in its place.
 pub trait Walk {
@@ -114,13 +114,7 @@ impl<T: Stored + Default> Stored for Option<T> {
     }
 }
 
-impl Stored for Vector2<f64> {
-    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        self.iter_mut().try_for_each(|one| one.walk(walk))
-    }
-}
-
-impl Stored for Vector3<f64> {
+impl<const R: usize, const C: usize> Stored for SMatrix<f64, R, C> {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
         self.iter_mut().try_for_each(|one| one.walk(walk))
     }

@@ -10,7 +10,7 @@ use split_rotor_model::stored::{self, Damaged, Stored, Walk, choice};
 const MAGIC: &[u8; 8] = b"rotorFMU";
 
 /// Changes whenever what is stored does.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Magic, version, GUID, length of the numbers.
 const HEAD: usize = MAGIC.len() + 4 + GUID + 8;
@@ -82,7 +82,7 @@ const STATES: [State; 7] = [
 
 impl Stored for Memory {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { state, simulation, experiment, step_failed, warned, doubted } = self;
+        let Self { state, simulation, experiment, step_failed, warned, learnt, doubted } = self;
         choice(state, &STATES, walk)?;
         simulation.walk(walk)?;
         let kinds = match state {
@@ -101,6 +101,7 @@ impl Stored for Memory {
         host_set_tolerance.walk(walk)?;
         step_failed.walk(walk)?;
         warned.walk(walk)?;
+        learnt.walk(walk)?;
         doubted.walk(walk)
     }
 }

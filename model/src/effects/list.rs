@@ -54,6 +54,8 @@ pub struct Facts {
     pub extrapolated: usize,
     /// How many can be.
     pub most_extrapolated: usize,
+    /// How many of them may have partners.
+    pub partners: usize,
 }
 
 /// The effects of a scene together: sums of what each does, and the way to each.
@@ -234,6 +236,22 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         });
     }
 
+    /// How many communication steps values of inputs are late, where that is given \[1].
+    fn lag(&self) -> Option<f64> {
+        self.active().find_map(Block::lag)
+    }
+
+    /// Shows each of them that may have a partner, to be changed.
+    fn for_each_partner(&mut self, mut show: impl FnMut(usize, &mut dyn Block)) {
+        let mut number = 0;
+        self.for_each(|block| {
+            if block.kind().has_partner {
+                show(number, block);
+                number += 1;
+            }
+        });
+    }
+
     /// Each input that may be extrapolated.
     fn for_each_extrapolated(&mut self, act: &mut dyn FnMut(&mut Signal)) {
         self.for_each(|block| {
@@ -247,7 +265,8 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn take_extrapolated(&mut self, other: &Self) {
         for n in 0..Self::FACTS.count {
             let (Some(block), Some(other)) = (self.nth_mut(n), other.nth(n)) else { continue };
-            let (tells_rates, mut row) = (block.kind().tells_rates, 0);
+            // A port that goes on by the law of its partner holds what was set.
+            let (tells_rates, mut row) = (block.kind().tells_rates || block.has_law(), 0);
             while !tells_rates && (block.kind().meta)(row).is_some() {
                 if let (Some(signal), Some(extrapolated)) = (block.signal_mut(row), other.signal(row)) {
                     *signal = *extrapolated;
@@ -335,6 +354,7 @@ impl Effects for () {
         extrapolates: false,
         extrapolated: 0,
         most_extrapolated: usize::MAX,
+        partners: 0,
     };
 
     #[inline(always)]
@@ -408,6 +428,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             extrapolates: H::Effect::EXTRAPOLATES || rest.extrapolates,
             extrapolated: inputs_extrapolated::<H::Effect>() + rest.extrapolated,
             most_extrapolated: if most < rest.most_extrapolated { most } else { rest.most_extrapolated },
+            partners: H::Effect::HAS_PARTNER as usize + rest.partners,
         }
     };
 

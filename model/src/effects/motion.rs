@@ -136,6 +136,13 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.kinematics.body.m
     }
 
+    /// By how much a force at the station at `p` \[m] accelerates it at most [1/kg], and the radius of gyration √(Jt/m) \[m].
+    pub fn yielding(&self, p: f64) -> [f64; 2] {
+        let body = &self.kinematics.body;
+        // eq. 60: 1/m + p²/Jt
+        [body.per_m + p * p * body.per_jt, body.radius()]
+    }
+
     /// Distance from the support point a to c, along t \[m].
     #[inline(always)]
     pub fn l(&self) -> f64 {

@@ -1,14 +1,18 @@
 //! `port`: force and moment from outside at a station, and the motion that goes with them.
 
-use super::{Act, Effect, Motion, Row, Terminal, Wrench};
+use super::partner::{LOADS, Loads, Shown, Slopes};
+use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, RADIAN, RADIAN_PER_SECOND};
-use crate::variable::{Bound, input, output, parameter};
+use crate::variable::units::{
+    METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
+    NEWTON_SECOND_PER_METRE, ONE, RADIAN, RADIAN_PER_SECOND,
+};
+use crate::variable::{Access, Bound, Kind, Meta, Role, input, output, parameter};
 use nalgebra::Vector3;
 
 /// A station to which another model is coupled.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Port {
     /// Where it is, along t from c \[m].
     pub position: f64,
@@ -16,14 +20,94 @@ pub struct Port {
     pub f: Vector3<Signal>,
     /// Moment on the rotor in O [N·m].
     pub m: Vector3<Signal>,
+    /// Whether the law of a partner is learnt from what it answers.
+    pub learn: bool,
+    /// What is known of the partner: stiffness along x, across by rows of y and z [N/m], and against tilt [N·m/rad].
+    pub k: [f64; 6],
+    /// Its damping, alike [N·s/m], [N·m·s/rad].
+    pub c: [f64; 6],
+    /// The law that the partner follows between communication points.
+    law: Law,
 }
+
+impl Default for Port {
+    fn default() -> Self {
+        Self {
+            position: 0.0,
+            f: Vector3::default(),
+            m: Vector3::default(),
+            learn: true,
+            k: [0.0; 6],
+            c: [0.0; 6],
+            law: Law::default(),
+        }
+    }
+}
+
+/// Where the coefficients of a partner stand among the slopes: load and place of xx, yy, yz, zy, zz and of the tilt.
+const COEFFICIENTS: [(usize, usize); 5] = [(0, 0), (1, 1), (1, 2), (2, 1), (2, 2)];
 
 impl Port {
     /// Force \[N] and moment [N·m].
     #[inline(always)]
     fn given<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
-        [self.f.map(|signal| motion.input(&signal)), self.m.map(|signal| motion.input(&signal))]
+        let [force, moment] = [&self.f, &self.m].map(|loads| loads.map(|signal| motion.input(&signal)));
+        if !self.law.is_on {
+            return [force, moment];
+        }
+        // eq. 124: f = f_s + J (x − x_s)
+        let change = self.law.change(&self.shown(motion, self.law.turns));
+        let about = Vector3::new(S::zero(), change[3], change[4]);
+        [force + change.fixed_rows::<3>(0), moment + about]
     }
+
+    /// What a partner is shown; where it says nothing of moments and leans, these are left out.
+    #[inline(always)]
+    fn shown<S: Scalar>(&self, motion: &Motion<S>, turns: bool) -> Shown<S> {
+        let (r, v) = (motion.station(self.position), motion.station_velocity(self.position));
+        let mut shown = Shown::zeros();
+        shown.fixed_rows_mut::<3>(0).copy_from(&r);
+        shown.fixed_rows_mut::<3>(LOADS).copy_from(&v);
+        if turns {
+            shown.fixed_rows_mut::<2>(3).copy_from(&motion.lean());
+            shown.fixed_rows_mut::<2>(LOADS + 3).copy_from(&motion.omega().yz());
+        }
+        shown
+    }
+
+    /// Slopes of the loads that the coefficients of the partner make.
+    fn slopes(&self) -> Option<Slopes> {
+        if self.k == [0.0; 6] && self.c == [0.0; 6] {
+            return None;
+        }
+        let mut slopes = Slopes::zeros();
+        for (coefficients, from) in [(&self.k, 0), (&self.c, LOADS)] {
+            // eq. 61: F = −(kxx x, K q), M = −kt γ
+            for (n, (load, place)) in COEFFICIENTS.into_iter().enumerate() {
+                slopes[(load, from + place)] = -coefficients[n];
+            }
+            for load in 3..LOADS {
+                slopes[(load, from + load)] = -coefficients[5];
+            }
+        }
+        Some(slopes)
+    }
+}
+
+/// A coefficient of the partner.
+macro_rules! coefficient {
+    ($name:ident, $field:ident[$n:literal], $unit:expr, $what:literal) => {
+        Row {
+            meta: Meta::parameter(
+                stringify!($name),
+                $unit,
+                Some(0.0),
+                Bound::Finite,
+                concat!($what, " of the partner, where it is known: between communication points the port goes on by it"),
+            ),
+            access: Access::Parameter { get: |p: &Port| p.$field[$n], set: |p, value| p.$field[$n] = value },
+        }
+    };
 }
 
 impl Effect for Port {
@@ -49,6 +133,28 @@ impl Effect for Port {
         output!("omega.x", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, x", |_, m| m.omega().x),
         output!("omega.y", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, y", |_, m| m.omega().y),
         output!("omega.z", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, z", |_, m| m.omega().z),
+        Row {
+            meta: Meta {
+                name: "learn",
+                description: "whether the port learns how its partner answers the motion, and goes on by that between communication points",
+                unit: &ONE,
+                kind: Kind::Boolean,
+                role: Role::Parameter { default: Some(1.0), bound: Bound::OneOf(&[0.0, 1.0]) },
+            },
+            access: Access::Parameter { get: |p| f64::from(p.learn), set: |p, value| p.learn = value != 0.0 },
+        },
+        coefficient!(kxx, k[0], &NEWTON_PER_METRE, "axial stiffness"),
+        coefficient!(kyy, k[1], &NEWTON_PER_METRE, "stiffness, force along y by displacement along y,"),
+        coefficient!(kyz, k[2], &NEWTON_PER_METRE, "stiffness, force along y by displacement along z,"),
+        coefficient!(kzy, k[3], &NEWTON_PER_METRE, "stiffness, force along z by displacement along y,"),
+        coefficient!(kzz, k[4], &NEWTON_PER_METRE, "stiffness, force along z by displacement along z,"),
+        coefficient!(kt, k[5], &NEWTON_METRE_PER_RADIAN, "stiffness against tilt"),
+        coefficient!(cxx, c[0], &NEWTON_SECOND_PER_METRE, "axial damping"),
+        coefficient!(cyy, c[1], &NEWTON_SECOND_PER_METRE, "damping, force along y by speed along y,"),
+        coefficient!(cyz, c[2], &NEWTON_SECOND_PER_METRE, "damping, force along y by speed along z,"),
+        coefficient!(czy, c[3], &NEWTON_SECOND_PER_METRE, "damping, force along z by speed along y,"),
+        coefficient!(czz, c[4], &NEWTON_SECOND_PER_METRE, "damping, force along z by speed along z,"),
+        coefficient!(ct, c[5], &NEWTON_METRE_SECOND_PER_RADIAN, "damping of the tilt"),
     ];
 
     const TERMINAL: Option<Terminal> =
@@ -67,7 +173,49 @@ impl Effect for Port {
         }
     }
 
+    const HAS_PARTNER: bool = true;
+
+    fn is_answered(&self, t: f64) -> bool {
+        // A master that sends derivatives knows how its loads go on.
+        let mut signals = self.f.iter().chain(&self.m);
+        signals.clone().any(|signal| signal.set_at(t).is_some())
+            && !signals.any(|signal| signal.was_sent_derivatives_at(t))
+    }
+
+    fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange> {
+        let t = motion.t();
+        let [yielding, gyration] = motion.yielding(self.position);
+        let [force, moment] = [&self.f, &self.m].map(|loads| loads.map(|signal| signal.at(t)));
+        Some(Exchange {
+            at: self.shown(motion, true),
+            loads: Loads::new(force.x, force.y, force.z, moment.y, moment.z),
+            given: self.slopes(),
+            has_states: false,
+            learns: self.learn,
+            ahead: 0.0,
+            yielding,
+            gyration,
+        })
+    }
+
+    fn go_on_with(&mut self, law: &Law) {
+        self.law = *law;
+    }
+
+    fn has_law(&self) -> bool {
+        self.law.is_on
+    }
+
+    fn begin(&mut self, _start: &Motion<f64>) {
+        self.law = Law::default();
+    }
+
+    fn is_analytic(&self) -> bool {
+        // The lean of a series is worked out only for who asks for it from the start.
+        !(self.law.is_on && self.law.turns)
+    }
+
     fn follows_speed(&self) -> bool {
-        false
+        self.law.is_on
     }
 }

@@ -40,6 +40,13 @@ impl BySeries {
         (self.analytic, self.rest) = (rotor.has_series(), 0);
     }
 
+    /// An input was set, or a port goes on by another law: looks again where that decides.
+    pub fn look_again<E: Effects>(&mut self, rotor: &Rotor<'_, E>) {
+        if rotor.has_series() != self.analytic {
+            self.look(rotor);
+        }
+    }
+
     /// The method of the next step; `held` tells whether stability holds explicit steps, of which those of dop853 are cheaper then.
     pub fn choose<E: Effects, const N: usize>(&mut self, method: &mut Method<N>, rotor: &Rotor<'_, E>, held: bool) {
         self.held = held;

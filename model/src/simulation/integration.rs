@@ -494,6 +494,9 @@ impl<const N: usize> Integration<N> {
         }
         (self.frame.chart, self.frame.turns) = (held.chart, held.turns);
         self.method.go_back(&self.frame.under(effects), self.t, y);
+        if let (true, Some(series)) = (E::FACTS.partners > 0, &mut self.series) {
+            series.look_again(&self.frame.under(effects));
+        }
         self.watch_tilt(effects, gamma(&y));
         let reached = self.frame.under(effects).reaches(gamma(&y), Chart::REACH);
         reached.map_err(|reason| Fault::Refused { t: self.t, reason })

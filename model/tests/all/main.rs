@@ -38,6 +38,7 @@ mod negative_springs;
 mod order;
 mod ordinary;
 mod paper;
+mod partners;
 mod periodic;
 mod port;
 mod random_scenes;

@@ -62,7 +62,7 @@ fn tables_and_two_of_a_kind() {
     let mut tabled = Bearing::new(-0.2, none, none).with_table(Table::new([10.0, 40.0], [slow, fast]));
     (tabled.kxx, tabled.cxx) = (2e5, 300.0);
     let plain = Bearing::<0>::new(0.25, [[3e5, 0.0], [0.0, 3e5]], [[300.0, 0.0], [0.0, 300.0]]);
-    let drive = Drive { tau: Signal::held(3.0) };
+    let drive = Drive::with(Signal::held(3.0));
     assert_same::<_, 14>(
         effects![gravity, drive, unbalance(), tabled => 1, plain => 2],
         "

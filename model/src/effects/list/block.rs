@@ -2,7 +2,7 @@
 
 use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
-use crate::effects::{Doubt, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
+use crate::effects::{Doubt, Exchange, Law, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
 use crate::error::Invalid;
 use crate::signal::Signal;
 use crate::state::Rates;
@@ -31,12 +31,14 @@ pub struct Kind {
     pub indicators: usize,
     /// Whether it can act on the rotor other than by its weight.
     pub pushes: bool,
-    /// Whether what it does follows φ.
-    pub follows_phi: bool,
     /// Whether it extrapolates inputs.
     pub extrapolates: bool,
+    /// Whether what it does follows φ.
+    pub follows_phi: bool,
     /// Whether its own inputs tell one another's rates.
     pub tells_rates: bool,
+    /// Whether it may have a partner.
+    pub has_partner: bool,
     /// Which effects cannot act beside it.
     pub excludes: &'static [&'static str],
     /// What is said of its variable in this row; None where there is none.
@@ -102,6 +104,16 @@ pub trait Block {
     fn step_to(&mut self, end: &Motion<f64>);
     /// Extrapolates the input of this number.
     fn extrapolate(&mut self, number: usize, signal: &mut Signal);
+    /// Whether a value was set of its inputs at the communication point `t` \[s].
+    fn is_answered(&self, t: f64) -> bool;
+    /// What it shows its partner at the communication point, and what was set there.
+    fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange>;
+    /// Goes on with this law of its partner.
+    fn go_on_with(&mut self, law: &Law);
+    /// Whether such a law is in force.
+    fn has_law(&self) -> bool;
+    /// How many communication steps values of inputs are late, where that is given.
+    fn lag(&self) -> Option<f64>;
     /// Shows each of its inputs.
     fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal));
     /// Whether a variable is calculated from the rates of the state too.

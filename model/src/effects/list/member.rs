@@ -1,6 +1,6 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Doubt, Effect, Entry, InputSet, MOST_DOUBTS, MOST_OWN, Motion, Row};
+use super::super::{Doubt, Effect, Entry, Exchange, InputSet, Law, MOST_DOUBTS, MOST_OWN, Motion, Row};
 use super::{Block, Kind, Tangent};
 use crate::body::Shape;
 use crate::error::Invalid;
@@ -68,6 +68,7 @@ pub trait Member: Block + Clone + Default + Send + Stored + 'static {
         follows_phi: Self::Effect::FOLLOWS_PHI,
         extrapolates: Self::Effect::EXTRAPOLATES,
         tells_rates: Self::Effect::TELLS_RATES,
+        has_partner: Self::Effect::HAS_PARTNER,
         excludes: Self::Effect::EXCLUDES,
         meta: |row| Self::Effect::ROWS.get(row).map(|row| &row.meta),
     };
@@ -259,6 +260,26 @@ impl<M: Member> Block for M {
 
     fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
         self.effect_mut().extrapolate(number, signal);
+    }
+
+    fn is_answered(&self, t: f64) -> bool {
+        self.effect().is_answered(t)
+    }
+
+    fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange> {
+        self.effect().exchange(motion)
+    }
+
+    fn go_on_with(&mut self, law: &Law) {
+        self.effect_mut().go_on_with(law);
+    }
+
+    fn has_law(&self) -> bool {
+        self.effect().has_law()
+    }
+
+    fn lag(&self) -> Option<f64> {
+        self.effect().lag()
     }
 
     fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal)) {

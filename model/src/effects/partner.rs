@@ -1,0 +1,80 @@
+//! How another model answers the motion of the place where it is coupled: stiffness and damping, given or learnt.
+
+use crate::scalar::Scalar;
+use crate::stored::stored;
+use nalgebra::{SMatrix, SVector};
+
+/// What a partner answers with has so many components: a force, x to z \[N], and a moment, y and z [N·m].
+pub const LOADS: usize = 5;
+
+/// What it is shown: place, x to z \[m], and lean, y and z \[rad]; then velocity [m/s] and angular velocity [rad/s], the same components.
+pub const SHOWN: usize = 2 * LOADS;
+
+/// Force and moment of a partner.
+pub type Loads<S = f64> = SVector<S, LOADS>;
+
+/// What is shown at an instant.
+pub type Shown<S = f64> = SVector<S, SHOWN>;
+
+/// How the loads change with what is shown.
+pub type Slopes = SMatrix<f64, LOADS, SHOWN>;
+
+/// The loads of a partner beside its last answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Law {
+    /// Whether it is in force.
+    pub is_on: bool,
+    /// Whether it says anything of moments and leans.
+    pub turns: bool,
+    /// How the loads change with what is shown.
+    pub slopes: Slopes,
+    /// What was shown, to which the loads that were set last are the answer.
+    pub shown: Shown,
+    /// When it came into force \[s], and what place and motion were then.
+    pub since: f64,
+    /// See `since`.
+    pub at: Shown,
+    /// What is shown is so far ahead of the motion \[s].
+    pub ahead: f64,
+}
+
+stored!(Law { is_on, turns, slopes, shown, since, at, ahead });
+
+impl Law {
+    /// What is shown of this place and motion: the place ahead, as it goes on.
+    pub fn shows(&self, at: Shown) -> Shown {
+        let mut shown = at;
+        for n in 0..LOADS {
+            shown[n] += self.ahead * at[LOADS + n];
+        }
+        shown
+    }
+
+    /// By how much the loads differ from the last answer where this is shown.
+    #[inline(always)]
+    pub fn change<S: Scalar>(&self, shown: &Shown<S>) -> Loads<S> {
+        // eq. 124: J (x − x_s)
+        self.slopes.map(S::constant) * (shown - self.shown.map(S::constant))
+    }
+}
+
+/// Place and motion at a communication point, and what was set there.
+#[derive(Clone, Copy, Debug)]
+pub struct Exchange {
+    /// Place and motion.
+    pub at: Shown,
+    /// What was set, which may be the answer to what was shown before.
+    pub loads: Loads,
+    /// The slopes of the partner, where they are known.
+    pub given: Option<Slopes>,
+    /// Whether the partner has states of its own, so that how late its answers are cannot be seen in them.
+    pub has_states: bool,
+    /// Whether they may be learnt.
+    pub learns: bool,
+    /// By what part of the last communication step things are to be shown ahead \[1].
+    pub ahead: f64,
+    /// By how much a force accelerates the place at most [1/kg].
+    pub yielding: f64,
+    /// Radius of gyration √(Jt/m) \[m]: leans times this count as ways, moments over this as forces.
+    pub gyration: f64,
+}

@@ -1,0 +1,255 @@
+//! What the partners at ports do between communication points, from how they answered so far.
+//!
+//! A master holds the load of a port over a communication step, and many deliver it a step late. With a partner that answers the motion, as a
+//! bearing does, that feeds a whirl. So each port keeps what it showed and what was answered, fits the slopes of the loads to that, and goes
+//! on by them where they predicted the last answers better than anything else.
+
+use crate::effects::partner::{LOADS, Loads, SHOWN, Shown, Slopes};
+use crate::effects::{Exchange, Law};
+use crate::stored::{Damaged, Stored, Walk, stored};
+use nalgebra::SMatrix;
+use std::ops::Range;
+
+/// A partner: what it was shown, what it answered, and what is made of that.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Partner {
+    exchanges: Exchanges,
+    /// Of each lag, by each ridge.
+    fits: [[Fit; RIDGES.len()]; LAGS],
+    /// How far the last loads were off as polynomials of degree 0, 1 and 2 through those before, squared \[N²].
+    polynomials: [f64; 3],
+    law: Law,
+    /// Whether the law was given.
+    is_given: bool,
+}
+
+stored!(Partner { exchanges, fits, polynomials, law, is_given });
+
+/// The last exchanges, the latest first.
+#[derive(Clone, Copy, Debug, Default)]
+struct Exchanges {
+    /// How many are known.
+    known: usize,
+    /// When the last one was \[s].
+    t: f64,
+    shown: [Shown; POINTS],
+    /// By their [measures](Measures).
+    loads: [Loads; POINTS],
+}
+
+impl Stored for Exchanges {
+    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
+        let mut known = self.known as u32;
+        known.walk(walk)?;
+        self.known = known as usize;
+        self.t.walk(walk)?;
+        self.shown.walk(walk)?;
+        self.loads.walk(walk)?;
+        if self.known <= POINTS { Ok(()) } else { Err(Damaged) }
+    }
+}
+
+/// Slopes by their [measures](Measures), and how far the last loads were off by them, squared \[N²].
+#[derive(Clone, Copy, Debug, Default)]
+struct Fit {
+    slopes: Slopes,
+    missed: f64,
+}
+
+stored!(Fit { slopes, missed });
+
+/// Loads may be the answer to what is shown now, or was shown a communication step before.
+const LAGS: usize = 2;
+
+/// So many changes are fitted at a time, and so many exchanges are kept for that.
+const CHANGES: usize = 7;
+const POINTS: usize = CHANGES + LAGS;
+
+/// What changes may leave over in a fit, relative to their size \[1]: little suits linear bearings, much suits films.
+const RIDGES: [f64; 3] = [1e-8, 1e-3, 1e-1];
+
+/// A change counts by this part of the one after it in a fit, and in what was missed \[1].
+const FADES: f64 = 0.8;
+const FORGETS: f64 = 0.5;
+
+/// Velocities count as the ways of this time \[s].
+const TIME: f64 = 1e-3;
+
+/// A fit is trusted where it missed the last loads by at most this part of what holding them did \[1].
+const TRUSTED: f64 = 0.3;
+
+/// A law may drive the place so strongly at most: acceleration by way times the step squared, and by velocity times the step \[1].
+const DRIVES: f64 = 0.5;
+
+impl Partner {
+    /// The law to go on with.
+    pub fn law(&self) -> &Law {
+        &self.law
+    }
+
+    /// Whether it is one that was learnt.
+    pub fn has_learnt(&self) -> bool {
+        self.law.is_on && !self.is_given
+    }
+
+    /// Hears what was exchanged at the communication point `t` \[s]; `lag` in communication steps, where that is given \[1].
+    pub fn hear(&mut self, t: f64, exchange: &Exchange, lag: Option<f64>) {
+        let step = t - self.exchanges.t;
+        if self.exchanges.known > 0 && step <= 0.0 {
+            // A step that is done again begins where it began.
+            return;
+        }
+        if self.exchanges.remember(t, self.law.shows(exchange.at), exchange) {
+            (self.fits, self.polynomials) = Default::default();
+        }
+        for (degree, missed) in self.polynomials.iter_mut().enumerate() {
+            // No polynomial goes through more points than there are.
+            let points = (degree + 1).min(self.exchanges.known - 1);
+            *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
+        }
+        let lags = match lag {
+            None if exchange.has_states => 0..1,
+            None => 0..LAGS,
+            Some(1.0) => 1..LAGS,
+            // What was shown so long ago, or between two points, is not kept.
+            Some(_) => 0..0,
+        };
+        let measures = Measures::of(exchange);
+        let given = exchange.given.map(|slopes| measures.measured(&slopes));
+        for lag in lags.clone().filter(|_| self.exchanges.known > 1) {
+            self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
+        }
+        let ahead = if self.exchanges.known > 1 { exchange.ahead * step } else { 0.0 };
+        let law = self.chosen(lags, exchange, step).unwrap_or_default();
+        self.law = if law.is_on || ahead > 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
+        self.is_given = exchange.given.is_some();
+    }
+
+    /// The law to go on with after a communication step of this length \[s]; None where none is to be trusted.
+    fn chosen(&self, lags: Range<usize>, exchange: &Exchange, step: f64) -> Option<Law> {
+        let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit)));
+        let (lag, fit) = fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed))?;
+        let [held, line, parabola] = self.polynomials;
+        let is_best = fit.missed < TRUSTED * TRUSTED * held && fit.missed <= line && fit.missed <= parabola;
+        let is_learnt = exchange.learns && is_best && drives(&fit.slopes, step) * exchange.yielding <= DRIVES;
+        let learnt = || is_learnt.then(|| Measures::of(exchange).taken_back(&fit.slopes));
+        let slopes = exchange.given.or_else(learnt)?;
+        let leans = [3, 4, LOADS + 3, LOADS + 4].iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
+        let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
+        Some(Law { is_on: true, turns, slopes, shown: self.exchanges.shown[lag], ..Law::default() })
+    }
+}
+
+impl Exchanges {
+    /// Whether what was known before says nothing of the partner.
+    fn remember(&mut self, t: f64, shown: Shown, exchange: &Exchange) -> bool {
+        self.shown.rotate_right(1);
+        self.loads.rotate_right(1);
+        self.shown[0] = shown;
+        self.loads[0] = exchange.loads.component_mul(&Measures::of(exchange).loads);
+        if self.known == 0 {
+            // Before the first exchange all was as it is there.
+            (self.shown, self.loads) = ([self.shown[0]; POINTS], [self.loads[0]; POINTS]);
+        }
+        (self.known, self.t) = ((self.known + 1).min(POINTS), t);
+        if exchange.given.is_some() {
+            return false;
+        }
+        let has_moment = |loads: &Loads| loads[3] != 0.0 || loads[4] != 0.0;
+        // Who answers with forces alone is a bearing at a point.
+        if !self.loads.iter().any(has_moment) {
+            [3, 4, LOADS + 3, LOADS + 4].iter().for_each(|n| self.shown[0][*n] = 0.0);
+        }
+        // Loads that stay while the place moves are no answer: a script's, or samples. The first may be late.
+        let stays = self.known > 2 && self.loads[0] == self.loads[1] && self.shown[0] != self.shown[1];
+        let begins_to_turn = has_moment(&self.loads[0]) && !has_moment(&self.loads[1]);
+        if stays || begins_to_turn {
+            self.known = 1;
+        }
+        stays || begins_to_turn
+    }
+
+    /// How far the last loads are off the polynomial through so many before, squared \[N²].
+    fn off(&self, points: usize) -> f64 {
+        // Newton's differences
+        let mut differences = self.loads;
+        for order in 1..=points {
+            for n in 0..=points - order {
+                differences[n] -= differences[n + 1];
+            }
+        }
+        differences[0].norm_squared()
+    }
+
+    /// Judges the slopes of loads that are late by `lag` communication steps by the last loads, and fits them, unless they are given.
+    fn fit(&self, lag: usize, given: Option<Slopes>, measures: &Measures, fits: &mut [Fit]) {
+        let change = |n: usize| (self.shown[n] - self.shown[n + 1]).component_mul(&measures.shown);
+        let mut changes = SMatrix::<f64, SHOWN, CHANGES>::zeros();
+        let mut answers = SMatrix::<f64, LOADS, CHANGES>::zeros();
+        let mut weight = 1.0;
+        for n in 0..CHANGES.min(self.known - lag - 1) {
+            let change = change(lag + n);
+            let size = change.norm();
+            if size > 0.0 {
+                changes.set_column(n, &(change * (weight / size)));
+                answers.set_column(n, &((self.loads[n] - self.loads[n + 1]) * (weight / size)));
+            }
+            weight *= FADES;
+        }
+        let (last, answer) = (change(lag), self.loads[0] - self.loads[1]);
+        let products = changes.transpose() * changes;
+        for (fit, ridge) in fits.iter_mut().zip(RIDGES) {
+            fit.slopes = given.unwrap_or(fit.slopes);
+            fit.missed = FORGETS * fit.missed + (answer - fit.slopes * last).norm_squared();
+            let solved = (products + SMatrix::identity() * ridge).cholesky().filter(|_| given.is_none());
+            // eq. 125: J + (Δf − J Δx)(Δxᵀ Δx + ε)⁻¹ Δxᵀ, the least change that fits
+            if let Some(solved) = solved {
+                let left = answers - fit.slopes * changes;
+                let fitted = fit.slopes + (changes * solved.solve(&left.transpose())).transpose();
+                fit.slopes = if fitted.iter().all(|slope| slope.is_finite()) { fitted } else { Slopes::zeros() };
+            }
+        }
+    }
+}
+
+/// In which measures all that is shown, and all loads, count alike: leans times the radius of gyration and moments over it, velocities
+/// times [`TIME`].
+struct Measures {
+    shown: Shown,
+    loads: Loads,
+}
+
+impl Measures {
+    fn of(exchange: &Exchange) -> Self {
+        let turned = |n: usize| n % LOADS >= 3;
+        let way = |n: usize| if turned(n) { exchange.gyration } else { 1.0 };
+        Self {
+            shown: Shown::from_fn(|n, _| if n < LOADS { way(n) } else { way(n) * TIME }),
+            loads: Loads::from_fn(|n, _| 1.0 / way(n)),
+        }
+    }
+
+    /// Slopes in these measures.
+    fn measured(&self, slopes: &Slopes) -> Slopes {
+        Slopes::from_fn(|load, n| slopes[(load, n)] * self.loads[load] / self.shown[n])
+    }
+
+    /// Measured slopes in their units.
+    fn taken_back(&self, slopes: &Slopes) -> Slopes {
+        Slopes::from_fn(|load, n| slopes[(load, n)] * self.shown[n] / self.loads[load])
+    }
+}
+
+/// How strongly a law drives the place in this step \[s], at most, by measured slopes \[kg].
+fn drives(slopes: &Slopes, step: f64) -> f64 {
+    let strongest = |from: usize| {
+        let half = slopes.fixed_columns::<LOADS>(from);
+        let symmetric = (half + half.transpose()) * 0.5;
+        // Gershgorin: no eigenvalue is larger.
+        let bounds = (0..LOADS).map(|n| {
+            symmetric[(n, n)] + symmetric.row(n).iter().map(|a| a.abs()).sum::<f64>() - symmetric[(n, n)].abs()
+        });
+        bounds.fold(f64::NEG_INFINITY, f64::max)
+    };
+    (strongest(0) * step * step).max(strongest(LOADS) * TIME * step)
+}
