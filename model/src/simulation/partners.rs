@@ -65,6 +65,9 @@ const LAGS: usize = 2;
 const CHANGES: usize = 7;
 const POINTS: usize = CHANGES + LAGS;
 
+/// What is shown of leans, and of how they change.
+const TURNS: [usize; 4] = [3, 4, LOADS + 3, LOADS + 4];
+
 /// What changes may leave over in a fit, relative to their size \[1]: little suits linear bearings, much suits films.
 const RIDGES: [f64; 3] = [1e-8, 1e-3, 1e-1];
 
@@ -134,7 +137,7 @@ impl Partner {
         let is_learnt = exchange.learns && is_best && drives(&fit.slopes, step) * exchange.yielding <= DRIVES;
         let learnt = || is_learnt.then(|| Measures::of(exchange).taken_back(&fit.slopes));
         let slopes = exchange.given.or_else(learnt)?;
-        let leans = [3, 4, LOADS + 3, LOADS + 4].iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
+        let leans = TURNS.iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
         let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
         Some(Law { is_on: true, turns, slopes, shown: self.exchanges.shown[lag], ..Law::default() })
     }
@@ -143,22 +146,22 @@ impl Partner {
 impl Exchanges {
     /// Whether what was known before says nothing of the partner.
     fn remember(&mut self, t: f64, shown: Shown, exchange: &Exchange) -> bool {
-        self.shown.rotate_right(1);
-        self.loads.rotate_right(1);
-        self.shown[0] = shown;
-        self.loads[0] = exchange.loads.component_mul(&Measures::of(exchange).loads);
+        let has_moment = |loads: &Loads| loads[3] != 0.0 || loads[4] != 0.0;
+        let loads = exchange.loads.component_mul(&Measures::of(exchange).loads);
         if self.known == 0 {
             // Before the first exchange all was as it is there.
-            (self.shown, self.loads) = ([self.shown[0]; POINTS], [self.loads[0]; POINTS]);
+            (self.shown, self.loads) = ([shown; POINTS], [loads; POINTS]);
         }
+        self.shown.rotate_right(1);
+        self.loads.rotate_right(1);
+        (self.shown[0], self.loads[0]) = (shown, loads);
         (self.known, self.t) = ((self.known + 1).min(POINTS), t);
         if exchange.given.is_some() {
             return false;
         }
-        let has_moment = |loads: &Loads| loads[3] != 0.0 || loads[4] != 0.0;
         // Who answers with forces alone is a bearing at a point.
         if !self.loads.iter().any(has_moment) {
-            [3, 4, LOADS + 3, LOADS + 4].iter().for_each(|n| self.shown[0][*n] = 0.0);
+            self.shown.iter_mut().for_each(|shown| TURNS.iter().for_each(|n| shown[*n] = 0.0));
         }
         // Loads that stay while the place moves are no answer: a script's, or samples. The first may be late.
         let stays = self.known > 2 && self.loads[0] == self.loads[1] && self.shown[0] != self.shown[1];

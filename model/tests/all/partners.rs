@@ -62,11 +62,12 @@ impl Bearing for Journal {
         let turns = along.perp(&v.yz()) / e;
         let entrained = speed - 2.0 * turns;
         let q = 1.0 - eps * eps;
-        let k = 0.02 * 0.025 * 0.02_f64.powi(3) / (2.0 * c * c);
-        let radial =
-            -k * (entrained.abs() * 2.0 * eps * eps / (q * q) + PI * (1.0 + 2.0 * eps * eps) / q.powf(2.5) * squeeze);
+        let k = 0.02 * 0.025 * (0.02 * 0.02 * 0.02) / (2.0 * c * c);
+        let radial = -k
+            * (entrained.abs() * 2.0 * eps * eps / (q * q)
+                + PI * (1.0 + 2.0 * eps * eps) / libm::pow(q, 2.5) * squeeze);
         let tangential =
-            k * (PI * eps / (2.0 * q.powf(1.5)) * entrained + 4.0 * eps / (q * q) * squeeze * entrained.signum());
+            k * (PI * eps / (2.0 * libm::pow(q, 1.5)) * entrained + 4.0 * eps / (q * q) * squeeze * entrained.signum());
         Vector3::new(0.0, radial * along.x - tangential * along.y, radial * along.y + tangential * along.x)
     }
 }
@@ -192,8 +193,8 @@ fn ordinary_bearings_are_learnt_with_nothing_set() {
 #[test]
 fn ordinary_films_and_pedestals_are_learnt_with_nothing_set() {
     const FINE: f64 = 2e-6;
-    // Held: 1.0e-2, infinite, 3.8e-1, 2.6, 4.3e-4, 1.6e-3, 2.2e-2, 6.2e-2. Measured: 6.8e-3, 5.3e-2, 5.2e-2, 7.2e-2, 5.5e-4, 7.7e-4, 4.2e-3,
-    // 1.0e-2.
+    // Held: 1.0e-2, infinite, 3.8e-1, 2.6, 4.3e-4, 1.6e-3, 2.2e-2, 6.2e-2. Measured: 4.3e-3, 5.3e-2, 5.0e-2, 7.0e-2, 5.4e-4, 7.7e-4, 2.8e-3,
+    // 1.2e-2.
     for (name, pair, coarse, fine) in
         [("journals", JOURNALS, [1.5e-2, 9e-2], [1e-3, 3e-3]), ("pedestals", PEDESTALS, [0.15, 0.15], [2e-2, 4e-2])]
     {
@@ -224,11 +225,11 @@ fn exact_a_partner_that_is_known_is_followed() {
 fn what_a_script_sets_is_not_made_worse() {
     type Force = (&'static str, fn(f64) -> f64);
     let forces: [Force; 5] = [
-        ("sine, slow", |t| 500.0 * (300.0 * t).sin()),
-        ("sine, at the speed", |t| 500.0 * (1500.0 * t).sin()),
+        ("sine, slow", |t| 500.0 * libm::sin(300.0 * t)),
+        ("sine, at the speed", |t| 500.0 * libm::sin(1500.0 * t)),
         ("ramp", |t| 2e4 * t),
         ("step", |t| if t > 0.02 { 500.0 } else { 0.0 }),
-        ("samples", |t| 300.0 * (1e6 * (t / 5e-4).floor()).sin()),
+        ("samples", |t| 300.0 * libm::sin(1e6 * (t / 5e-4).floor())),
     ];
     let run = |learn: bool, h: f64, force: fn(f64) -> f64| {
         let port = format!("[[effects.port]]\nposition = 0.12\nlearn = {learn}\n");
@@ -314,13 +315,13 @@ fn exact_a_motor_on_a_torsion_spring() {
     };
     for h in [1e-4, 2e-5] {
         for late in [false, true] {
-            // Held loads end at 158.8 and 417.5 at 1e-4 s.
+            // Held torques end at 157.1 and 411.2 at 1e-4 s; measured 1.1e-3, and 1.7e-4 at 2e-5 s.
             let lag = if late { "[effects.extrapolation]\nlag = 1.0\n" } else { "" };
             let known = run(&format!("k = 2e4\nd = 2.0\nahead = 1.0\n{lag}"), h, late);
             within(
                 &format!("steps of {h:e} s, late: {late}, held {:.1}", run("", h, late)),
                 (known / EXACT - 1.0).abs(),
-                0.01,
+                20.0 * h,
             );
         }
     }
