@@ -34,11 +34,11 @@ const SPEED_APART: f64 = 1e-6;
 
 /// So often in a revolution one looks whether the motion has left, over √(Jt/m) across e \[1]: what has no bound would never be followed to the
 /// end.
-const LOOKS: u32 = 64;
+const LOOKS: u32 = 16;
 const LEFT: f64 = 100.0;
 
 /// What grows by more than e to this power in a revolution is not followed: it would be far away by the first look \[1].
-const MOST_GROWTH: f64 = 300.0;
+const MOST_GROWTH: f64 = 100.0;
 
 /// Differences err by less than this \[1].
 const DIFFERENCE: f64 = 1e-6;
