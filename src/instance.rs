@@ -366,8 +366,8 @@ impl Instance {
 
     /// The switch of the effect that has this variable, where that is off.
     fn off_for(&self, place: Place) -> Option<String> {
-        let (block, row) = self.memory.simulation.parameters().effects.at(place)?;
-        (row != Place::SWITCH && block.kind().switched && !block.is_active()).then(|| block.kind().switch_name())
+        let (block, _) = self.memory.simulation.parameters().effects.at(place)?;
+        (place.row != Place::SWITCH && block.kind().switched && !block.is_active()).then(|| block.kind().switch_name())
     }
 
     /// Says it of these variables, if it was not said of any.

@@ -85,9 +85,10 @@ def test_regress_exact_a_constant_that_fmpy_rounds_leaves_the_ramp_alone(fmus):
 def test_regress_what_is_set_of_an_effect_that_is_off_is_said_once(fmus):
     """The input did nothing, as fmi2OK."""
 
-    def said(before, during, on=()):
+    def said(before, during, on=(), off=()):
         with Host(fmus["rotor"]) as host:
-            host.slave.setBoolean([host.reference(f"effects.{name}") for name in on], [True] * len(on))
+            for names, value in [(on, True), (off, False)]:
+                host.slave.setBoolean([host.reference(f"effects.{name}") for name in names], [value] * len(names))
             host.start(before)
             for i in range(3):
                 host.set(during)
@@ -103,3 +104,7 @@ def test_regress_what_is_set_of_an_effect_that_is_off_is_said_once(fmus):
     # What is 0, what is as it was, and what is on.
     assert not said({"drive.tau": 0.0, "motor.command": 1.0}, {"drive.tau": 0.0})
     assert not said({"drive.tau": 5.0}, {"drive.tau": 6.0}, on=["drive"])
+    # A switch is no variable of what is off, and does not use up the warning.
+    assert not said({}, {}, off=["gravity"])
+    (line,) = said({}, {"drive.tau": 5.0}, off=["gravity"])
+    assert "effects.gravity" not in line and "drive.tau is set, but effects.drive is off: " in line

@@ -28,7 +28,8 @@ mod at {
     /// What the speed gained over w where an input was last set [rad/s], and whether that was a.
     pub const GAINED: usize = 0;
     pub const BENT: usize = 1;
-    /// The last value of w that counted [rad/s], and whether the last one set differed from it.
+    /// The last value of w that counted [rad/s], and how many of the last two that were set differed from the one before, up to the last
+    /// that did not.
     pub const TOLD: usize = 2;
     pub const DIFFERED: usize = 3;
     /// The last two communication points, the later first \[s].
@@ -48,6 +49,9 @@ const MEMORY: usize = 12;
 
 /// Two values of w are one where they differ by no more: hosts interpolate, and 100 comes back as 100.00000000000001 [ulp].
 const SAME: f64 = 4.0;
+
+/// A speed is sampled where so many values that were set, one after the other, differed from the one before each \[1].
+const SAMPLED: f64 = 2.0;
 
 /// The row of w.
 const W: usize = 0;
@@ -167,12 +171,12 @@ impl Effect for ImposedSpeed {
         if row == W && order == 0 {
             let (value, last) = (self.w.at::<f64>(t), self.memory[at::TOLD]);
             let differs = (value - last).abs() > SAME * ulp(last);
-            // A sampled speed is followed point by point; one that is only repeated leaves a ramp alone.
-            counts = differs || self.memory[at::DIFFERED] != 0.0;
+            // A sampled speed is followed point by point, up to its plateau; one that is set and then only repeated leaves a ramp alone.
+            counts = differs || self.memory[at::DIFFERED] >= SAMPLED;
             if counts {
                 self.memory[at::TOLD] = value;
             }
-            self.memory[at::DIFFERED] = f64::from(differs);
+            self.memory[at::DIFFERED] = if differs { (self.memory[at::DIFFERED] + 1.0).min(SAMPLED) } else { 0.0 };
         }
         if goes_on && !counts {
             return false;

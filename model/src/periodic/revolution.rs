@@ -2,6 +2,7 @@
 
 use crate::effects::{All, Effects};
 use crate::linear::{Machine, stop_drives};
+use crate::log::shown;
 use crate::rotation::{Chart, Tilt};
 use crate::simulation::Any;
 use crate::state::Kinematics;
@@ -31,6 +32,14 @@ const APART: [f64; 2] = [1e-3, 1e-4];
 /// And over this part of the speed \[1].
 const SPEED_APART: f64 = 1e-6;
 
+/// So often in a revolution one looks whether the motion has left, over √(Jt/m) across e \[1]: what has no bound would never be followed to the
+/// end.
+const LOOKS: u32 = 16;
+const LEFT: f64 = 100.0;
+
+/// What grows by more than e to this power in a revolution is not followed: it would be far away by the first look \[1].
+const MOST_GROWTH: f64 = 100.0;
+
 /// Differences err by less than this \[1].
 const DIFFERENCE: f64 = 1e-6;
 
@@ -38,7 +47,7 @@ const DIFFERENCE: f64 = 1e-6;
 #[derive(Clone)]
 pub struct Rotating {
     run: Any,
-    /// Where it would stand without its unbalance; None of a body that is not symmetric.
+    /// Where it would stand without its unbalance, were it symmetric.
     machine: Option<Machine>,
     /// √(Jt/m) \[m].
     pub(super) length: f64,
@@ -62,6 +71,18 @@ pub enum Obstacle {
         /// [rad/s].
         speed: f64,
     },
+    /// At this speed [rad/s] small motions grow, so fast that no revolution can be followed.
+    Grows {
+        /// [rad/s].
+        speed: f64,
+        /// By a factor of e in the inverse of it [1/s].
+        rate: f64,
+    },
+    /// At this speed [rad/s] a motion leaves within a revolution.
+    Leaves {
+        /// [rad/s].
+        speed: f64,
+    },
     /// At this speed [rad/s] a motion repeats with each revolution, and the search for what multiplies small motions beside it does not
     /// converge.
     NoMultipliers {
@@ -80,6 +101,17 @@ impl fmt::Display for Obstacle {
                 "at {speed} rad/s no motion was found that repeats with each revolution (what has no damping, or moves to and fro with \
                  another period, has none)"
             ),
+            Self::Grows { speed, rate } => write!(
+                f,
+                "at {speed} rad/s small motions grow by a factor of e every {:?} s, too fast for a revolution to be followed",
+                shown(1.0 / rate)
+            ),
+            Self::Leaves { speed } => {
+                write!(
+                    f,
+                    "at {speed} rad/s the rotor leaves within a revolution, by more than {LEFT} radii of gyration"
+                )
+            }
             Self::NoMultipliers { speed } => write!(
                 f,
                 "at {speed} rad/s a motion repeats with each revolution, and whether it is stable is not known: the search for the eigenvalues \
@@ -108,7 +140,7 @@ impl Rotating {
         [solver.relative_tolerance, solver.absolute_tolerance] = TOLERANCE;
         setup.start = Start { r_c: setup.start.r_c, ..Start::default() };
         let body = parameters.shape().inertia();
-        let machine = Machine::of(&parameters).ok();
+        let machine = Machine::with_mean_inertia(&parameters).ok();
         Ok(Self { run: parameters.into(), machine, length: body.radius(), speed })
     }
 
@@ -165,11 +197,29 @@ impl Rotating {
         run.set_input(self.speed, speed);
         run.start_elsewhere(0.0, &self.motion(speed, from)).map_err(|invalid| fault(invalid.to_string()))?;
         let (period, mut end) = (TAU / speed.abs(), *from);
-        for n in 1..=revolutions * points {
-            run.advance(period * f64::from(n) / f64::from(points)).map_err(|stuck| fault(stuck.to_string()))?;
-            let motion = &run.read().map_err(|invalid| fault(invalid.to_string()))?.motion;
-            show(motion);
-            end = self.state(speed, motion);
+        let growth = run.growth().map(|growth| Obstacle::Grows { speed, rate: growth.rate });
+        if let Some(Obstacle::Grows { rate, .. }) = growth
+            && rate * period > MOST_GROWTH
+        {
+            return Err(Obstacle::Grows { speed, rate });
+        }
+        let between = LOOKS.div_ceil(points);
+        let looks = points * between;
+        for n in 1..=revolutions * looks {
+            if let Err(stuck) = run.advance(period * f64::from(n) / f64::from(looks)) {
+                return Err(growth.unwrap_or_else(|| fault(stuck.to_string())));
+            }
+            let motion = run.read().map_err(|invalid| fault(invalid.to_string()))?.motion;
+            let state = self.state(speed, &motion);
+            let way = (state - from).fixed_rows::<2>(1).norm();
+            // What is no number has left too.
+            if way > LEFT || way.is_nan() {
+                return Err(growth.unwrap_or(Obstacle::Leaves { speed }));
+            }
+            if n % between == 0 {
+                show(&motion);
+                end = state;
+            }
         }
         if end.iter().all(|number| number.is_finite()) { Ok(end) } else { Err(Obstacle::NotFound { speed }) }
     }

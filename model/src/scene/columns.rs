@@ -156,9 +156,11 @@ impl Wanted<'_> {
     /// A column without a unit has SI's, unless its name says otherwise.
     fn may_lack_unit(&self, head: &Head) -> Result<(), Wrong> {
         let own = self.variable.meta.unit;
-        if let Some(other) = self.variables.iter().find(|other| other.name == head.name) {
-            let fits = other.meta.unit.exponents[..3] == own.exponents[..3];
-            return if fits { Ok(()) } else { Err(unfit(&Head { unit: Some(other.meta.unit.name), ..*head }, own)) };
+        let of_scene = self.variables.iter().filter(|other| is_called(other, head.name)).map(|other| other.meta.unit);
+        let others: Vec<_> = of_scene.chain(unit_of_effect(head.name)).collect();
+        if let Some(other) = others.first() {
+            let fits = others.iter().any(|other| other.exponents[..3] == own.exponents[..3]);
+            return if fits { Ok(()) } else { Err(unfit(&Head { unit: Some(other.name), ..*head }, own)) };
         }
         let Some((_, unit)) = head.bare_unit() else { return Ok(()) };
         let is_own = units::read(&one(unit)).is_ok_and(|one| one.fits(own) && one.value == 1.0);
@@ -247,7 +249,10 @@ fn unfit(head: &Head, own: &Unit) -> Wrong {
         (Err(Unreadable::Unit(_, right)), _) => right,
         (Ok(one), _) if one.may_count_turns(own) => "turns a minute are [rpm], radians [rad/min]".into(),
         (_, Some(what)) if own.name.is_empty() => format!("the column must hold {what}: write [-]"),
-        (_, Some(what)) => format!("the column must hold {what}, in [{}] or another unit of it", own.name),
+        (_, Some(what)) => {
+            let pounds = units::pounds(unit, own).unwrap_or_default();
+            format!("the column must hold {what}, in [{}] or another unit of it{pounds}", own.name)
+        }
         (_, None) => format!("the column must hold values in [{}]", own.name),
     };
     Wrong::of_line(format!("has a unit that does not fit, [{unit}]"), right)
@@ -285,6 +290,13 @@ fn is_called(variable: &Variable, name: &str) -> bool {
 /// Whether this may be the name of a variable of an effect, which the scene may lack.
 fn is_of_effect(name: &str) -> bool {
     name.contains('.') && name.split(['.', '[']).next().is_some_and(|block| effects::named(block).is_some())
+}
+
+/// The unit of the variable of an effect with this full name, which the scene may lack.
+fn unit_of_effect(name: &str) -> Option<&'static Unit> {
+    let (block, own) = name.split_once('.')?;
+    let metas = effects::named(block.split('[').next()?)?.metas;
+    metas().into_iter().find(|meta| meta.name == own).map(|meta| meta.unit)
 }
 
 fn of_columns(heads: &[Head]) -> String {

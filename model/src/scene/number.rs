@@ -52,8 +52,11 @@ impl Reader<'_> {
                 Ok(Quantity { exponents, unit: given, .. }) => {
                     let what = units::quantity(unit.exponents).unwrap_or("a quantity");
                     let found = units::quantity(exponents).map_or_else(|| format!("in {given}"), str::to_owned);
-                    let right =
-                        if is_pure { "write it without a unit".into() } else { format!("give it in {}", unit.name) };
+                    let pounds = units::pounds(given, unit).unwrap_or_default();
+                    let right = match is_pure {
+                        true => "write it without a unit".into(),
+                        false => format!("give it in {}{pounds}", unit.name),
+                    };
                     tell(
                         self,
                         format!("{in_file} is {what}{}; {} is {found}", brackets(unit), self.given(value)),

@@ -213,7 +213,7 @@ impl Scale {
                 rest = self.factor(after.trim_start(), -sign)?;
                 continue;
             }
-            let after = next.strip_prefix(['.', '*', '·']).map_or(next, str::trim_start);
+            let after = next.strip_prefix(['.', '*', '·', '-']).map_or(next, str::trim_start);
             if after.is_empty() || after.starts_with(')') {
                 return Ok(next);
             }
@@ -234,7 +234,6 @@ impl Scale {
         if let Some(rest) = text.strip_prefix('1') {
             return Ok(rest);
         }
-        let is_letter = |c: char| c.is_alphabetic() || c == '°';
         let end = text.find(|c: char| !is_letter(c)).unwrap_or(text.len());
         let (name, rest) = text.split_at(end);
         if name.is_empty() {
@@ -255,6 +254,17 @@ impl Scale {
         }
         Ok(rest)
     }
+}
+
+fn is_letter(c: char) -> bool {
+    c.is_alphabetic() || c == '°'
+}
+
+/// What is said where pounds are meant as a force; None where this would not fit either.
+pub(super) fn pounds(unit: &str, own: &Unit) -> Option<&'static str> {
+    let as_force = format!("1 {}", unit.replace("lb", "lbf"));
+    let is_meant = unit.contains("lb") && read(&as_force).is_ok_and(|quantity| quantity.fits(own));
+    is_meant.then_some("; lb is a mass: a force is lbf, as in ft lbf")
 }
 
 /// The power of ten of a unit's prefix, and the unit.
@@ -310,6 +320,7 @@ fn power(text: &str) -> Option<(i8, &str)> {
         Some(digits) => (-1, digits),
         None => (1, told),
     };
+    let is_product = text.starts_with('-') && digits.starts_with(is_letter);
     let mut digits = digits.chars();
     let digit = digits.next().and_then(|c| {
         let raised = RAISED.iter().position(|raised| *raised == c).map(|digit| digit as u32);
@@ -319,7 +330,8 @@ fn power(text: &str) -> Option<(i8, &str)> {
         Some(digit) if !digits.as_str().starts_with(|c: char| c.is_ascii_digit()) => {
             Some((sign * digit as i8, digits.as_str()))
         }
-        None if told.len() == text.len() && sign == 1 => Some((1, text)),
+        // N-m is a product.
+        None if told.len() == text.len() && (sign == 1 || is_product) => Some((1, text)),
         _ => None,
     }
 }
@@ -354,6 +366,9 @@ mod tests {
             ("7 Nm s/rad", 7.0),
             ("7 N m s rad^-1", 7.0),
             ("7 N·m·s²/rad²", 7.0),
+            ("7 N-m", 7.0),
+            ("7 kN-mm/rad", 7.0),
+            ("7 kg-m2-s-1", 7.0),
             ("7 kg/(m.s)", 7.0),
             ("3 kg/m/s", 3.0),
             ("-1.5e-3 t", -1.5),
@@ -426,6 +441,7 @@ mod tests {
         assert_eq!(unit("5 m)").0, ")");
         assert_eq!(unit("5 m^").1, "a power is from -9 to 9");
         assert_eq!(unit("5 m22").1, "a power is from -9 to 9");
+        assert_eq!(unit("5 m-").1, "a power is from -9 to 9");
         assert_eq!(unit("5 %").1, "a unit is expected here");
         assert!(unit("5 parsec").1.starts_with("the units are m, g, s"));
         // Nothing with a prefix that has none, nor two of them.

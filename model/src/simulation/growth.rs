@@ -1,16 +1,18 @@
 //! Whether the linear motion about where a rotor is grows: what an unstable machine does is right, but its user should know.
 
 use super::rest::settled;
-use crate::body::Inertia;
+use crate::body::{Asymmetric, Inertia};
 use crate::decompositions::eigenvalues;
 use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::stiff::Differentiable;
 use crate::log::shown;
+use crate::rotation::Chart;
 use crate::rotor::{Frame, Rotor};
-use crate::state::{Coordinates, GAMMA, Kinematics, PHI, own, rigid};
+use crate::state::{Coordinates, GAMMA, Kinematics, PHI, own, rigid, rigid_mut};
 use crate::stored::stored;
-use nalgebra::{Complex, Normed, SMatrix};
+use nalgebra::{Complex, Normed, SMatrix, Vector3};
+use std::f64::consts::FRAC_PI_2;
 use std::fmt::{self, Display, Formatter};
 
 /// A motion that grows, as it was when that was found.
@@ -130,8 +132,22 @@ const FAR: f64 = 0.1;
 const FAST: f64 = 0.01;
 const STILL: f64 = 3.0;
 
-/// An asymmetric body turns its equations with it, which these do not see: its inertias about t differ by more than this \[1].
+/// An asymmetric body, whose equations turn with it: its inertias across t differ by more than this \[1].
 const ASYMMETRIC: f64 = 1e-3;
+
+/// So much of the equations turns at least, over their size \[1]: what nothing holds has equal eigenvalues, which rounding parts.
+const TURNS: f64 = 1e-12;
+
+/// Numbers of y and z, which turn with what they belong to.
+const TURNING: [[usize; 2]; 4] = [[1, 2], [4, 5], [7, 8], [9, 10]];
+
+/// The linear equations of a balanced rotor.
+struct Equations {
+    /// What of them is constant, scaled [rad/s].
+    matrix: Linear,
+    /// The size of what turns with the body or against its supports [rad/s]; 0 for a symmetric body.
+    turning: f64,
+}
 
 /// The effect that passes on the loads of other models.
 pub(super) const PORT: &str = "port";
@@ -158,12 +174,12 @@ impl Watch {
         if (low..high).contains(&momentum.x) && !is_settled() {
             return;
         }
-        let Inertia { per_jt, spin, asymmetric, .. } = rotor.frame.body;
-        if asymmetric.is_some_and(|asymmetric| asymmetric.excess.abs() > ASYMMETRIC * per_jt) {
-            self.known = [f64::NEG_INFINITY, f64::INFINITY];
+        let Inertia { per_jt, spin, .. } = rotor.frame.body;
+        let Some(Equations { matrix, turning }) = Self::equations(rotor, t, y) else {
+            let much = MUCH * momentum.norm();
+            self.known = [momentum.x - much, momentum.x + much];
             return;
-        }
-        let matrix = Self::matrix(rotor, t, y);
+        };
         let rates = eigenvalues(&matrix);
         let fastest = rates.map_or(matrix.norm(), |rates| rates.iter().map(|rate| rate.norm()).fold(0.0, f64::max));
         let whirls = rates.iter().flatten().map(|rate| rate.im.abs()).filter(|size| *size > ROUNDING * fastest);
@@ -183,7 +199,9 @@ impl Watch {
         // M·t, by which a spin that nothing imposes changes.
         let moment = Coordinates::from_slice(rigid(&System::rates::<true, false>(rotor, t, y))).k;
         let torque = if motion.impulse.is_some() { 0.0 } else { moment.dot(motion.axis()).abs() };
-        let grows = |seen: &Seen| seen.by > GROWS * seen.size && seen.by > ROUNDING * fastest;
+        // What turns is left out: it may part two motions that are nearly one by its root.
+        let least = (turning * fastest).sqrt().max(ROUNDING * fastest);
+        let grows = |seen: &Seen| seen.by > GROWS * seen.size && seen.by > least;
         let seen = |rate: &Complex<f64>| Seen { fastest, size: rate.norm(), by: rate.re };
         let growing = || rates.iter().map(seen).filter(grows);
         let largest = |a: Seen, b: Seen| if b.by > a.by { b } else { a };
@@ -202,7 +220,10 @@ impl Watch {
     /// The linear equations with velocities that count as much as places do: lengths in radii of gyration, and both beside the largest
     /// rate of what acts. In units of m and s rounding would count beside these, and what hardly moves would seem to grow. Zeros where
     /// nothing acts: rates that are constant grow by no power of e.
-    fn scaled(matrix: &Linear, body: &Inertia) -> Linear {
+    ///
+    /// Several are scaled as the first is.
+    fn scaled<const M: usize>(matrices: [Linear; M], body: &Inertia) -> [Linear; M] {
+        let matrix = matrices[0];
         let is_rate = |n: usize| (VELOCITY..GAMMA.start).contains(&n);
         let radius = body.radius();
         let unit = |n: usize| match n {
@@ -210,7 +231,8 @@ impl Watch {
             n if is_rate(n) => 1.0 / body.per_jt,
             _ => 1.0,
         };
-        let plain = Linear::from_fn(|i, j| matrix[(i, j)] * (unit(j) / unit(i)));
+        let in_units = |matrix: Linear| Linear::from_fn(|i, j| matrix[(i, j)] * (unit(j) / unit(i)));
+        let plain = in_units(matrix);
         let largest = |of: fn(bool, bool) -> bool| {
             let entry = |i, j| if of(is_rate(i), is_rate(j)) { plain[(i, j)].abs() } else { 0.0 };
             Linear::from_fn(entry).max()
@@ -218,16 +240,54 @@ impl Watch {
         // Springs tell the square of a rate, dampers and what turns the rate itself.
         let rate = largest(|of, by| of && !by).sqrt().max(largest(|of, by| of == by));
         let part = |n: usize| if is_rate(n) { rate } else { 1.0 };
-        if rate == 0.0 { Linear::zeros() } else { Linear::from_fn(|i, j| plain[(i, j)] * (part(j) / part(i))) }
+        matrices.map(|matrix| {
+            let plain = in_units(matrix);
+            if rate == 0.0 { Linear::zeros() } else { Linear::from_fn(|i, j| plain[(i, j)] * (part(j) / part(i))) }
+        })
     }
 
-    /// The scaled linear equations [rad/s].
-    fn matrix<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Linear {
+    /// The scaled linear equations; None where nothing is known of an asymmetric body.
+    ///
+    /// Those of an asymmetric body turn with it as the stator sees them, and with its supports as the body does: which of the two turns less
+    /// counts. What turns does so twice a revolution, so that the mean of φ = 0 and a quarter turn is without it.
+    fn equations<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Option<Equations> {
         // The balanced rotor: what an unbalance adds turns with it.
         let Frame { body, chart, turns, .. } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
-        let jacobian = balanced.jacobian(t, &settled(&balanced, t, y));
+        let state = settled(&balanced, t, y);
         let first = own(N);
-        Self::scaled(&Linear::from_fn(|i, j| jacobian[first + i][first + j]), &balanced.frame.body)
+        let linear = |rotor: &Rotor<'_, E>, state: &[f64; N]| {
+            let jacobian = rotor.jacobian(t, state);
+            Linear::from_fn(|i, j| jacobian[first + i][first + j])
+        };
+        let uneven = |of: &Asymmetric| E::FACTS.shapes && of.excess.abs() > ASYMMETRIC * body.per_jt;
+        let Some(uneven) = body.asymmetric.filter(uneven) else {
+            let [matrix] = Self::scaled([linear(&balanced, &state)], &body);
+            return Some(Equations { matrix, turning: 0.0 });
+        };
+        // In the chart from −e the axis is that which the body turns about the other way round.
+        let across = uneven.axes[1].yz().try_normalize(f64::EPSILON).filter(|_| chart == Chart::FromE)?;
+        let axes = [Vector3::x(), Vector3::new(0.0, across.x, across.y)];
+        let balanced = Inertia { asymmetric: Some(Asymmetric { centre: Vector3::zeros(), axes, ..uneven }), ..body };
+        let balanced = Rotor::new(balanced, rotor.effects, chart, turns);
+        let at = |phi: f64| {
+            let mut state = state;
+            rigid_mut(&mut state)[PHI] = phi;
+            linear(&balanced, &state)
+        };
+        let [start, quarter] = [0.0, FRAC_PI_2].map(at);
+        let (mut turn, mut rate) = (Linear::identity(), Linear::zeros());
+        for [y, z] in TURNING {
+            (turn[(y, y)], turn[(z, z)]) = (0.0, 0.0);
+            (turn[(y, z)], turn[(z, y)]) = (-1.0, 1.0);
+            (rate[(y, z)], rate[(z, y)]) = (-1.0, 1.0);
+        }
+        // What the stator sees as y = R(φ) x: dx/dt = (Rᵀ A R − Rᵀ dR/dt) x
+        let rate = rate * rotor.motion(t, y).axial_rate();
+        let seen = [[start, quarter], [start - rate, turn.tr_mul(&quarter) * turn - rate]].map(|[start, quarter]| {
+            let [matrix, turning] = Self::scaled([(start + quarter) * 0.5, (start - quarter) * 0.5], &body);
+            Equations { matrix, turning: turning.norm() + TURNS * matrix.norm() }
+        });
+        seen.into_iter().min_by(|a, b| a.turning.total_cmp(&b.turning))
     }
 }

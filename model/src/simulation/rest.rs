@@ -251,18 +251,29 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
 }
 
 impl<const N: usize> Balance<N> {
-    /// Directions in which nothing holds it, orthonormal in place over the radius of gyration and tilt, and how many those are in which
-    /// something does; None where they were not found.
-    pub(super) fn unheld(&self) -> Option<(Vec<SVector<f64, UNKNOWNS>>, usize)> {
+    /// Directions in which nothing holds it, or so little that these loads would take it farther than `lost` radii of gyration or \[rad]; None
+    /// where they were not found.
+    pub(super) fn unheld(&self, loads: &SVector<f64, BALANCES>, lost: f64) -> Option<Free> {
         let all = singular_values(&self.slopes)?;
         let largest = all.singular_values[0];
         let least = if largest > NOTHING { UNHELD * largest } else { largest };
-        let rows = all.v_t?;
-        let free = |n: &usize| all.singular_values[*n] <= least;
-        let unheld: Vec<_> = (0..UNKNOWNS).filter(free).map(|n| rows.row(n).transpose()).collect();
-        let held = UNKNOWNS - unheld.len();
-        Some((unheld, held))
+        let (rows, loads) = (all.v_t?, all.u?.tr_mul(loads));
+        let is_free = |n: &usize| all.singular_values[*n] <= least;
+        let is_lost = |n: &usize| !is_free(n) && loads[*n].abs() > lost * all.singular_values[*n];
+        let unheld = (0..UNKNOWNS).filter(|n| is_free(n) || is_lost(n));
+        let directions: Vec<_> = unheld.map(|n| rows.row(n).transpose()).collect();
+        Some(Free { held: UNKNOWNS - directions.len(), is_weak: (0..UNKNOWNS).any(|n| is_lost(&n)), directions })
     }
+}
+
+/// Directions in which nothing holds a rotor.
+pub(super) struct Free {
+    /// Orthonormal in place over the radius of gyration and tilt.
+    pub directions: Vec<SVector<f64, UNKNOWNS>>,
+    /// In how many directions something holds it.
+    pub held: usize,
+    /// Whether something does in these too, if hardly.
+    pub is_weak: bool,
 }
 
 /// The derivatives along some coordinates.

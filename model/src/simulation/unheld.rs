@@ -1,7 +1,7 @@
-//! In which directions nothing holds a rotor that is held in others: it drifts there, though no motion grows.
+//! In which directions nothing holds a rotor that is held in others: it drifts there, whether or not a motion grows.
 
 use super::growth::PORT;
-use super::rest::{Spinning, UNKNOWNS, settled};
+use super::rest::{Free, Spinning, UNKNOWNS, settled};
 use crate::effects::Effects;
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
@@ -19,9 +19,16 @@ pub struct Unheld {
     /// The force \[N] along the directions of `along`, and the moment [N·m] of a turn about those of `about`: what acts at the start and does not
     /// balance.
     pub load: [f64; 2],
+    /// Whether something holds it there, if only so weakly that what acts at the start takes it far away.
+    pub is_weak: bool,
     /// Whether the search for these directions failed, so that none is known.
     pub is_unknown: bool,
 }
+
+/// Stiffness against which a load would take the rotor so far is none, in radii of gyration or \[rad]; where the rotor leans no farther than
+/// this \[rad]: the weight of a top that lies has next to no stiffness, and its spin holds it.
+const LOST: f64 = 100.0;
+const LEANS: f64 = 1.0;
 
 /// A direction that is no other by more than this \[1].
 const SAME: f64 = 1e-6;
@@ -50,18 +57,29 @@ impl Unheld {
         let spinning = Spinning { rotor: &balanced, own: *y, about_axis, speed, t };
         let Coordinates { r, gamma, .. } = Coordinates::from_slice(rigid(&settled(&balanced, t, y)));
         let balance = spinning.balance(r, gamma);
-        let Some((free, held)) = balance.unheld() else {
+        // What acts where it begins: the forces balance where a weak spring has let it go far.
+        let begun = Coordinates::from_slice(rigid(y));
+        let begun = spinning.balance(begun.r, begun.gamma).left;
+        let lost = if gamma.norm() < LEANS { LOST } else { f64::INFINITY };
+        let Some(Free { directions: free, held, is_weak }) = balance.unheld(&begun, lost) else {
             // Where forces overflow the motion itself cannot go on, and says so.
             if balanced.jacobian(t, y).as_flattened().iter().any(|slope| !slope.is_finite()) {
                 return None;
             }
-            return Some(Self { along: Vec::new(), about: Vec::new(), load: [0.0; 2], is_unknown: true });
+            return Some(Self {
+                along: Vec::new(),
+                about: Vec::new(),
+                load: [0.0; 2],
+                is_weak: false,
+                is_unknown: true,
+            });
         };
         if free.is_empty() || held == 0 {
             return None;
         }
         let (inertia, length) = spinning.across();
         let [mut about, mut along] = parted(free);
+        let is_weak = is_weak && !is_active(RING);
         if is_active(RING) {
             // A ring holds what touches it.
             about.clear();
@@ -69,7 +87,7 @@ impl Unheld {
         }
         // The power of what is left, for a unit of each direction.
         let loads = |directions: &[SVector<f64, UNKNOWNS>], size: f64| {
-            let left = balance.left;
+            let left = if is_weak { begun } else { balance.left };
             let of = |direction: &SVector<f64, UNKNOWNS>| {
                 let turn = balance.axis.cross(&(balance.turning * direction.fixed_rows::<2>(3)));
                 let force = left.fixed_rows::<3>(0).dot(&direction.fixed_rows::<3>(0));
@@ -82,12 +100,12 @@ impl Unheld {
         let along: Vec<_> = along.iter().map(|direction| direction.fixed_rows::<3>(0).into_owned()).collect();
         let about: Vec<_> = about.iter().map(|direction| Vector3::new(0.0, direction[3], direction[4])).collect();
         let is_none = along.is_empty() && about.is_empty();
-        (!is_none).then_some(Self { along, about, load, is_unknown: false })
+        (!is_none).then_some(Self { along, about, load, is_weak, is_unknown: false })
     }
 
     /// Whether it is nothing to warn of: the rotor is free along its axis, where nothing pushes it.
     pub fn is_mere_axial(&self) -> bool {
-        let Self { along, about, load, is_unknown } = self;
+        let Self { along, about, load, is_unknown, .. } = self;
         !is_unknown && about.is_empty() && load[0] == 0.0 && along.iter().all(|way| (way.x.abs() - 1.0).abs() < SAME)
     }
 }
@@ -144,13 +162,17 @@ fn words(directions: &[Vector3<f64>]) -> String {
         Some((name, _)) => (*name).to_owned(),
         None => format!("({:.2}, {:.2}, {:.2})", way.x, way.y, way.z),
     };
-    directions.iter().map(word).collect::<Vec<_>>().join(" and ")
+    let words: Vec<_> = directions.iter().map(word).collect();
+    match &words[..] {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => words.concat(),
+    }
 }
 
 impl Display for Unheld {
     /// What to warn of.
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        let Self { along, about, load, is_unknown } = self;
+        let Self { along, about, load, is_weak, is_unknown } = self;
         if *is_unknown {
             return write!(
                 f,
@@ -165,7 +187,7 @@ impl Display for Unheld {
             );
         }
         let pushed = |load: f64, unit: &str| match load {
-            0.0 => "any push there moves it away, though no motion grows".to_owned(),
+            0.0 => "any push there moves it away".to_owned(),
             _ => format!("a load of {load:.3} {unit} acts there"),
         };
         let ways = (!along.is_empty()).then(|| format!("along {} ({})", words(along), pushed(load[0], "N")));
@@ -182,6 +204,7 @@ impl Display for Unheld {
         if !about.is_empty() {
             remedies.push("a second bearing or kt of a bearing against tilt");
         }
-        write!(f, "nothing holds the rotor {}: give it {}", all.join(" and "), remedies.join(", "))
+        let nothing = if *is_weak { "hardly anything" } else { "nothing" };
+        write!(f, "{nothing} holds the rotor {}: give it {}", all.join(" and "), remedies.join(", "))
     }
 }

@@ -312,8 +312,9 @@ fn exact_a_rate_bends_the_speed_from_where_it_is() {
 #[test]
 fn exact_a_sampled_speed_is_followed_point_by_point() {
     let a = Some(10.0);
-    // 25 is new; at the second 25 the one before it was new; the third is only repeated.
-    ramp(&[(Some(25.0), a, 26.0), (Some(25.0), a, 26.0), (Some(25.0), a, 27.0), (Some(20.0), a, 21.0)]);
+    // 23 and 25 are new, one after the other; at the second 25 both before it were new; the third is only repeated.
+    let plateau = [(Some(25.0), a, 26.0), (Some(25.0), a, 26.0), (Some(25.0), a, 27.0), (Some(20.0), a, 21.0)];
+    ramp(&[&[(Some(23.0), a, 24.0)], &plateau[..]].concat());
     // Both at one point, in any order, and without a rate.
     ramp(&[(Some(21.0), None, 21.0), (Some(21.0), None, 21.0), (Some(21.0), None, 21.0), (None, Some(-10.0), 20.0)]);
 }
@@ -326,9 +327,10 @@ fn regress_exact_a_speed_repeated_with_another_last_bit_leaves_the_ramp_alone() 
     ramp(&[(exact, a, 21.0), (above, a, 22.0), (exact, a, 23.0), (below, a, 24.0), (above, None, 25.0)]);
     // It is compared with the last one that counted, so that a speed which creeps is followed in the end.
     let creeping = |n: i32| Some(20.0 + f64::from(n) * 3.0 * ulp(20.0));
-    ramp(&[(creeping(1), a, 21.0), (creeping(2), a, 21.0), (creeping(3), a, 21.0), (creeping(3), a, 22.0)]);
+    ramp(&[(creeping(1), a, 21.0), (creeping(2), a, 21.0), (creeping(3), a, 22.0), (creeping(4), a, 21.0)]);
     // A sampled one is followed to its plateau, and no farther.
     ramp(&[
+        (Some(23.0), a, 24.0),
         (Some(25.0), a, 26.0),
         (Some(25.0_f64.next_up()), a, 26.0),
         (Some(25.0), a, 27.0),
@@ -336,13 +338,25 @@ fn regress_exact_a_speed_repeated_with_another_last_bit_leaves_the_ramp_alone() 
     ]);
 }
 
+/// A host that sets the same speed and rate before each step: the second set threw the speed back.
+#[test]
+fn regress_exact_a_speed_that_is_set_once_and_repeated_leaves_the_ramp_alone() {
+    let (w, a) = (Some(100.0), Some(-50.0));
+    ramp(&[(w, a, 95.0), (w, a, 90.0), (w, a, 85.0)]);
+    // Later too.
+    let (other, held) = (Some(120.0), Some(20.0));
+    ramp(&[(held, a, 15.0), (held, a, 10.0), (other, a, 115.0), (other, a, 110.0), (other, a, 105.0)]);
+}
+
 /// What counted last is part of what is saved.
 #[test]
 fn exact_the_last_speed_that_counted_is_saved() {
     let mut named = tilted(&format!("{IMPOSED}w = 20.0\n"));
     named.set("imposed_speed.a", 10.0);
-    named.set("imposed_speed.w", 25.0);
-    named.simulation.advance(0.1).expect("a possible motion");
+    for (w, t) in [(23.0, 0.05), (25.0, 0.1)] {
+        named.set("imposed_speed.w", w);
+        named.simulation.advance(t).expect("a possible motion");
+    }
     let saved = to_bytes(&mut *named.simulation);
     let ends = [false, true].map(|restored| {
         from_bytes(&mut *named.simulation, &saved).expect("bytes of the same kind");
@@ -350,7 +364,7 @@ fn exact_the_last_speed_that_counted_is_saved() {
             named.set("imposed_speed.w", 33.0);
             from_bytes(&mut *named.simulation, &saved).expect("bytes of the same kind");
         }
-        // The set before differed, so that this one counts, and the next does not.
+        // The two sets before differed, so that this one counts, and the next does not.
         for t in [0.2, 0.3] {
             named.set("imposed_speed.w", 25.0_f64.next_up());
             named.simulation.advance(t).expect("a possible motion");

@@ -388,6 +388,28 @@ fn regress_a_column_is_never_read_as_another_quantity() {
     // Another input's name.
     let other = "time,imposed_speed.a [rad/s2],imposed_speed.w [rpm]\n0,1,30\n1,1,60\n";
     assert_eq!(torque_of(other, "imposed_speed.w", ""), Ok(vec![rpm(30.0), rpm(60.0)]));
+    // That of an effect which the scene lacks, by its whole name or its own, and with a unit that fits.
+    for (csv, column, unit) in [
+        ("time,drive.tau,v\n0,1,2\n", "drive.tau", "[N.m]"),
+        ("time,bearing[1].F.y,v\n0,1,2\n", "bearing[1].F.y", "[N]"),
+        ("time,port[3].f.y,v\n0,1,2\n", "port[3].f.y", "[N]"),
+    ] {
+        let found = torque_of(csv, "imposed_speed.w", &format!("column = \"{column}\""));
+        let is = format!("has a unit that does not fit, {unit}");
+        assert_eq!(found, wrong(&is, "the column must hold an angular speed, in [rad/s] or another unit of it"));
+    }
+    assert_eq!(
+        torque_of("time,drive.tau [rpm],v\n0,30,2\n", "imposed_speed.w", "column = \"drive.tau\""),
+        Ok(vec![rpm(30.0)])
+    );
+    assert_eq!(torque_of("time,drive.w,v\n0,1,2\n", "imposed_speed.w", "column = \"drive.w\""), Ok(vec![1.0]));
+    // Units with a hyphen.
+    for unit in ["N-m", "kN-mm"] {
+        assert_eq!(torque_of(&format!("time,M [{unit}]\n0,5\n"), "drive.tau", ""), Ok(vec![5.0]));
+    }
+    let [is, right] = torque_of("time,M [ft-lb]\n0,5\n", "drive.tau", "").expect_err("a mass times a length");
+    assert_eq!(is, "line 1 of x.csv has a unit that does not fit, [ft-lb]");
+    assert!(right.ends_with("lb is a mass: a force is lbf, as in ft lbf"), "{right}");
     assert_eq!(
         torque_of("0,1\n1,2\n", "drive.tau", "column = \"tau\""),
         Err(["x.csv does not name its columns".into(), "its first line must name them, or leave `column` out".into()])

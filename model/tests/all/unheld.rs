@@ -33,8 +33,8 @@ fn said(effects: &str) -> Option<(String, bool)> {
 fn regress_exact_a_rotor_that_nothing_holds_in_a_direction_is_told() {
     let named_otherwise = bearings(&BOTH, "kxx = 1e6\nkyy = 0.8e6\ncxx = 1e3\n");
     // 12 kg · 9.81 m/s² = 118 N fall.
-    let falls = "nothing holds the rotor along z (a load of 117.720 N acts there) and against tilt about y (any push there moves it away, \
-                 though no motion grows): give it kyy and kzz of a bearing along y and z, a second bearing or kt of a bearing against tilt";
+    let falls = "nothing holds the rotor along z (a load of 117.720 N acts there) and against tilt about y (any push there moves it away): \
+                 give it kyy and kzz of a bearing along y and z, a second bearing or kt of a bearing against tilt";
     assert_eq!(said(&format!("{GRAVITY}{named_otherwise}")), Some((falls.into(), false)));
     let (drifts, _) = said(&named_otherwise).expect("nothing holds it along z");
     assert!(drifts.starts_with("nothing holds the rotor along z (any push there moves it away"), "{drifts}");
@@ -84,7 +84,7 @@ fn exact_what_holds_a_rotor() {
             Some("nothing holds the rotor along (0.00, -0.71, 0.71) (any push"),
         ),
         // Only against tilt, and only along the axis.
-        (one(0.0, "kt = 1e3\n"), Some("nothing holds the rotor along x and y and z (any push")),
+        (one(0.0, "kt = 1e3\n"), Some("nothing holds the rotor along x, y and z (any push")),
         (one(0.0, "kxx = 1e3\n"), Some("nothing holds the rotor along y and z (any push")),
         // A shaft within a ring falls onto that.
         (
@@ -102,6 +102,30 @@ fn exact_what_holds_a_rotor() {
             (Some(expected), Some((found, _))) if found.starts_with(expected) => {}
             _ => panic!("{effects}\nexpected {expected:?}\nfound {found:?}"),
         }
+    }
+}
+
+/// A spring of 1 mN/m on one of two bearings: by 14 N·m over 5.8e-5 N·m/rad the rotor would tilt by some 1e5 rad. It fell by 81 mm in 0.2 s.
+#[test]
+fn regress_what_hardly_holds_a_rotor_is_told() {
+    let bearing = |place, kzz| bearings(&[place], &format!("kyy = 1e6\nkzz = {kzz:?}\nkxx = 1e6\n"));
+    let held_by = |kzz| format!("{GRAVITY}{}{}", bearing(-0.12, 1e6), bearing(0.12, kzz));
+    for kzz in [1e-3, 1e-2, 0.1, 1.0] {
+        let (falls, is_mere_axial) = said(&held_by(kzz)).expect("it falls");
+        assert!(falls.starts_with("hardly anything holds the rotor against tilt about y (a load of 14.1"), "{falls}");
+        assert!(!is_mere_axial);
+    }
+    // Soft, and held: by 0.1 m and 0.4 rad, and without a load.
+    assert_eq!(said(&held_by(600.0)), None);
+    assert_eq!(said(&held_by(1e-3).replace(GRAVITY, "")), None);
+    // Both: by 59 km and by 590 m.
+    for kzz in [1e-3, 0.1] {
+        let soft = bearings(&BOTH, &format!("kyy = 1e6\nkzz = {kzz:?}\nkxx = 1e6\n"));
+        let (falls, _) = said(&format!("{GRAVITY}{soft}")).expect("it falls");
+        assert!(
+            falls.starts_with("hardly anything holds the rotor along z (a load of 117.720 N acts there)"),
+            "{falls}"
+        );
     }
 }
 
@@ -126,7 +150,7 @@ fn what_is_said_of_the_scenes() {
         Some(format!("{name}: {unheld}"))
     });
     // A disk that moves in its plane alone.
-    let jeffcott = "jeffcott: nothing holds the rotor against tilt about y and z (any push there moves it away, though no motion grows): \
+    let jeffcott = "jeffcott: nothing holds the rotor against tilt about y and z (any push there moves it away): \
                     give it a second bearing or kt of a bearing against tilt";
     assert_eq!(said.collect::<Vec<_>>(), [jeffcott]);
 }

@@ -56,6 +56,7 @@ impl<'s> Turning<'s> {
             }
         }
         if orbits.is_empty() {
+            missed.sort_by_key(|obstacle| !is_growth(obstacle));
             let why = missed.first().map_or_else(String::new, |obstacle| format!(": {obstacle}"));
             bail!("{}: at none of these speeds a motion was found that repeats with each revolution{why}", file());
         }
@@ -88,9 +89,21 @@ impl<'s> Turning<'s> {
             "looked_closer_at": self.sums,
             "thresholds": self.thresholds,
             "tables": doubts::tables(self.scene),
-            "growing": self.orbits.iter().filter(|orbit| orbit.loss().is_some()).map(|orbit| orbit.speed).collect::<Vec<_>>(),
+            "growing": self.growing(),
             "modes": rows::objects(self.rows()),
         })
+    }
+
+    /// The speeds at which motions grow [rad/s], those included at which no revolution can be followed.
+    fn growing(&self) -> Vec<f64> {
+        let found = self.orbits.iter().filter(|orbit| orbit.loss().is_some()).map(|orbit| orbit.speed);
+        let missed = self.missed.iter().filter_map(|obstacle| match obstacle {
+            Obstacle::Grows { speed, .. } => Some(*speed),
+            _ => None,
+        });
+        let mut all: Vec<_> = found.chain(missed).collect();
+        all.sort_by(f64::total_cmp);
+        all
     }
 
     /// A row for each exponent at each speed, with the columns of a symmetric body.
@@ -147,13 +160,21 @@ impl<'s> Turning<'s> {
             let (verb, at) = (if ceases { "cease" } else { "begin" }, rounded(*threshold));
             text += &format!("Small motions {verb} to grow at {at} rad/s ({} rpm).\n", rounded(rpm(*threshold)));
         }
-        if let Some(obstacle) = self.missed.first() {
+        let (leave, missed): (Vec<_>, Vec<_>) = self.missed.iter().partition(|obstacle| is_growth(obstacle));
+        if let Some(obstacle) = leave.first() {
+            text += &format!(
+                "At {} of the speeds they grow so fast that no revolution can be followed; these have no row below. The first: {obstacle}.\n",
+                leave.len()
+            );
+        }
+        if let Some(obstacle) = missed.first() {
             text += &format!(
                 "At {} of the speeds nothing is known of small motions; they are left out. The first: {obstacle}.\n",
-                self.missed.len()
+                missed.len()
             );
         }
         match self.orbits.iter().filter(|orbit| orbit.loss().is_some()).count() {
+            0 if !leave.is_empty() => {}
             0 => text += "None grows at any speed that was looked at.\n",
             count if count == self.orbits.len() => text += "They grow at all speeds that were looked at.\n",
             _ => {}
@@ -168,6 +189,10 @@ impl<'s> Turning<'s> {
         let speeds: Vec<_> = self.orbits.iter().map(|orbit| orbit.speed).collect();
         doubts::below(text, self.scene, &speeds)
     }
+}
+
+fn is_growth(obstacle: &Obstacle) -> bool {
+    matches!(obstacle, Obstacle::Grows { .. })
 }
 
 /// By which part of their sum the transverse moments of inertia of the balanced body differ \[1].
@@ -250,6 +275,27 @@ mod tests {
         for (found, exact) in turning.thresholds.iter().zip(exact) {
             assert!((found - exact).abs() < 1e-5 * exact, "{found} {exact}");
         }
+    }
+
+    /// A spring that pushes away, by a factor of e in 3 ms: in a revolution by 1e9 at 100 rad/s, and by more the slower it turns. The search
+    /// for motions that repeat followed the rotor to wherever it had gone, for more than 600 s.
+    #[test]
+    fn regress_a_body_that_leaves_within_a_revolution_grows() {
+        let text = "[rotor]\nm = 6.0\nJa = 0.01\nJt = 0.06\n[start]\nomega.x = 100.0\nr_c.y = 20e-6\n[effects.asymmetry]\nJt2 = 0.0601\n\
+            [[effects.bearing]]\nposition = 0.15\nkyy = -2e5\nkzz = -2e5\n";
+        let scene = Scene::parse(Path::new("leaves.toml"), text).expect("a scene");
+        for (ends, steps) in [([80.0, 120.0], 3), ([5.0, 500.0], 12)] {
+            let turning = Turning::of(&scene, Some(ends), steps).expect("a view");
+            let table = turning.table();
+            assert!(!table.contains("None grows") && table.contains("They grow at all speeds"), "{table}");
+            let found = turning.orbits.iter().find(|orbit| orbit.speed > 119.0).expect("it is found");
+            assert!((super::exponents(found)[0].re / 329.0 - 1.0).abs() < 0.01, "{table}");
+            let all = turning.orbits.len() + turning.missed.len();
+            assert_eq!(turning.json()["growing"].as_array().map(Vec::len), Some(all), "{table}");
+        }
+        // Where all of them leave.
+        let why = Turning::of(&scene, Some([5.0, 8.0]), 3).map(|_| ()).expect_err("no motion is found").to_string();
+        assert!(why.contains("small motions grow"), "{why}");
     }
 
     /// It grows between these speeds [rad/s]: multipliers of the linear equations of place and tilt, written once more and integrated by another

@@ -48,10 +48,13 @@ fn frequencies(diagram: &Diagram, area: &Area) -> Drawn {
     let top = 1.05 * seen.fold(if lowest.is_finite() { lowest } else { 1.0 }, f64::max);
     let mut axes = chart::axes(area, &diagram.scene.title, speeds(diagram), 0.0..top, "whirl frequency [rad/s]")?;
     for (order, _) in &diagram.critical {
-        // The line leaves at the top or on the right.
+        // The line leaves at the top or at the side; it may be above the top all along.
+        let slowest = range.start.max(0.0).min(range.end);
+        if order * slowest.abs() > top {
+            continue;
+        }
         let end = |speed: f64| if order * speed.abs() > top { speed.signum() * top / order } else { speed };
-        let line = [range.start, range.start.max(0.0).min(range.end), range.end]
-            .map(|speed| (end(speed), order * end(speed).abs()));
+        let line = [range.start, slowest, range.end].map(|speed| (end(speed), order * end(speed).abs()));
         axes.draw_series(DashedLineSeries::new(line, 6, 4, INK.stroke_width(1)))?;
         let (x, y) = line[2];
         let name = Text::new(format!("{order}X"), (x, y), ("sans-serif", 14).into_font().color(&INK));
@@ -106,4 +109,31 @@ fn legend(axes: &mut Axes, diagram: &Diagram) -> Drawn {
         }
     }
     chart::legend(axes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::svg;
+    use crate::scenes;
+    use split_rotor_model::linear::Machine;
+    use split_rotor_tools::campbell::{ORDERS, View};
+
+    /// The lines of the speed's multiples ended a thousand million widths beside a narrow range, and an addition overflowed.
+    #[test]
+    fn regress_a_narrow_range_is_drawn() {
+        let scene = scenes::find("turbo").expect("a scene");
+        let machine = Machine::of(&scene.parameters());
+        for speed in [300.0, 5000.0, -300.0, -5000.0_f64] {
+            for part in [1e-2, 1e-6, 2e-9, 1e-12] {
+                let mut ends = [speed, speed * (1.0 + part)];
+                ends.sort_by(f64::total_cmp);
+                let view = View::of(&scene, &machine, Some(ends), 2, &ORDERS).expect("a view");
+                let View::Diagram(diagram) = &view else { panic!("it is symmetric") };
+                let picture = svg(diagram).expect("a picture");
+                // Nothing is drawn beside the chart.
+                let is_far = |word: &str| word.parse::<f64>().is_ok_and(|number| number.abs() > 1e4);
+                assert!(!picture.split(['"', ',', ' ']).any(is_far), "{ends:?}");
+            }
+        }
+    }
 }
