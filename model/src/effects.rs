@@ -207,6 +207,11 @@ pub trait Effect: Clone + Default + Send + 'static {
         false
     }
 
+    /// Whether inputs go on as polynomials by it, not held.
+    fn is_followed(&self) -> bool {
+        false
+    }
+
     /// How many communication steps values of inputs are late, where that is given \[1].
     fn lag(&self) -> Option<f64> {
         None

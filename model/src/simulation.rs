@@ -34,7 +34,7 @@ pub use rattle::Rattle;
 pub use tangents::Tangents;
 pub use unheld::Unheld;
 
-use crate::effects::{Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
+use crate::effects::{Block, Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::taylor::Scratch;
@@ -342,6 +342,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let Ok(&Instant { reading, .. }) = self.instant() else { return };
         // The communication point moves on.
         self.instant = None;
+        // Where inputs are extrapolated, somebody has decided how loads go on.
+        let may_learn = !self.parameters.effects.active().any(Block::is_followed);
         let (lag, partners) = (self.parameters.effects.lag(), &mut self.partners);
         let mut changes = false;
         self.parameters.effects.for_each_partner(|number, block| {
@@ -349,7 +351,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
                 return;
             }
             let (partner, own) = (&mut partners[number], []);
-            if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
+            if let Some(mut exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
+                exchange.learns &= may_learn;
                 let before = *partner.law();
                 partner.hear(t, &exchange, lag);
                 changes |= *partner.law() != before;

@@ -149,7 +149,7 @@ fn fmi_states_of_other_versions_scenes_and_kinds_are_refused() {
         for version in [0_u32, 2, u32::MAX] {
             let mut bytes = own.clone();
             bytes[VERSION..SCENE].copy_from_slice(&version.to_le_bytes());
-            refused(&instance, &own, &sealed(bytes), &[&format!("version {version}"), "reads version 4"]);
+            refused(&instance, &own, &sealed(bytes), &[&format!("version {version}"), "reads version 5"]);
         }
         let other = "{00000000-0000-0000-0000-000000000000}";
         let mut bytes = own.clone();

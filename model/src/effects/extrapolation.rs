@@ -150,6 +150,10 @@ impl Effect for Extrapolation {
         signal.extrapolate(t, [value, first + second * (2.0 * ahead + last_step), 2.0 * second]);
     }
 
+    fn is_followed(&self) -> bool {
+        self.order > 0
+    }
+
     fn lag(&self) -> Option<f64> {
         (self.lag > 0.0).then_some(self.lag)
     }

@@ -81,6 +81,9 @@ const TIME: f64 = 1e-3;
 /// A fit is trusted where it missed the last loads by at most this part of what holding them did \[1].
 const TRUSTED: f64 = 0.3;
 
+/// So many exchanges must be known before a fit is trusted.
+const ENOUGH: usize = 6;
+
 /// A law may drive the place so strongly at most: acceleration by way times the step squared, and by velocity times the step \[1].
 const DRIVES: f64 = 0.5;
 
@@ -110,12 +113,11 @@ impl Partner {
             let points = (degree + 1).min(self.exchanges.known - 1);
             *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
         }
-        let lags = match lag {
+        let told = lag.map(|lag| (lag.round() as usize).min(POINTS - 1));
+        let lags = match told {
             None if exchange.has_states => 0..1,
             None => 0..LAGS,
-            Some(1.0) => 1..LAGS,
-            // What was shown so long ago, or between two points, is not kept.
-            Some(_) => 0..0,
+            Some(lag) => lag..LAGS.min(lag + 1),
         };
         let measures = Measures::of(exchange);
         let given = exchange.given.map(|slopes| measures.measured(&slopes));
@@ -123,19 +125,26 @@ impl Partner {
             self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
         }
         let ahead = if self.exchanges.known > 1 { exchange.ahead * step } else { 0.0 };
-        let law = self.chosen(lags, exchange, step).unwrap_or_default();
+        let law = self.chosen(told, lags, exchange, step).unwrap_or_default();
         self.law = if law.is_on || ahead > 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
         self.is_given = exchange.given.is_some();
     }
 
     /// The law to go on with after a communication step of this length \[s]; None where none is to be trusted.
-    fn chosen(&self, lags: Range<usize>, exchange: &Exchange, step: f64) -> Option<Law> {
+    fn chosen(&self, told: Option<usize>, lags: Range<usize>, exchange: &Exchange, step: f64) -> Option<Law> {
         let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit)));
-        let (lag, fit) = fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed))?;
-        let [held, line, parabola] = self.polynomials;
-        let is_best = fit.missed < TRUSTED * TRUSTED * held && fit.missed <= line && fit.missed <= parabola;
-        let is_learnt = exchange.learns && is_best && drives(&fit.slopes, step) * exchange.yielding <= DRIVES;
-        let learnt = || is_learnt.then(|| Measures::of(exchange).taken_back(&fit.slopes));
+        let best = fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed));
+        let trusted = |fit: &&Fit| {
+            let [held, line, parabola] = self.polynomials;
+            let is_best = fit.missed < TRUSTED * TRUSTED * held && fit.missed <= line && fit.missed <= parabola;
+            exchange.learns
+                && self.exchanges.known >= ENOUGH
+                && is_best
+                && drives(&fit.slopes, step) * exchange.yielding <= DRIVES
+        };
+        let lag = told.or(best.map(|(lag, _)| lag))?;
+        let learnt =
+            || best.map(|(_, fit)| fit).filter(trusted).map(|fit| Measures::of(exchange).taken_back(&fit.slopes));
         let slopes = exchange.given.or_else(learnt)?;
         let leans = TURNS.iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
         let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
@@ -187,6 +196,14 @@ impl Exchanges {
     /// Judges the slopes of loads that are late by `lag` communication steps by the last loads, and fits them, unless they are given.
     fn fit(&self, lag: usize, given: Option<Slopes>, measures: &Measures, fits: &mut [Fit]) {
         let change = |n: usize| (self.shown[n] - self.shown[n + 1]).component_mul(&measures.shown);
+        let (last, answer) = (change(lag), self.loads[0] - self.loads[1]);
+        for fit in &mut *fits {
+            fit.slopes = given.unwrap_or(fit.slopes);
+            fit.missed = FORGETS * fit.missed + (answer - fit.slopes * last).norm_squared();
+        }
+        if given.is_some() {
+            return;
+        }
         let mut changes = SMatrix::<f64, SHOWN, CHANGES>::zeros();
         let mut answers = SMatrix::<f64, LOADS, CHANGES>::zeros();
         let mut weight = 1.0;
@@ -199,18 +216,13 @@ impl Exchanges {
             }
             weight *= FADES;
         }
-        let (last, answer) = (change(lag), self.loads[0] - self.loads[1]);
         let products = changes.transpose() * changes;
         for (fit, ridge) in fits.iter_mut().zip(RIDGES) {
-            fit.slopes = given.unwrap_or(fit.slopes);
-            fit.missed = FORGETS * fit.missed + (answer - fit.slopes * last).norm_squared();
-            let solved = (products + SMatrix::identity() * ridge).cholesky().filter(|_| given.is_none());
             // eq. 125: J + (Δf − J Δx)(Δxᵀ Δx + ε)⁻¹ Δxᵀ, the least change that fits
-            if let Some(solved) = solved {
-                let left = answers - fit.slopes * changes;
-                let fitted = fit.slopes + (changes * solved.solve(&left.transpose())).transpose();
-                fit.slopes = if fitted.iter().all(|slope| slope.is_finite()) { fitted } else { Slopes::zeros() };
-            }
+            let Some(solved) = (products + SMatrix::identity() * ridge).cholesky() else { continue };
+            let left = answers - fit.slopes * changes;
+            let fitted = fit.slopes + (changes * solved.solve(&left.transpose())).transpose();
+            fit.slopes = if fitted.iter().all(|slope| slope.is_finite()) { fitted } else { Slopes::zeros() };
         }
     }
 }

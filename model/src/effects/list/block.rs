@@ -112,6 +112,8 @@ pub trait Block {
     fn go_on_with(&mut self, law: &Law);
     /// Whether such a law is in force.
     fn has_law(&self) -> bool;
+    /// Whether inputs go on as polynomials by it.
+    fn is_followed(&self) -> bool;
     /// How many communication steps values of inputs are late, where that is given.
     fn lag(&self) -> Option<f64>;
     /// Shows each of its inputs.

@@ -278,6 +278,10 @@ impl<M: Member> Block for M {
         self.effect().has_law()
     }
 
+    fn is_followed(&self) -> bool {
+        self.effect().is_followed()
+    }
+
     fn lag(&self) -> Option<f64> {
         self.effect().lag()
     }

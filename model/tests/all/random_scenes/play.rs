@@ -129,6 +129,8 @@ impl Ours {
         named.set("solver.method", f64::from(method as i32));
         named.set("solver.relative_tolerance", tolerance);
         named.set("solver.absolute_tolerance", absolute);
+        // What is right here is that loads are held.
+        (1..=trial.machine.ports.len()).for_each(|port| named.set(&format!("port[{port}].learn"), 0.0));
         let stop = trial.knows_end.then(|| trial.end());
         named.simulation.start_until(0.0, None, stop).map_err(|invalid| invalid.to_string())?;
         let axes =
