@@ -78,14 +78,15 @@ const FORGETS: f64 = 0.5;
 /// Velocities count as the ways of this time \[s].
 const TIME: f64 = 1e-3;
 
-/// A fit is trusted where it missed the last loads by at most this part of what holding them did \[1].
+/// A fit is trusted where it missed the last loads by at most this part of what holding them did, and a line and a parabola through those
+/// before: a script's forces, to which the rotor answers, look like a partner's \[1].
 const TRUSTED: f64 = 0.3;
 
 /// So many exchanges must be known before a fit is trusted.
 const ENOUGH: usize = 6;
 
 /// A law may drive the place so strongly at most: acceleration by way times the step squared, and by velocity times the step \[1].
-const DRIVES: f64 = 0.5;
+const DRIVES: f64 = 0.05;
 
 impl Partner {
     /// The law to go on with.
@@ -135,8 +136,7 @@ impl Partner {
         let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit)));
         let best = fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed));
         let trusted = |fit: &&Fit| {
-            let [held, line, parabola] = self.polynomials;
-            let is_best = fit.missed < TRUSTED * TRUSTED * held && fit.missed <= line && fit.missed <= parabola;
+            let is_best = self.polynomials.iter().all(|missed| fit.missed < TRUSTED * TRUSTED * missed);
             exchange.learns
                 && self.exchanges.known >= ENOUGH
                 && is_best
