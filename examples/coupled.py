@@ -25,6 +25,7 @@ ROTOR = {
     "rotor.Ja": 0.04,
     "rotor.Jt": 0.12,
     "rotor.l": 0.0,
+    "start.r_c.x": 0.0,
     "start.omega.x": 1500.0,
     "unbalance[1].mass": 1e-3,
     "unbalance[1].radius": 0.04,
