@@ -34,9 +34,13 @@ impl Drive {
     #[inline(always)]
     fn torque<S: Scalar>(&self, motion: &Motion<S>) -> S {
         let tau = motion.input(&self.tau);
-        if !self.law.is_on {
-            return tau;
-        }
+        if self.law.is_on { self.by_law(motion, tau) } else { tau }
+    }
+
+    /// The same where the partner follows the motion. Called: written out, it would slow down what has no partner.
+    #[cold]
+    #[inline(never)]
+    fn by_law<S: Scalar>(&self, motion: &Motion<S>, tau: S) -> S {
         let Law { slopes, shown, since, at, .. } = &self.law;
         let (speed, span) = (motion.omega_phi(), motion.t() - S::constant(*since));
         // Within a step the speed changes steadily, so that nothing hangs on φ: φ_n + ½ (ω_n + ω_φ)(t − t_n)
