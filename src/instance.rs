@@ -297,11 +297,11 @@ impl Instance {
             self.logger.log(Severity::Warning, Category::Warning, &rattle.to_string());
         }
         self.warn_of_doubts();
-        self.tell_of_learnt();
+        self.report_learnt();
     }
 
-    /// Says once of each port that it goes on by what it learnt of its partner.
-    fn tell_of_learnt(&mut self) {
+    /// Logs once for each port that it goes on by what it learnt of its partner.
+    fn report_learnt(&mut self) {
         let (learnt, known) = (self.memory.simulation.learnt(), self.memory.learnt);
         self.memory.learnt |= learnt;
         if learnt & !known == 0 {

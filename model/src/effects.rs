@@ -199,12 +199,9 @@ pub trait Effect: Clone + Default + Send + 'static {
         None
     }
 
-    /// Goes on with this law of its partner.
-    fn go_on_with(&mut self, _law: &Law) {}
-
-    /// Whether such a law is in force.
-    fn has_law(&self) -> bool {
-        false
+    /// The law of its partner, which a run sets; None of what [has none](Effect::HAS_PARTNER).
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        None
     }
 
     /// Whether inputs go on as polynomials by it, not held.

@@ -288,7 +288,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     fn advance_seen<L: Looks>(&mut self, t: f64, looks: &mut L) -> Result<(), Fault> {
         self.instant = None;
         if E::FACTS.partners > 0 {
-            self.hear_partners();
+            self.update_partners();
         }
         if self.parameters.effects.extrapolates() {
             if let (true, Some(Run::Method(integration))) = (looks.looks(), &self.run) {
@@ -333,14 +333,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
-    /// Learns from what partners answered at the communication point, and goes on by their laws.
-    fn hear_partners(&mut self) {
+    /// Adds what was exchanged at the communication point to what is known of the partners, and goes on by their laws.
+    fn update_partners(&mut self) {
         let t = self.time().unwrap_or_default();
         if !self.parameters.effects.active().any(|block| block.is_answered(t)) {
             return;
         }
         let Ok(&Instant { reading, .. }) = self.instant() else { return };
-        // The communication point moves on.
+        // The communication point moves on: the reading would be stale.
         self.instant = None;
         // Where inputs are extrapolated, somebody has decided how loads go on.
         let may_learn = !self.parameters.effects.active().any(Block::is_followed);
@@ -354,13 +354,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             if let Some(mut exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
                 exchange.learns &= may_learn;
                 let before = *partner.law();
-                partner.hear(t, &exchange, lag);
+                partner.add(t, &exchange, lag);
                 changes |= *partner.law() != before;
             }
         });
         if changes {
             self.hold();
-            self.follow_partners();
+            let partners = &self.partners;
+            self.parameters.effects.set_laws(|number| partners[number].law());
         }
     }
 
@@ -368,12 +369,6 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     pub fn learnt(&self) -> u32 {
         let learnt = self.partners.iter().enumerate().filter(|(_, partner)| partner.has_learnt());
         learnt.fold(0, |bits, (number, _)| bits | 1 << number)
-    }
-
-    /// Ports go on by the laws of their partners.
-    fn follow_partners(&mut self) {
-        let partners = &self.partners;
-        self.parameters.effects.for_each_partner(|number, block| block.go_on_with(partners[number].law()));
     }
 
     /// Extrapolates inputs over the step that begins, where an effect does so.
@@ -710,7 +705,7 @@ impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
         parameters.walk(walk)?;
         partners.resize(E::FACTS.partners, Partner::default());
         partners.iter_mut().try_for_each(|partner| partner.walk(walk))?;
-        parameters.effects.for_each_partner(|number, block| block.go_on_with(partners[number].law()));
+        parameters.effects.set_laws(|number| partners[number].law());
         // What it shows follows from the rest.
         *instant = None;
         let mut kind = match run {

@@ -5,7 +5,8 @@ use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
-    NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, ONE, RADIAN, RADIAN_PER_SECOND, RADIAN_PER_SECOND_SQUARED,
+    NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, ONE, RADIAN, RADIAN_PER_SECOND,
+    RADIAN_PER_SECOND_SQUARED,
 };
 use crate::variable::{Bound, input, output, parameter};
 
@@ -34,19 +35,16 @@ impl Drive {
     #[inline(always)]
     fn torque<S: Scalar>(&self, motion: &Motion<S>) -> S {
         let tau = motion.input(&self.tau);
-        if self.law.is_on { self.by_law(motion, tau) } else { tau }
-    }
-
-    /// The same where the partner follows the motion. Called: written out, it would slow down what has no partner.
-    #[cold]
-    #[inline(never)]
-    fn by_law<S: Scalar>(&self, motion: &Motion<S>, tau: S) -> S {
+        if S::SERIES || !self.law.is_on {
+            return tau;
+        }
         let Law { slopes, shown, since, at, .. } = &self.law;
         let (speed, span) = (motion.omega_phi(), motion.t() - S::constant(*since));
         // Within a step the speed changes steadily, so that nothing hangs on φ: φ_n + ½ (ω_n + ω_φ)(t − t_n)
         let turned = (S::constant(at[LOADS]) + speed) * span * S::constant(0.5) + S::constant(at[0] - shown[0]);
         // eq. 124: τ = τ_s − k (φ − φ_s) − d (ω_φ − ω_s)
-        tau + turned * S::constant(slopes[(0, 0)]) + (speed - S::constant(shown[LOADS])) * S::constant(slopes[(0, LOADS)])
+        tau + turned * S::constant(slopes[(0, 0)])
+            + (speed - S::constant(shown[LOADS])) * S::constant(slopes[(0, LOADS)])
     }
 
     /// The angle that is shown \[rad].
@@ -134,16 +132,8 @@ impl Effect for Drive {
         Some(Exchange { at, loads, given, has_states: true, learns: false, ahead: self.ahead, yielding, gyration })
     }
 
-    fn go_on_with(&mut self, law: &Law) {
-        self.law = *law;
-    }
-
-    fn has_law(&self) -> bool {
-        self.law.is_on
-    }
-
-    fn begin(&mut self, _start: &Motion<f64>) {
-        self.law = Law::default();
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        Some(&mut self.law)
     }
 
     fn no_limit(&self) -> Option<&'static str> {

@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Change, Doubt, Effect, InputSet, MOST_DOUBTS, MOST_OWN, Motion, Pose, Wrench};
+use super::{Act, Change, Doubt, Effect, InputSet, Law, MOST_DOUBTS, MOST_OWN, Motion, Pose, Wrench};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
@@ -187,6 +187,9 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         self.for_each(|block| {
             let count = block.kind().own;
             let motion = Motion::new(start, &[0.0; MOST_OWN][..count]);
+            if let Some(law) = block.law_mut() {
+                *law = Law::default();
+            }
             block.begin(&motion);
             if block.is_active() {
                 own[from..][..count].copy_from_slice(&block.own_at_start(&motion)[..count]);
@@ -241,13 +244,22 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         self.active().find_map(Block::lag)
     }
 
-    /// Shows each of them that may have a partner, to be changed.
-    fn for_each_partner(&mut self, mut show: impl FnMut(usize, &mut dyn Block)) {
+    /// Goes through those that may have partners, each with its number among them.
+    fn for_each_partner(&mut self, mut act: impl FnMut(usize, &mut dyn Block)) {
         let mut number = 0;
         self.for_each(|block| {
             if block.kind().has_partner {
-                show(number, block);
+                act(number, block);
                 number += 1;
+            }
+        });
+    }
+
+    /// Sets the law of each, by its number.
+    fn set_laws<'l>(&mut self, law: impl Fn(usize) -> &'l Law) {
+        self.for_each_partner(|number, block| {
+            if let Some(own) = block.law_mut() {
+                *own = *law(number);
             }
         });
     }
@@ -266,7 +278,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         for n in 0..Self::FACTS.count {
             let (Some(block), Some(other)) = (self.nth_mut(n), other.nth(n)) else { continue };
             // A port that goes on by the law of its partner holds what was set.
-            let (tells_rates, mut row) = (block.kind().tells_rates || block.has_law(), 0);
+            let (tells_rates, mut row) = (block.kind().tells_rates || block.law_mut().is_some_and(|law| law.is_on), 0);
             while !tells_rates && (block.kind().meta)(row).is_some() {
                 if let (Some(signal), Some(extrapolated)) = (block.signal_mut(row), other.signal(row)) {
                     *signal = *extrapolated;

@@ -50,9 +50,11 @@ impl Law {
         shown
     }
 
-    /// By how much the loads differ from the last answer where this is shown.
-    #[inline(always)]
-    pub fn change<S: Scalar>(&self, shown: &Shown<S>) -> Loads<S> {
+    /// By how much the loads differ from the last answer where this is shown. Compiled once and called with values: a motion whose address
+    /// goes to a function is kept in memory, which slows down every law.
+    #[cold]
+    #[inline(never)]
+    pub fn change<S: Scalar>(&self, shown: Shown<S>) -> Loads<S> {
         // eq. 124: J (x − x_s)
         self.slopes.map(S::constant) * (shown - self.shown.map(S::constant))
     }

@@ -5,11 +5,11 @@ use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
-    METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
-    NEWTON_SECOND_PER_METRE, ONE, RADIAN, RADIAN_PER_SECOND,
+    METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN,
+    NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE, RADIAN, RADIAN_PER_SECOND,
 };
 use crate::variable::{Access, Bound, Kind, Meta, Role, input, output, parameter};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 
 /// A station to which another model is coupled.
 #[derive(Clone, Debug)]
@@ -52,31 +52,21 @@ impl Port {
     #[inline(always)]
     fn given<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
         let [force, moment] = [&self.f, &self.m].map(|loads| loads.map(|signal| motion.input(&signal)));
-        if self.law.is_on { self.by_law(motion, force, moment) } else { [force, moment] }
-    }
-
-    /// The same where the partner follows the motion. Called: written out, it would slow down what has no partner.
-    #[cold]
-    #[inline(never)]
-    fn by_law<S: Scalar>(&self, motion: &Motion<S>, force: Vector3<S>, moment: Vector3<S>) -> [Vector3<S>; 2] {
+        if S::SERIES || !self.law.is_on {
+            return [force, moment];
+        }
         // eq. 124: f = f_s + J (x − x_s)
-        let change = self.law.change(&self.shown(motion, self.law.turns));
+        let change = self.law.change(self.shown(motion, self.law.turns));
         let about = Vector3::new(S::zero(), change[3], change[4]);
-        [force + change.fixed_rows::<3>(0), moment + about]
+        [force + Vector3::new(change[0], change[1], change[2]), moment + about]
     }
 
     /// What a partner is shown; where it says nothing of moments and leans, these are left out.
     #[inline(always)]
     fn shown<S: Scalar>(&self, motion: &Motion<S>, turns: bool) -> Shown<S> {
         let (r, v) = (motion.station(self.position), motion.station_velocity(self.position));
-        let mut shown = Shown::zeros();
-        shown.fixed_rows_mut::<3>(0).copy_from(&r);
-        shown.fixed_rows_mut::<3>(LOADS).copy_from(&v);
-        if turns {
-            shown.fixed_rows_mut::<2>(3).copy_from(&motion.lean());
-            shown.fixed_rows_mut::<2>(LOADS + 3).copy_from(&motion.omega().yz());
-        }
-        shown
+        let (lean, omega) = if turns { (motion.lean(), motion.omega()) } else { (Vector2::zeros(), Vector3::zeros()) };
+        Shown::from([r.x, r.y, r.z, lean.x, lean.y, v.x, v.y, v.z, omega.y, omega.z])
     }
 
     /// Slopes of the loads that the coefficients of the partner make.
@@ -107,7 +97,10 @@ macro_rules! coefficient {
                 $unit,
                 Some(0.0),
                 Bound::Finite,
-                concat!($what, " of the partner, where it is known: between communication points the port goes on by it"),
+                concat!(
+                    $what,
+                    " of the partner, where it is known: between communication points the port goes on by it"
+                ),
             ),
             access: Access::Parameter { get: |p: &Port| p.$field[$n], set: |p, value| p.$field[$n] = value },
         }
@@ -205,21 +198,13 @@ impl Effect for Port {
         })
     }
 
-    fn go_on_with(&mut self, law: &Law) {
-        self.law = *law;
-    }
-
-    fn has_law(&self) -> bool {
-        self.law.is_on
-    }
-
-    fn begin(&mut self, _start: &Motion<f64>) {
-        self.law = Law::default();
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        Some(&mut self.law)
     }
 
     fn is_analytic(&self) -> bool {
-        // The lean of a series is worked out only for who asks for it from the start.
-        !(self.law.is_on && self.law.turns)
+        // The law would be, but its part in each coefficient slows down series without it.
+        !self.law.is_on
     }
 
     fn follows_speed(&self) -> bool {

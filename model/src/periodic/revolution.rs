@@ -32,8 +32,8 @@ const APART: [f64; 2] = [1e-3, 1e-4];
 /// And over this part of the speed \[1].
 const SPEED_APART: f64 = 1e-6;
 
-/// So often in a revolution one looks whether the motion has left, over √(Jt/m) across e \[1]: what has no bound would never be followed to the
-/// end.
+/// Number of looks per revolution, and the distance across e over √(Jt/m) at which the motion has left \[1]: a motion without a bound would
+/// never be followed to the end.
 const LOOKS: u32 = 16;
 const LEFT: f64 = 100.0;
 

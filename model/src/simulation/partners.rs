@@ -99,40 +99,48 @@ impl Partner {
         self.law.is_on && !self.is_given
     }
 
-    /// Hears what was exchanged at the communication point `t` \[s]; `lag` in communication steps, where that is given \[1].
-    pub fn hear(&mut self, t: f64, exchange: &Exchange, lag: Option<f64>) {
+    /// Adds what was exchanged at the communication point `t` \[s]; `lag` in communication steps, where that is given \[1].
+    pub fn add(&mut self, t: f64, exchange: &Exchange, lag: Option<f64>) {
         let step = t - self.exchanges.t;
         if self.exchanges.known > 0 && step <= 0.0 {
             // A step that is done again begins where it began.
             return;
         }
-        if self.exchanges.remember(t, self.law.shows(exchange.at), exchange) {
+        let measures = Measures::of(exchange);
+        if self.exchanges.add(t, self.law.shows(exchange.at), exchange, &measures) {
             (self.fits, self.polynomials) = Default::default();
         }
+        let known = self.exchanges.known;
         for (degree, missed) in self.polynomials.iter_mut().enumerate() {
             // No polynomial goes through more points than there are.
-            let points = (degree + 1).min(self.exchanges.known - 1);
+            let points = (degree + 1).min(known - 1);
             *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
         }
-        let told = lag.map(|lag| (lag.round() as usize).min(POINTS - 1));
-        let lags = match told {
+        let lag = lag.map(|lag| (lag.round() as usize).min(POINTS - 1));
+        let lags = match lag {
             None if exchange.has_states => 0..1,
             None => 0..LAGS,
             Some(lag) => lag..LAGS.min(lag + 1),
         };
-        let measures = Measures::of(exchange);
         let given = exchange.given.map(|slopes| measures.measured(&slopes));
-        for lag in lags.clone().filter(|_| self.exchanges.known > 1) {
+        for lag in lags.clone().filter(|_| known > 1) {
             self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
         }
-        let ahead = if self.exchanges.known > 1 { exchange.ahead * step } else { 0.0 };
-        let law = self.chosen(told, lags, exchange, step).unwrap_or_default();
+        let ahead = if known > 1 { exchange.ahead * step } else { 0.0 };
+        let law = self.chosen(lag, lags, exchange, &measures, step).unwrap_or_default();
         self.law = if law.is_on || ahead > 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
-        self.is_given = exchange.given.is_some();
+        self.is_given = given.is_some();
     }
 
     /// The law to go on with after a communication step of this length \[s]; None where none is to be trusted.
-    fn chosen(&self, told: Option<usize>, lags: Range<usize>, exchange: &Exchange, step: f64) -> Option<Law> {
+    fn chosen(
+        &self,
+        lag: Option<usize>,
+        lags: Range<usize>,
+        exchange: &Exchange,
+        measures: &Measures,
+        step: f64,
+    ) -> Option<Law> {
         let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit)));
         let best = fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed));
         let trusted = |fit: &&Fit| {
@@ -142,9 +150,8 @@ impl Partner {
                 && is_best
                 && drives(&fit.slopes, step) * exchange.yielding <= DRIVES
         };
-        let lag = told.or(best.map(|(lag, _)| lag))?;
-        let learnt =
-            || best.map(|(_, fit)| fit).filter(trusted).map(|fit| Measures::of(exchange).taken_back(&fit.slopes));
+        let lag = lag.or(best.map(|(lag, _)| lag))?;
+        let learnt = || best.map(|(_, fit)| fit).filter(trusted).map(|fit| measures.in_units(&fit.slopes));
         let slopes = exchange.given.or_else(learnt)?;
         let leans = TURNS.iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
         let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
@@ -153,10 +160,10 @@ impl Partner {
 }
 
 impl Exchanges {
-    /// Whether what was known before says nothing of the partner.
-    fn remember(&mut self, t: f64, shown: Shown, exchange: &Exchange) -> bool {
+    /// Adds one; returns whether those before say nothing of the partner.
+    fn add(&mut self, t: f64, shown: Shown, exchange: &Exchange, measures: &Measures) -> bool {
         let has_moment = |loads: &Loads| loads[3] != 0.0 || loads[4] != 0.0;
-        let loads = exchange.loads.component_mul(&Measures::of(exchange).loads);
+        let loads = exchange.loads.component_mul(&measures.loads);
         if self.known == 0 {
             // Before the first exchange all was as it is there.
             (self.shown, self.loads) = ([shown; POINTS], [loads; POINTS]);
@@ -250,7 +257,7 @@ impl Measures {
     }
 
     /// Measured slopes in their units.
-    fn taken_back(&self, slopes: &Slopes) -> Slopes {
+    fn in_units(&self, slopes: &Slopes) -> Slopes {
         Slopes::from_fn(|load, n| slopes[(load, n)] * self.shown[n] / self.loads[load])
     }
 }

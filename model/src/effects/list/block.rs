@@ -108,10 +108,8 @@ pub trait Block {
     fn is_answered(&self, t: f64) -> bool;
     /// What it shows its partner at the communication point, and what was set there.
     fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange>;
-    /// Goes on with this law of its partner.
-    fn go_on_with(&mut self, law: &Law);
-    /// Whether such a law is in force.
-    fn has_law(&self) -> bool;
+    /// The law of its partner; None of what may have none.
+    fn law_mut(&mut self) -> Option<&mut Law>;
     /// Whether inputs go on as polynomials by it.
     fn is_followed(&self) -> bool;
     /// How many communication steps values of inputs are late, where that is given.

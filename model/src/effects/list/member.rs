@@ -270,12 +270,8 @@ impl<M: Member> Block for M {
         self.effect().exchange(motion)
     }
 
-    fn go_on_with(&mut self, law: &Law) {
-        self.effect_mut().go_on_with(law);
-    }
-
-    fn has_law(&self) -> bool {
-        self.effect().has_law()
+    fn law_mut(&mut self) -> Option<&mut Law> {
+        self.effect_mut().law_mut()
     }
 
     fn is_followed(&self) -> bool {
