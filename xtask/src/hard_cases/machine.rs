@@ -94,6 +94,10 @@ pub fn started<'b>(bench: &'b Bench<'b>, machine: &Machine, stop: f64) -> Result
         }
         rotor.set(&name, value)?;
     }
+    for port in 1..=machine.ports.len() {
+        // The oracle holds loads.
+        rotor.set(&format!("port[{port}].learn"), 0.0)?;
+    }
     rotor.start(0.0, stop)?;
     Ok(rotor)
 }
