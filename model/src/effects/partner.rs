@@ -50,10 +50,9 @@ impl Law {
         shown
     }
 
-    /// By how much the loads differ from the last answer where this is shown. Compiled once and called with values: a motion whose address
-    /// goes to a function is kept in memory, which slows down every law.
-    #[cold]
-    #[inline(never)]
+    /// By how much the loads differ from the last answer where this is shown. Written out: where a law may be called, what is summed up so far
+    /// goes through memory in every evaluation.
+    #[inline(always)]
     pub fn change<S: Scalar>(&self, shown: Shown<S>) -> Loads<S> {
         // eq. 124: J (x − x_s)
         self.slopes.map(S::constant) * (shown - self.shown.map(S::constant))
