@@ -709,8 +709,9 @@ impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
         partners.resize(E::FACTS.partners, Partner::default());
         partners.iter_mut().try_for_each(|partner| partner.walk(walk))?;
         parameters.effects.set_laws(|number| partners[number].law());
-        // What it shows follows from the rest; whether partners have answered, from their inputs.
-        (*instant, *is_answered) = (None, true);
+        is_answered.walk(walk)?;
+        // What it shows follows from the rest.
+        *instant = None;
         let mut kind = match run {
             None => 0,
             Some(Run::Method(_)) => 1,
