@@ -71,7 +71,7 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
     /// Of each port.
     partners: Vec<Partner>,
     /// Whether an input was set since the last communication step: only then may a partner have answered.
-    is_answered: bool,
+    is_set: bool,
     /// What the communication point shows, once somebody asked.
     instant: Option<Instant<N>>,
     scratch: Scratch,
@@ -79,17 +79,17 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
 
 impl<E: Clone, const N: usize> Clone for Simulation<E, N> {
     fn clone(&self) -> Self {
-        let &Self { integrator, ref parameters, run, ref partners, is_answered, instant, scratch: _ } = self;
+        let &Self { integrator, ref parameters, run, ref partners, is_set, instant, scratch: _ } = self;
         let (parameters, partners) = (parameters.clone(), partners.clone());
-        Self { integrator, parameters, run, partners, is_answered, instant, scratch: Scratch::default() }
+        Self { integrator, parameters, run, partners, is_set, instant, scratch: Scratch::default() }
     }
 
     /// In place: by far the most of it is a run, which is else copied three times on its way.
     fn clone_from(&mut self, source: &Self) {
-        let Self { integrator, parameters, run, partners, is_answered, instant, scratch: _ } = source;
+        let Self { integrator, parameters, run, partners, is_set, instant, scratch: _ } = source;
         self.parameters.clone_from(parameters);
         self.partners.clone_from(partners);
-        (self.integrator, self.run, self.is_answered, self.instant) = (*integrator, *run, *is_answered, *instant);
+        (self.integrator, self.run, self.is_set, self.instant) = (*integrator, *run, *is_set, *instant);
     }
 }
 
@@ -181,7 +181,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
         let block = self.parameters.effects.at_mut(place).expect("it was there");
         block.change_input(set, &change);
-        self.is_answered = true;
+        self.is_set = true;
         true
     }
 
@@ -290,7 +290,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     fn advance_seen<L: Looks>(&mut self, t: f64, looks: &mut L) -> Result<(), Fault> {
         self.instant = None;
-        if E::FACTS.partners > 0 && std::mem::take(&mut self.is_answered) {
+        if E::FACTS.partners > 0 && std::mem::take(&mut self.is_set) {
             self.update_partners();
         }
         if self.parameters.effects.extrapolates() {
@@ -703,13 +703,13 @@ impl<E: Effects, const N: usize> Hosted<'_, E, N> {
 
 impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { integrator, parameters, run, partners, is_answered, instant, scratch: _ } = self;
+        let Self { integrator, parameters, run, partners, is_set, instant, scratch: _ } = self;
         choice(integrator, &[Integrator::Method, Integrator::Host], walk)?;
         parameters.walk(walk)?;
         partners.resize(E::FACTS.partners, Partner::default());
         partners.iter_mut().try_for_each(|partner| partner.walk(walk))?;
         parameters.effects.set_laws(|number| partners[number].law());
-        is_answered.walk(walk)?;
+        is_set.walk(walk)?;
         // What it shows follows from the rest.
         *instant = None;
         let mut kind = match run {
