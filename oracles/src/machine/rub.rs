@@ -26,11 +26,27 @@ impl Rub {
 
     /// Force on the rotor of a ring that presses \[N], and its torque about n [N·m], at this ω_φ [rad/s].
     pub fn load(&self, station: &[Vector3<f64>; 2], speed: f64) -> (Vector3<f64>, f64) {
-        let (outward, depth, rate) = self.approach(station);
+        let (outward, ..) = self.approach(station);
         let along = Vector3::x().cross(&outward);
-        let normal = self.stiffness * depth + self.damping * rate;
-        let sliding = self.sliding(station, speed);
-        let friction = self.friction * normal * libm::tanh(sliding / self.v0);
-        (-outward * normal - along * friction, -friction * self.radius)
+        let friction = self.friction(station, speed);
+        (-outward * self.normal(station) - along * friction, -friction * self.radius)
+    }
+
+    /// What of that force is friction \[N]; nothing where the ring does not press.
+    pub fn friction_force(&self, station: &[Vector3<f64>; 2], speed: f64) -> Vector3<f64> {
+        if self.pressed(station) <= 0.0 {
+            return Vector3::zeros();
+        }
+        let (outward, ..) = self.approach(station);
+        -Vector3::x().cross(&outward) * self.friction(station, speed)
+    }
+
+    fn normal(&self, station: &[Vector3<f64>; 2]) -> f64 {
+        let (_, depth, rate) = self.approach(station);
+        self.stiffness * depth + self.damping * rate
+    }
+
+    fn friction(&self, station: &[Vector3<f64>; 2], speed: f64) -> f64 {
+        self.friction * self.normal(station) * libm::tanh(self.sliding(station, speed) / self.v0)
     }
 }

@@ -4,6 +4,7 @@ use super::trial::{Partner, Trial};
 use crate::harness::named::Named;
 use nalgebra::Vector3;
 use oracles::machine::{Input, Run, Shown};
+use oracles::rigid_body::joint;
 use split_rotor_model::simulation::Integrator;
 use split_rotor_model::variable::Place;
 
@@ -26,8 +27,23 @@ pub trait Rig {
 pub struct Seen {
     /// The motion.
     pub motion: Shown,
-    /// The outputs of [`Rig::outputs`].
+    /// The outputs of [`Rig::outputs`], forces of rings without the friction that follows from the motion: where a shaft sticks to its ring
+    /// friction magnifies what a velocity is off, however little that is.
     pub outputs: Vec<Vector3<f64>>,
+}
+
+impl Seen {
+    fn of(trial: &Trial, rig: &mut impl Rig) -> Self {
+        let (motion, mut outputs) = (rig.show(), rig.outputs(trial));
+        let machine = &trial.machine;
+        let first = machine.outputs(&trial.probes).iter().position(|(name, _)| name.starts_with("rub"));
+        let speed = motion.omega.dot(&joint(&motion.axis));
+        for (rub, force) in machine.rubs.iter().zip(outputs.iter_mut().skip(first.unwrap_or_default())) {
+            let arm = motion.axis * rub.position;
+            *force -= rub.friction_force(&[motion.r_c + arm, motion.v_c + motion.omega.cross(&arm)], speed);
+        }
+        Self { motion, outputs }
+    }
 }
 
 /// What it shows at the start and at each point; where it stopped, and why.
@@ -38,7 +54,7 @@ pub fn play(trial: &Trial, rig: &mut impl Rig) -> Result<Vec<Seen>, String> {
             rig.advance(point.t).map_err(|reason| format!("at {:.6e} s: {reason}", grid[n - 1].t))?;
         }
         if point.shown {
-            shown.push(Seen { motion: rig.show(), outputs: rig.outputs(trial) });
+            shown.push(Seen::of(trial, rig));
         }
         while let Some(change) = trial.changes.get(next).filter(|change| change.t <= point.t) {
             rig.set(change.input, change.terms);
