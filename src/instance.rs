@@ -81,8 +81,10 @@ mod warned {
     pub const OF_UNJUDGED: usize = 5;
     /// That contacts are chaotic.
     pub const OF_RATTLE: usize = 6;
+    /// That the exchange with models at the ports is wrong.
+    pub const OF_COUPLING: usize = 7;
     /// How many there are.
-    pub const COUNT: usize = 7;
+    pub const COUNT: usize = 8;
 }
 
 /// What the host said of the experiment, and what it set itself.
@@ -261,8 +263,8 @@ impl Instance {
         Err(Failure::Error(format!("the FMU state comes from an instance for {from}, and this one is for {to}")))
     }
 
-    /// Says once that the tilt is large, where that matters, that the motion diverges, and that contacts are chaotic; and whenever the
-    /// linear motion begins to grow.
+    /// Says once that the tilt is large, where that matters, that the motion diverges, that contacts are chaotic, and that the exchange with
+    /// models at the ports is wrong; and whenever the linear motion begins to grow.
     fn warn(&mut self) {
         let told = &mut self.memory.warned;
         if !told[warned::OF_TILT]
@@ -295,6 +297,12 @@ impl Instance {
         {
             told[warned::OF_RATTLE] = true;
             self.logger.log(Severity::Warning, Category::Warning, &rattle.to_string());
+        }
+        if !told[warned::OF_COUPLING]
+            && let Some(coupling) = self.memory.simulation.coupling()
+        {
+            told[warned::OF_COUPLING] = true;
+            self.logger.log(Severity::Warning, Category::Warning, &coupling.to_string());
         }
         self.warn_of_doubts();
         self.report_learnt();

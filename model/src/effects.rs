@@ -20,7 +20,7 @@ pub use doubt::Doubt;
 pub use list::{Block, Called, Effects, Switched, follows_all_inputs};
 pub use load::{Change, MOST_LOADS, Pose};
 pub use motion::Motion;
-pub use partner::{Exchange, Law};
+pub use partner::{Exchange, Law, Loads};
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
@@ -204,9 +204,14 @@ pub trait Effect: Clone + Default + Send + 'static {
         None
     }
 
-    /// Whether inputs go on as polynomials by it, not held.
-    fn is_followed(&self) -> bool {
-        false
+    /// What acts of its inputs from the communication point `t` \[s] on, as coefficients of the powers of the time.
+    fn acting(&self, _t: f64) -> [Loads; 3] {
+        [Loads::zeros(); 3]
+    }
+
+    /// The degree of the polynomials as which inputs go on by it; 0 where they are held.
+    fn order(&self) -> usize {
+        0
     }
 
     /// How many communication steps values of inputs are late, where that is given \[1].

@@ -4,6 +4,7 @@
 mod auto;
 mod by_series;
 mod closest;
+mod coupling;
 mod divergence;
 mod events;
 mod exchange;
@@ -23,6 +24,7 @@ pub(crate) mod start;
 mod tangents;
 mod unheld;
 
+pub use coupling::Coupling;
 pub use divergence::Divergence;
 use exchange::Exchange;
 pub use exchange::Settled;
@@ -34,14 +36,14 @@ pub use rattle::Rattle;
 pub use tangents::Tangents;
 pub use unheld::Unheld;
 
-use crate::effects::{Block, Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
+use crate::effects::{Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::taylor::Scratch;
 use crate::integrate::{Fault, Refusal};
 use crate::rotor;
 use crate::signal::Signal;
-use crate::state::{COORDINATES, WITH_WORK, own};
+use crate::state::{COORDINATES, Kinematics, WITH_WORK, own};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
 use crate::variables::{Instant, Parameters, Reading, Start};
@@ -72,6 +74,8 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
     partners: Vec<Partner>,
     /// Whether an input was set since the last communication step: only then may a partner have answered.
     is_set: bool,
+    /// That the exchange with partners is wrong, once that was found.
+    coupling: Option<Coupling>,
     /// What the communication point shows, once somebody asked.
     instant: Option<Instant<N>>,
     scratch: Scratch,
@@ -79,17 +83,18 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
 
 impl<E: Clone, const N: usize> Clone for Simulation<E, N> {
     fn clone(&self) -> Self {
-        let &Self { integrator, ref parameters, run, ref partners, is_set, instant, scratch: _ } = self;
+        let &Self { integrator, ref parameters, run, ref partners, is_set, coupling, instant, scratch: _ } = self;
         let (parameters, partners) = (parameters.clone(), partners.clone());
-        Self { integrator, parameters, run, partners, is_set, instant, scratch: Scratch::default() }
+        Self { integrator, parameters, run, partners, is_set, coupling, instant, scratch: Scratch::default() }
     }
 
     /// In place: by far the most of it is a run, which is else copied three times on its way.
     fn clone_from(&mut self, source: &Self) {
-        let Self { integrator, parameters, run, partners, is_set, instant, scratch: _ } = source;
+        let Self { integrator, parameters, run, partners, is_set, coupling, instant, scratch: _ } = source;
         self.parameters.clone_from(parameters);
         self.partners.clone_from(partners);
-        (self.integrator, self.run, self.is_set, self.instant) = (*integrator, *run, *is_set, *instant);
+        (self.integrator, self.run, self.is_set) = (*integrator, *run, *is_set);
+        (self.coupling, self.instant) = (*coupling, *instant);
     }
 }
 
@@ -243,7 +248,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         });
         self.parameters.effects = parameters.effects;
         self.partners = vec![Partner::default(); E::FACTS.partners];
-        self.instant = None;
+        (self.coupling, self.instant) = (None, None);
         Ok(())
     }
 
@@ -290,14 +295,18 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     fn advance_seen<L: Looks>(&mut self, t: f64, looks: &mut L) -> Result<(), Fault> {
         self.instant = None;
-        if E::FACTS.partners > 0 && std::mem::take(&mut self.is_set) {
-            self.update_partners();
+        let is_set = E::FACTS.partners > 0 && std::mem::take(&mut self.is_set);
+        if is_set {
+            self.update_partners(t);
         }
         if self.parameters.effects.extrapolates() {
             if let (true, Some(Run::Method(integration))) = (looks.looks(), &self.run) {
                 looks.look(integration, &self.parameters.effects, integration.time());
             }
             self.extrapolate();
+            if is_set {
+                self.show_partners_inputs();
+            }
         }
         let Some(Run::Method(integration)) = &mut self.run else {
             panic!("no run of a method was started");
@@ -336,8 +345,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
-    /// Adds what was exchanged at the communication point to what is known of the partners, and goes on by their laws.
-    fn update_partners(&mut self) {
+    /// Adds what was exchanged at the communication point to what is known of the partners, and goes on by their laws to time `to` \[s].
+    fn update_partners(&mut self, to: f64) {
         let t = self.time().unwrap_or_default();
         if !self.parameters.effects.active().any(|block| block.is_answered(t)) {
             return;
@@ -346,7 +355,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         // The communication point moves on: the reading would be stale.
         self.instant = None;
         // Where inputs are extrapolated, somebody has decided how loads go on.
-        let may_learn = !self.parameters.effects.active().any(Block::is_followed);
+        let may_learn = self.parameters.effects.order() == 0;
         let (lag, partners) = (self.parameters.effects.lag(), &mut self.partners);
         let mut changes = false;
         self.parameters.effects.for_each_partner(|number, block| {
@@ -366,6 +375,31 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             let partners = &self.partners;
             self.parameters.effects.set_laws(|number| partners[number].law());
         }
+        if self.coupling.is_none() && self.partners.iter().any(Partner::is_doubted) {
+            self.look_at_coupling(&reading.motion, to - t);
+        }
+    }
+
+    /// Shows the partners how their inputs go on.
+    fn show_partners_inputs(&mut self) {
+        let (t, partners) = (self.time().unwrap_or_default(), &mut self.partners);
+        self.parameters.effects.for_each_partner(|number, block| partners[number].begin(t, || block.acting(t)));
+    }
+
+    /// Whether the exchange with partners is wrong, where inputs are exchanged after this step \[s].
+    fn look_at_coupling(&mut self, motion: &Kinematics<f64>, step: f64) {
+        let Some(Run::Method(integration)) = &self.run else { return };
+        let (lag, partners) = (self.parameters.effects.lag(), &self.partners);
+        let mut seen = vec![None; partners.len()];
+        self.parameters.effects.for_each_partner(|number, block| {
+            let exchange = block.exchange(&Seen::new(motion, &[])).filter(|_| block.is_active());
+            seen[number] = exchange.and_then(|exchange| partners[number].seen(&exchange, lag));
+        });
+        let (frame, t, state) = integration.reached();
+        let wrong = partners.iter().map(Partner::wrong).fold(0.0, f64::max);
+        let found = Coupling::of(&frame.under(&self.parameters.effects), t, state, &seen, step);
+        let is_wrong = found.growth > 0.0 || partners.iter().any(Partner::is_wrong);
+        self.coupling = is_wrong.then_some(Coupling { wrong, ..found });
     }
 
     /// The ports that go on by a law which they learnt, each as the bit of its number among them.
@@ -430,6 +464,11 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             Run::Method(integration) => integration.growth(),
             Run::Exchange(exchange) => exchange.growth(),
         }
+    }
+
+    /// That the exchange with models at the ports is wrong, as that was when it was found.
+    pub fn coupling(&self) -> Option<Coupling> {
+        self.coupling
     }
 
     /// Where the motion diverges though something holds the rotor, as it was when that was found.
@@ -703,13 +742,14 @@ impl<E: Effects, const N: usize> Hosted<'_, E, N> {
 
 impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { integrator, parameters, run, partners, is_set, instant, scratch: _ } = self;
+        let Self { integrator, parameters, run, partners, is_set, coupling, instant, scratch: _ } = self;
         choice(integrator, &[Integrator::Method, Integrator::Host], walk)?;
         parameters.walk(walk)?;
         partners.resize(E::FACTS.partners, Partner::default());
         partners.iter_mut().try_for_each(|partner| partner.walk(walk))?;
         parameters.effects.set_laws(|number| partners[number].law());
         is_set.walk(walk)?;
+        coupling.walk(walk)?;
         // What it shows follows from the rest.
         *instant = None;
         let mut kind = match run {

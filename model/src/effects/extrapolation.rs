@@ -150,8 +150,8 @@ impl Effect for Extrapolation {
         signal.extrapolate(t, [value, first + second * (2.0 * ahead + last_step), 2.0 * second]);
     }
 
-    fn is_followed(&self) -> bool {
-        self.order > 0
+    fn order(&self) -> usize {
+        self.order as usize
     }
 
     fn lag(&self) -> Option<f64> {

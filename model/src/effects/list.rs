@@ -244,6 +244,11 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         self.active().find_map(Block::lag)
     }
 
+    /// The degree of the polynomials as which inputs go on; 0 where they are held.
+    fn order(&self) -> usize {
+        self.active().map(Block::order).max().unwrap_or_default()
+    }
+
     /// Goes through those that may have partners, each with its number among them.
     fn for_each_partner(&mut self, mut act: impl FnMut(usize, &mut dyn Block)) {
         let mut number = 0;

@@ -173,9 +173,6 @@ impl Effect for Port {
     const HAS_PARTNER: bool = true;
 
     fn is_answered(&self, t: f64) -> bool {
-        if !self.learn && self.slopes().is_none() {
-            return false;
-        }
         // A master that sends derivatives knows how its loads go on.
         let mut signals = self.f.iter().chain(&self.m);
         signals.clone().any(|signal| signal.set_at(t).is_some())
@@ -183,18 +180,25 @@ impl Effect for Port {
     }
 
     fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange> {
-        let t = motion.t();
         let [yielding, gyration] = motion.yielding(self.position);
-        let [force, moment] = [&self.f, &self.m].map(|loads| loads.map(|signal| signal.at(t)));
+        let [loads, ..] = self.acting(motion.t());
         Some(Exchange {
             at: self.shown(motion, true),
-            loads: Loads::new(force.x, force.y, force.z, moment.y, moment.z),
+            loads,
             given: self.slopes(),
             has_states: false,
             learns: self.learn,
             ahead: 0.0,
             yielding,
             gyration,
+        })
+    }
+
+    fn acting(&self, t: f64) -> [Loads; 3] {
+        let [force, moment] = [&self.f, &self.m];
+        [0, 1, 2].map(|power| {
+            let of = |signal: &Signal| signal.coefficient(t, power);
+            Loads::new(of(&force.x), of(&force.y), of(&force.z), of(&moment.y), of(&moment.z))
         })
     }
 

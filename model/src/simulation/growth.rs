@@ -109,9 +109,9 @@ impl Seen {
 
 /// The equations without φ, the work and the own states, which hold on their own: a motor does not make a whirl grow at a
 /// steady speed.
-const LINEAR: usize = PHI;
+pub(super) const LINEAR: usize = PHI;
 
-type Linear = SMatrix<f64, LINEAR, LINEAR>;
+pub(super) type Linear = SMatrix<f64, LINEAR, LINEAR>;
 
 /// Where the velocities begin, and the angular momentum.
 const VELOCITY: usize = 3;
@@ -151,6 +151,12 @@ struct Equations {
 
 /// The effect that passes on the loads of other models.
 pub(super) const PORT: &str = "port";
+
+/// The linear equations of a rotor about this state at time `t` \[s].
+pub(super) fn linear<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Linear {
+    let (jacobian, first) = (rotor.jacobian(t, y), own(N));
+    Linear::from_fn(|i, j| jacobian[first + i][first + j])
+}
 
 impl Watch {
     /// What grows, as it was when it was seen first; None where nothing does any more.
@@ -222,7 +228,7 @@ impl Watch {
     /// nothing acts: rates that are constant grow by no power of e.
     ///
     /// Several are scaled as the first is.
-    fn scaled<const M: usize>(matrices: [Linear; M], body: &Inertia) -> [Linear; M] {
+    pub(super) fn scaled<const M: usize>(matrices: [Linear; M], body: &Inertia) -> [Linear; M] {
         let matrix = matrices[0];
         let is_rate = |n: usize| (VELOCITY..GAMMA.start).contains(&n);
         let radius = body.radius();
@@ -255,14 +261,9 @@ impl Watch {
         let Frame { body, chart, turns, .. } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
         let state = settled(&balanced, t, y);
-        let first = own(N);
-        let linear = |rotor: &Rotor<'_, E>, state: &[f64; N]| {
-            let jacobian = rotor.jacobian(t, state);
-            Linear::from_fn(|i, j| jacobian[first + i][first + j])
-        };
         let uneven = |of: &Asymmetric| E::FACTS.shapes && of.excess.abs() > ASYMMETRIC * body.per_jt;
         let Some(uneven) = body.asymmetric.filter(uneven) else {
-            let [matrix] = Self::scaled([linear(&balanced, &state)], &body);
+            let [matrix] = Self::scaled([linear(&balanced, t, &state)], &body);
             return Some(Equations { matrix, turning: 0.0 });
         };
         // In the chart from −e the axis is that which the body turns about the other way round.
@@ -273,7 +274,7 @@ impl Watch {
         let at = |phi: f64| {
             let mut state = state;
             rigid_mut(&mut state)[PHI] = phi;
-            linear(&balanced, &state)
+            linear(&balanced, t, &state)
         };
         let [start, quarter] = [0.0, FRAC_PI_2].map(at);
         let (mut turn, mut rate) = (Linear::identity(), Linear::zeros());

@@ -4,11 +4,14 @@
 //! bearing does, that feeds a whirl. So each port keeps what it showed and what was answered, fits the slopes of the loads to that, and goes
 //! on by them where they predicted the last answers better than anything else.
 
+mod work;
+
 use crate::effects::partner::{LOADS, Loads, SHOWN, Shown, Slopes};
 use crate::effects::{Exchange, Law};
 use crate::stored::{Damaged, Stored, Walk, stored};
 use nalgebra::SMatrix;
 use std::ops::Range;
+use work::{Path, Work};
 
 /// A partner: what it was shown, what it answered, and what is made of that.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,17 +24,31 @@ pub(super) struct Partner {
     law: Law,
     /// Whether the law was given.
     is_given: bool,
+    work: Work,
+    /// How often it answered.
+    answers: u32,
 }
 
-stored!(Partner { exchanges, fits, polynomials, law, is_given });
+stored!(Partner { exchanges, fits, polynomials, law, is_given, work, answers });
+
+/// A partner as its answers look, where no law of it is in force.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seen {
+    /// How its loads change with what it is shown.
+    pub slopes: Slopes,
+    /// How many communication steps they are late.
+    pub lag: usize,
+    /// What it is shown now.
+    pub shown: Shown,
+}
 
 /// The last exchanges, the latest first.
 #[derive(Clone, Copy, Debug, Default)]
 struct Exchanges {
     /// How many are known.
     known: usize,
-    /// When the last one was \[s].
-    t: f64,
+    /// When they were \[s].
+    t: [f64; POINTS],
     shown: [Shown; POINTS],
     /// By their [measures](Measures).
     loads: [Loads; POINTS],
@@ -59,7 +76,7 @@ struct Fit {
 stored!(Fit { slopes, missed });
 
 /// Loads may be the answer to what is shown now, or was shown a communication step before.
-const LAGS: usize = 2;
+pub(super) const LAGS: usize = 2;
 
 /// So many changes are fitted at a time, and so many exchanges are kept for that.
 const CHANGES: usize = 7;
@@ -85,6 +102,18 @@ const TRUSTED: f64 = 0.3;
 /// So many exchanges must be known before a fit is trusted.
 const ENOUGH: usize = 6;
 
+/// A coupling is looked at after so many answers, and whenever these have doubled.
+const LOOKED_AT: u32 = 16;
+
+/// Where it does so much work too much or too little, of what goes through \[1].
+const LARGE: f64 = 0.15;
+
+/// That alone is beyond doubt from this part on \[1]: in a short run, after so many answers, and under a law that was learnt.
+const BEYOND_DOUBT: f64 = 0.7;
+const STEADY: u32 = 64;
+const BEYOND_DOUBT_STEADILY: f64 = 0.4;
+const BEYOND_DOUBT_LEARNT: f64 = 0.2;
+
 /// A law may drive the place so strongly at most: acceleration by way times the step squared, and by velocity times the step \[1].
 const DRIVES: f64 = 0.05;
 
@@ -101,7 +130,7 @@ impl Partner {
 
     /// Adds what was exchanged at the communication point `t` \[s]; `lag` in communication steps, where that is given \[1].
     pub fn add(&mut self, t: f64, exchange: &Exchange, lag: Option<f64>) {
-        let step = t - self.exchanges.t;
+        let step = t - self.exchanges.t[0];
         if self.exchanges.known > 0 && step <= 0.0 {
             // A step that is done again begins where it began.
             return;
@@ -109,7 +138,10 @@ impl Partner {
         let measures = Measures::of(exchange);
         if self.exchanges.add(t, self.law.shows(exchange.at), exchange, &measures) {
             (self.fits, self.polynomials) = Default::default();
+            self.work.forget();
+            self.answers = 0;
         }
+        self.answers = self.answers.saturating_add(1);
         let known = self.exchanges.known;
         for (degree, missed) in self.polynomials.iter_mut().enumerate() {
             // No polynomial goes through more points than there are.
@@ -117,19 +149,66 @@ impl Partner {
             *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
         }
         let lag = lag.map(|lag| (lag.round() as usize).min(POINTS - 1));
-        let lags = match lag {
-            None if exchange.has_states => 0..1,
-            None => 0..LAGS,
-            Some(lag) => lag..LAGS.min(lag + 1),
-        };
+        let lags = lags(lag, exchange);
         let given = exchange.given.map(|slopes| measures.measured(&slopes));
         for lag in lags.clone().filter(|_| known > 1) {
             self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
         }
+        // Of states of its own nobody here knows the work.
+        if known > 1 && !exchange.has_states {
+            let lag = lag.or(self.best(lags.clone()).map(|(lag, _)| lag)).unwrap_or_default();
+            self.work.count(&self.exchanges, &self.law, &measures.loads, lag);
+        }
         let ahead = if known > 1 { exchange.ahead * step } else { 0.0 };
         let law = self.chosen(lag, lags, exchange, &measures, step).unwrap_or_default();
+        if law.is_on {
+            self.work.follow_law();
+        }
         self.law = if law.is_on || ahead > 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
         self.is_given = given.is_some();
+        self.work.begin([exchange.loads, Loads::zeros(), Loads::zeros()]);
+    }
+
+    /// What the inputs are from `t` \[s] on, where they are extrapolated, as coefficients of the powers of the time.
+    pub fn begin(&mut self, t: f64, acting: impl FnOnce() -> [Loads; work::POWERS]) {
+        if self.exchanges.known > 0 && self.exchanges.t[0] == t {
+            self.work.begin(acting());
+        }
+    }
+
+    /// Whether the coupling is to be looked at now: it does much work too much or too little.
+    pub fn is_doubted(&self) -> bool {
+        self.answers.is_power_of_two() && self.answers >= LOOKED_AT && self.wrong() > LARGE
+    }
+
+    /// The part by which the coupling does too much or too little work, of what goes through \[1].
+    pub fn wrong(&self) -> f64 {
+        self.work.wrong()
+    }
+
+    /// Whether that alone says that the coupling is wrong.
+    pub fn is_wrong(&self) -> bool {
+        let beyond_doubt = match self {
+            _ if self.has_learnt() => BEYOND_DOUBT_LEARNT,
+            _ if self.answers >= STEADY => BEYOND_DOUBT_STEADILY,
+            _ => BEYOND_DOUBT,
+        };
+        self.wrong() > beyond_doubt
+    }
+
+    /// As its answers look; None where a law is in force, or where what it would answer was not predicted well.
+    pub fn seen(&self, exchange: &Exchange, lag: Option<f64>) -> Option<Seen> {
+        let (lag, fit) = self.best(lags(lag.map(|lag| lag.round() as usize), exchange))?;
+        let [held, ..] = self.polynomials;
+        let counts = !self.law.is_on && fit.missed < TRUSTED * TRUSTED * held;
+        let slopes = Measures::of(exchange).in_units(&fit.slopes);
+        counts.then_some(Seen { slopes, lag, shown: exchange.at })
+    }
+
+    /// What predicted the last answers best, and by which lag.
+    fn best(&self, lags: Range<usize>) -> Option<(usize, &Fit)> {
+        let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit)));
+        fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed))
     }
 
     /// The law to go on with after a communication step of this length \[s]; None where none is to be trusted.
@@ -141,8 +220,7 @@ impl Partner {
         measures: &Measures,
         step: f64,
     ) -> Option<Law> {
-        let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit)));
-        let best = fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed));
+        let best = self.best(lags);
         let trusted = |fit: &&Fit| {
             let is_best = self.polynomials.iter().all(|missed| fit.missed < TRUSTED * TRUSTED * missed);
             exchange.learns
@@ -159,6 +237,15 @@ impl Partner {
     }
 }
 
+/// By how many steps answers may be late, where `lag` is given or not; none that is fitted where it is later.
+fn lags(lag: Option<usize>, exchange: &Exchange) -> Range<usize> {
+    match lag {
+        None if exchange.has_states => 0..1,
+        None => 0..LAGS,
+        Some(lag) => lag..LAGS.min(lag + 1),
+    }
+}
+
 impl Exchanges {
     /// Adds one; returns whether those before say nothing of the partner.
     fn add(&mut self, t: f64, shown: Shown, exchange: &Exchange, measures: &Measures) -> bool {
@@ -166,12 +253,13 @@ impl Exchanges {
         let loads = exchange.loads.component_mul(&measures.loads);
         if self.known == 0 {
             // Before the first exchange all was as it is there.
-            (self.shown, self.loads) = ([shown; POINTS], [loads; POINTS]);
+            (self.t, self.shown, self.loads) = ([t; POINTS], [shown; POINTS], [loads; POINTS]);
         }
+        self.t.rotate_right(1);
         self.shown.rotate_right(1);
         self.loads.rotate_right(1);
-        (self.shown[0], self.loads[0]) = (shown, loads);
-        (self.known, self.t) = ((self.known + 1).min(POINTS), t);
+        (self.t[0], self.shown[0], self.loads[0]) = (t, shown, loads);
+        self.known = (self.known + 1).min(POINTS);
         if exchange.given.is_some() {
             return false;
         }
@@ -186,6 +274,11 @@ impl Exchanges {
             self.known = 1;
         }
         stays || begins_to_turn
+    }
+
+    /// The way to this one from the one before.
+    fn path(&self, to: usize) -> Path {
+        Path { from: self.shown[to + 1], to: self.shown[to], step: self.t[to] - self.t[to + 1] }
     }
 
     /// How far the last loads are off the polynomial through so many before, squared \[N²].

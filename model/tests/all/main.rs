@@ -11,6 +11,7 @@ mod bearing;
 mod between_steps;
 mod charts;
 mod composition;
+mod coupling;
 mod crossing;
 mod dependencies;
 mod dependencies_of_draws;

@@ -5,11 +5,12 @@ use crate::harness::named::Named;
 use crate::harness::within;
 use crate::random_scenes::dice::Dice;
 use nalgebra::{Matrix3, Vector3};
+use split_rotor_model::simulation::Coupling;
 use split_rotor_model::stored::{from_bytes, to_bytes};
 use std::f64::consts::PI;
 
 /// The README's rotor, its two bearings as partners.
-const ROTOR: &str = "[rotor]\nm = 12.0\nJa = 0.04\nJt = 0.12\n\
+pub const ROTOR: &str = "[rotor]\nm = 12.0\nJa = 0.04\nJt = 0.12\n\
                      [effects.gravity]\n[[effects.unbalance]]\nmass = 1e-3\nradius = 0.04\nposition = 0.03\n\
                      [[effects.probe]]\nposition = 0.12\n[solver]\nrelative_tolerance = 1e-9\n";
 
@@ -17,7 +18,7 @@ const ROTOR: &str = "[rotor]\nm = 12.0\nJa = 0.04\nJt = 0.12\n\
 const PLACES: [f64; 2] = [-0.12, 0.12];
 
 /// How long a run is [s].
-const SPAN: f64 = 0.05;
+pub const SPAN: f64 = 0.05;
 
 /// A model of a bearing: what it answers to a place and its velocity, and how its own states go on under these.
 trait Bearing {
@@ -113,7 +114,7 @@ impl Bearing for Pedestal {
 }
 
 /// A rotor without bearings, with a probe, and two partners.
-struct Pair {
+pub struct Pair {
     rotor: String,
     places: [f64; 2],
     bearings: Box<dyn Fn() -> [Box<dyn Bearing>; 2]>,
@@ -128,21 +129,37 @@ impl Pair {
         }
     }
 
-    fn linear() -> Self {
+    /// Where the partners are \[m].
+    pub fn places(&self) -> [f64; 2] {
+        self.places
+    }
+
+    pub fn linear() -> Self {
         Self::new(format!("{ROTOR}[start]\nomega.x = 1500.0\n"), PLACES, Linear::pair())
     }
 
-    fn journals() -> Self {
+    pub fn journals() -> Self {
         let start = "[start]\nomega.x = 600.0\nr_c = { y = 5e-6, z = -10e-6 }\n";
         Self::new([ROTOR, start].concat(), PLACES, [Journal, Journal])
     }
 
-    fn pedestals() -> Self {
+    pub fn pedestals() -> Self {
         Self::new(format!("{ROTOR}[start]\nomega.x = 1500.0\n"), PLACES, [(); 2].map(|()| Pedestal::default()))
     }
 
     /// Where the probe goes, at each communication point \[m], where each port has these lines and the scene these besides.
-    fn coupled(&self, [ports, other]: [&str; 2], h: f64, late: bool, span: f64) -> Vec<[f64; 2]> {
+    pub fn coupled(&self, lines: [&str; 2], h: f64, late: bool, span: f64) -> Vec<[f64; 2]> {
+        self.watched(lines, h, late, span).0
+    }
+
+    /// The same, and at which communication step the coupling was found to be wrong, and how.
+    pub fn watched(
+        &self,
+        [ports, other]: [&str; 2],
+        h: f64,
+        late: bool,
+        span: f64,
+    ) -> (Vec<[f64; 2]>, Option<(usize, Coupling)>) {
         let port = |place: &f64| format!("[[effects.port]]\nposition = {place:?}\n{ports}");
         let mut named =
             Named::started(&format!("{}{}{}{other}", self.rotor, port(&self.places[0]), port(&self.places[1])));
@@ -151,7 +168,7 @@ impl Pair {
         let shows = |named: &mut Named| [1, 2].map(|n| ["r", "v"].map(|of| named.vector(&format!("port[{n}].{of}"))));
         let mut last = shows(&mut named);
         let steps = (span / h).round() as usize;
-        let mut way = Vec::new();
+        let (mut way, mut found) = (Vec::new(), None);
         for step in 1..=steps {
             let shown = shows(&mut named);
             let answered = if late { &last } else { &shown };
@@ -163,17 +180,19 @@ impl Pair {
                 bearing.step(&shown[n][0], &shown[n][1], h);
             }
             last = shown;
-            if named.simulation.advance(step as f64 * h).is_err() {
-                return vec![[f64::INFINITY; 2]; steps];
+            let goes_on = named.simulation.advance(step as f64 * h).is_ok();
+            found = found.or(named.simulation.coupling().map(|coupling| (step, coupling)));
+            if !goes_on {
+                return (vec![[f64::INFINITY; 2]; steps], found);
             }
             way.push(["y", "z"].map(|axis| named.get(&format!("probe[1].r.{axis}"))));
         }
-        way
+        (way, found)
     }
 }
 
 /// The way of a machine in one model.
-fn whole(text: &str, h: f64, span: f64) -> Vec<[f64; 2]> {
+pub fn whole(text: &str, h: f64, span: f64) -> Vec<[f64; 2]> {
     let mut named = Named::started(text);
     let point = |step: usize| {
         named.simulation.advance(step as f64 * h).expect("a possible motion");
@@ -183,19 +202,19 @@ fn whole(text: &str, h: f64, span: f64) -> Vec<[f64; 2]> {
 }
 
 /// The README's rotor with its own bearings, and its way.
-fn turbo() -> String {
+pub fn turbo() -> String {
     Pair::linear().rotor + &Linear::pair().map(|bearing| bearing.bearing()).concat()
 }
 
-fn way_of_turbo(h: f64) -> Vec<[f64; 2]> {
+pub fn way_of_turbo(h: f64) -> Vec<[f64; 2]> {
     whole(&turbo(), h, SPAN)
 }
 
-const HELD: [&str; 2] = ["learn = false\n", ""];
-const LEARNT: [&str; 2] = ["", ""];
+pub const HELD: [&str; 2] = ["learn = false\n", ""];
+pub const LEARNT: [&str; 2] = ["", ""];
 
 /// The largest distance between two ways in all of the run and in its last tenth, over the largest motion [1].
-fn apart(way: &[[f64; 2]], exact: &[[f64; 2]]) -> [f64; 2] {
+pub fn apart(way: &[[f64; 2]], exact: &[[f64; 2]]) -> [f64; 2] {
     let size = exact.iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
     let off = |from: usize| {
         let pairs = way[from..].iter().flatten().zip(exact[from..].iter().flatten());
@@ -205,7 +224,7 @@ fn apart(way: &[[f64; 2]], exact: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// The way at every so many of these points.
-fn every(way: &[[f64; 2]], steps: usize) -> Vec<[f64; 2]> {
+pub fn every(way: &[[f64; 2]], steps: usize) -> Vec<[f64; 2]> {
     way.iter().skip(steps - 1).step_by(steps).copied().collect()
 }
 
@@ -300,10 +319,10 @@ fn what_a_script_sets_is_not_made_worse() {
 }
 
 /// So many pairs are drawn.
-const DRAWN: u64 = 60;
+pub const DRAWN: u64 = 60;
 
 /// A rotor in two bearings with cross coupling, at a step of a hundredth to a whole part of its fastest vibration's radian, late or not.
-fn drawn(number: u64) -> (Pair, String, f64, bool) {
+pub fn drawn(number: u64) -> (Pair, String, f64, bool) {
     let mut dice = Dice::new(0x4_2c0 + number);
     let (m, radius) = (dice.decades(0.5, 500.0), dice.decades(0.03, 0.5));
     let (across, rate) = (m * radius * radius, dice.decades(50.0, 3000.0));
@@ -351,6 +370,14 @@ fn ordinary_drawn_bearings_are_learnt() {
     assert!(quartered >= QUARTERED, "{quartered}");
 }
 
+/// Two sines of a script, whose steps are of this length \[s]: forces \[N] by time \[s].
+pub fn drawn_script(number: u64, h: f64) -> impl Fn(f64) -> f64 {
+    let mut dice = Dice::new(0x5_c21 + number);
+    let sines: [[f64; 3]; 2] =
+        std::array::from_fn(|_| [dice.within(-1.0, 1.0), dice.decades(0.01, 0.5) / h, dice.within(0.0, 6.3)]);
+    move |t| sines.iter().map(|[size, rate, phase]| 100.0 * size * libm::sin(rate * t + phase)).sum()
+}
+
 /// The same machines with their own bearings, a script pushing the probe's place by two sines at each point: how many times the error of held
 /// forces what is learnt makes of it at most, and on average: measured 2.84 and 1.02.
 const SCRIPTED: f64 = 3.0;
@@ -363,11 +390,7 @@ fn what_drawn_scripts_set_is_not_made_worse() {
     let (mut worst, mut sum) = (0.0_f64, 0.0);
     for number in 0..DRAWN {
         let (pair, text, h, _) = drawn(number);
-        let mut dice = Dice::new(0x5_c21 + number);
-        let sines: [[f64; 3]; 2] =
-            std::array::from_fn(|_| [dice.within(-1.0, 1.0), dice.decades(0.01, 0.5) / h, dice.within(0.0, 6.3)]);
-        let force =
-            |t: f64| sines.iter().map(|[size, rate, phase]| 100.0 * size * libm::sin(rate * t + phase)).sum::<f64>();
+        let force = drawn_script(number, h);
         let run = |learn: bool, parts: usize| {
             let port = format!("[[effects.port]]\nposition = {:?}\nlearn = {learn}\n", pair.places[1]);
             let mut named = Named::started(&format!("{text}{port}"));

@@ -2,7 +2,7 @@
 
 use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
-use crate::effects::{Doubt, Exchange, Law, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
+use crate::effects::{Doubt, Exchange, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
 use crate::error::Invalid;
 use crate::signal::Signal;
 use crate::state::Rates;
@@ -110,8 +110,10 @@ pub trait Block {
     fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange>;
     /// The law of its partner; None of what may have none.
     fn law_mut(&mut self) -> Option<&mut Law>;
-    /// Whether inputs go on as polynomials by it.
-    fn is_followed(&self) -> bool;
+    /// What acts of its inputs from the communication point `t` \[s] on.
+    fn acting(&self, t: f64) -> [Loads; 3];
+    /// The degree of the polynomials as which inputs go on by it.
+    fn order(&self) -> usize;
     /// How many communication steps values of inputs are late, where that is given.
     fn lag(&self) -> Option<f64>;
     /// Shows each of its inputs.

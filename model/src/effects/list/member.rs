@@ -1,6 +1,6 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Doubt, Effect, Entry, Exchange, InputSet, Law, MOST_DOUBTS, MOST_OWN, Motion, Row};
+use super::super::{Doubt, Effect, Entry, Exchange, InputSet, Law, Loads, MOST_DOUBTS, MOST_OWN, Motion, Row};
 use super::{Block, Kind, Tangent};
 use crate::body::Shape;
 use crate::error::Invalid;
@@ -274,8 +274,12 @@ impl<M: Member> Block for M {
         self.effect_mut().law_mut()
     }
 
-    fn is_followed(&self) -> bool {
-        self.effect().is_followed()
+    fn acting(&self, t: f64) -> [Loads; 3] {
+        self.effect().acting(t)
+    }
+
+    fn order(&self) -> usize {
+        self.effect().order()
     }
 
     fn lag(&self) -> Option<f64> {

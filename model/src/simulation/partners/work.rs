@@ -1,0 +1,127 @@
+//! What a coupling does wrong: the work of the loads that acted over a communication step, beside that of the partner's answers.
+
+use super::{Exchanges, POINTS};
+use crate::effects::Law;
+use crate::effects::partner::{LOADS, Loads, Shown};
+use crate::stored::stored;
+use nalgebra::SVector;
+
+/// Work at a port over the last communication steps, of which each counts a little less than the one after it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Work {
+    /// What acts from the last exchange on, as coefficients of the powers of the time since then: inputs alone, without a law.
+    acting: [Loads; POWERS],
+    /// What loads did over the last communication steps, the latest first \[J].
+    done: SVector<f64, POINTS>,
+    /// By how much that was more than the answers would have done, and how much went through \[J].
+    excess: f64,
+    exchanged: f64,
+    /// Over how many steps.
+    steps: u32,
+    /// Whether a law was in force.
+    has_law: bool,
+}
+
+stored!(Work { acting, done, excess, exchanged, steps, has_law });
+
+/// Inputs are polynomials of degree 2.
+pub(super) const POWERS: usize = 3;
+
+/// A step counts by this part of the one after it \[1].
+const FADES: f64 = 0.99;
+
+/// So many steps must be known.
+const LASTING: u32 = 8;
+
+/// Gauss's nodes and weights over a step, exact for the power of a parabola in force and velocity.
+const NODES: [[f64; 2]; 3] =
+    [[0.112_701_665_379_258_3, 5.0 / 18.0], [0.5, 4.0 / 9.0], [0.887_298_334_620_741_7, 5.0 / 18.0]];
+
+impl Work {
+    /// What the inputs are from the last exchange on.
+    pub fn begin(&mut self, acting: [Loads; POWERS]) {
+        self.acting = acting;
+    }
+
+    /// Of a partner that is another from here on.
+    pub fn forget(&mut self) {
+        *self = Self { acting: self.acting, done: self.done, ..Self::default() };
+    }
+
+    /// A law is in force: what held loads did before the first one is past.
+    pub fn follow_law(&mut self) {
+        if !self.has_law {
+            self.forget();
+            self.has_law = true;
+        }
+    }
+
+    /// Counts the communication step that ends with the latest of these exchanges, under this law; the measures of `loads`, whose
+    /// answers are late by `lag` steps.
+    pub fn count(&mut self, exchanges: &Exchanges, law: &Law, loads: &Loads, lag: usize) {
+        let over = |from: usize, power: &dyn Fn(f64, &Path) -> f64| {
+            let path = exchanges.path(from);
+            NODES.iter().map(|[part, weight]| weight * path.step * power(*part, &path)).sum::<f64>()
+        };
+        // ∫ f·v dt, f = Σ f_n s^n + J (x − x_s)
+        let acting = |part: f64, path: &Path| {
+            let s = part * path.step;
+            let mut force = self.acting[0] + (self.acting[1] + self.acting[2] * s) * s;
+            if law.is_on {
+                force += law.change(path.at(part));
+            }
+            force.dot(&path.velocity(part))
+        };
+        let done = over(0, &acting);
+        let all = &mut self.done;
+        all.as_mut_slice().rotate_right(1);
+        all[0] = done;
+        if exchanges.known < lag + 2 {
+            return;
+        }
+        let [to, from] = [exchanges.loads[0], exchanges.loads[1]];
+        let answered =
+            |part: f64, path: &Path| (from + (to - from) * part).component_div(loads).dot(&path.velocity(part));
+        let excess = self.done[lag] - over(lag, &answered);
+        let exchanged = over(lag, &|part, path| answered(part, path).abs());
+        (self.excess, self.exchanged) = (FADES * self.excess + excess, FADES * self.exchanged + exchanged);
+        self.steps += 1;
+    }
+
+    /// The part by which the coupling does too much or too little work, of what goes through \[1]; 0 where that is not known yet.
+    pub fn wrong(&self) -> f64 {
+        let known = self.steps >= LASTING && self.exchanged > 0.0;
+        if known { (self.excess / self.exchanged).abs() } else { 0.0 }
+    }
+}
+
+/// The way from one exchange to the next.
+pub(super) struct Path {
+    pub from: Shown,
+    pub to: Shown,
+    pub step: f64,
+}
+
+impl Path {
+    /// Place and motion after this part of it: Hermite's cubic.
+    fn at(&self, part: f64) -> Shown {
+        let mut at = Shown::zeros();
+        let (rest, velocity) = (1.0 - part, self.velocity(part));
+        for n in 0..LOADS {
+            let bend = rest * self.from[LOADS + n] - part * self.to[LOADS + n];
+            let ends = (1.0 + 2.0 * part) * rest * rest * self.from[n] + part * part * (3.0 - 2.0 * part) * self.to[n];
+            at[n] = ends + part * rest * self.step * bend;
+            at[LOADS + n] = velocity[n];
+        }
+        at
+    }
+
+    /// Its velocity there.
+    fn velocity(&self, part: f64) -> Loads {
+        Loads::from_fn(|n, _| {
+            let [v0, v1] = [self.from[LOADS + n], self.to[LOADS + n]];
+            let mean = (self.to[n] - self.from[n]) / self.step;
+            6.0 * part * (1.0 - part) * mean + (1.0 - part) * (1.0 - 3.0 * part) * v0 + part * (3.0 * part - 2.0) * v1
+        })
+    }
+}
