@@ -36,7 +36,7 @@ pub use rattle::Rattle;
 pub use tangents::Tangents;
 pub use unheld::Unheld;
 
-use crate::effects::{Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
+use crate::effects::{Block, Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::taylor::Scratch;
@@ -389,15 +389,15 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// Whether the exchange with partners is wrong, where inputs are exchanged after this step \[s].
     fn look_at_coupling(&mut self, motion: &Kinematics<f64>, step: f64) {
         let Some(Run::Method(integration)) = &self.run else { return };
-        let (lag, partners) = (self.parameters.effects.lag(), &self.partners);
-        let mut seen = vec![None; partners.len()];
-        self.parameters.effects.for_each_partner(|number, block| {
+        let (effects, partners) = (&self.parameters.effects, &self.partners);
+        let lag = effects.lag();
+        let answers = |number: usize, block: &dyn Block| {
             let exchange = block.exchange(&Seen::new(motion, &[])).filter(|_| block.is_active());
-            seen[number] = exchange.and_then(|exchange| partners[number].seen(&exchange, lag));
-        });
+            exchange.and_then(|exchange| partners[number].answers(&exchange, lag))
+        };
         let (frame, t, state) = integration.reached();
+        let found = Coupling::of(&frame.under(effects), t, state, answers, step);
         let wrong = partners.iter().map(Partner::wrong).fold(0.0, f64::max);
-        let found = Coupling::of(&frame.under(&self.parameters.effects), t, state, &seen, step);
         let is_wrong = found.growth > 0.0 || partners.iter().any(Partner::is_wrong);
         self.coupling = is_wrong.then_some(Coupling { wrong, ..found });
     }

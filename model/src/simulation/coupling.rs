@@ -1,8 +1,8 @@
 //! Whether the exchange with partners drives the rotor: the map of one communication step, and the longest steps that would do.
 
 use super::growth::{LINEAR, Linear, Watch, linear};
-use super::partners::{LAGS, Seen};
-use crate::effects::{Effects, Law};
+use super::partners::{Answers, LAGS};
+use crate::effects::{Block, Effects, Law};
 use crate::log::shown;
 use crate::rotor::{Frame, Rotor};
 use crate::stored::stored;
@@ -60,24 +60,29 @@ impl Display for Coupling {
 }
 
 impl Coupling {
-    /// Of a rotor at time `t` \[s] and state `y`, whose partners look so, each by its number, and are answered after every `step` \[s]; its
-    /// growth is 0 where they do not make it grow, or are not known.
+    /// Of a rotor at time `t` \[s] and state `y`, by the answers of its partners, of each by its number, which are given after every `step`
+    /// \[s]; its growth is 0 where they do not make it grow, or are not known. What is wrong is left open.
     pub(super) fn of<E: Effects, const N: usize>(
         rotor: &Rotor<'_, E>,
         t: f64,
         y: &[f64; N],
-        partners: &[Option<Seen>],
+        answers: impl Fn(usize, &dyn Block) -> Option<Answers>,
         step: f64,
     ) -> Self {
         // The balanced rotor: what an unbalance adds turns with it.
         let Frame { body, chart, turns, .. } = rotor.frame;
         let equations = |effects: &E| linear(&Rotor::new(body.symmetric(), effects, chart, turns), t, y);
         let held = equations(rotor.effects);
+        let mut found = Self { t, step, ..Self::default() };
         let answered: [Linear; LAGS] = std::array::from_fn(|lag| {
             let mut effects = rotor.effects.clone();
             effects.for_each_partner(|number, block| {
-                let seen = partners[number].filter(|seen| seen.lag == lag);
-                if let (Some(Seen { slopes, shown, .. }), Some(law)) = (seen, block.law_mut()) {
+                let Some(Answers { slopes, shown, .. }) = answers(number, block).filter(|one| one.lag == lag) else {
+                    return;
+                };
+                let stiffest = (0..FORCES).map(|n| -slopes[(n, n)]).fold(0.0, f64::max);
+                (found.lag, found.stiffness) = (lag as u32, found.stiffness.max(stiffest));
+                if let Some(law) = block.law_mut() {
                     *law = Law { is_on: true, turns: true, slopes, shown, ..Law::default() };
                 }
             });
@@ -86,21 +91,14 @@ impl Coupling {
         let all = held + answered.iter().sum::<Linear>();
         let [_, held, fresh, late] = Watch::scaled([all, held, answered[0], answered[1]], &body);
         let coupled = Coupled { held, answered: [fresh, late] };
-        let seen = || partners.iter().flatten();
-        let lag = seen().map(|seen| seen.lag).max().unwrap_or_default();
-        let stiffest = |seen: &Seen| (0..FORCES).map(|n| -seen.slopes[(n, n)]).fold(0.0, f64::max);
-        let (order, given) = (rotor.effects.order(), rotor.effects.lag().unwrap_or_default());
-        let is_known = seen().count() > 0 && coupled.is_finite();
-        let growth = if is_known { coupled.growth(step, order, given, GROWS) } else { 0.0 };
-        Self {
-            t,
-            step,
-            wrong: 0.0,
-            growth,
-            stiffness: seen().map(stiffest).fold(0.0, f64::max),
-            lag: lag as u32,
-            longest: if growth > 0.0 { coupled.longest(step, lag as f64) } else { [0.0; ORDERS] },
+        if coupled.is_finite() {
+            let lag = rotor.effects.lag().unwrap_or_default();
+            found.growth = coupled.growth(step, rotor.effects.order(), lag, GROWS);
         }
+        if found.growth > 0.0 {
+            found.longest = coupled.longest(step, f64::from(found.lag));
+        }
+        found
     }
 }
 
@@ -151,8 +149,8 @@ impl Coupled {
     /// By what part small motions grow in a step \[s] of the exchange, and not in one model, where inputs go on by `order` and are taken
     /// for late by `lag` \[1]; 0 where that is less than `least`.
     fn growth(&self, step: f64, order: usize, lag: f64, least: f64) -> f64 {
-        let whole = Self { held: self.held + self.answered.iter().sum::<Linear>(), answered: Default::default() };
-        let [coupled, own] = [self, &whole].map(|of| per_application(of.map(step, order, lag)));
+        let coupled = per_application(self.map(step, order, lag));
+        let own = per_application(exponential((self.held + self.answered.iter().sum::<Linear>()) * step));
         if coupled > least && own < OWN * coupled { libm::expm1(coupled) } else { 0.0 }
     }
 
@@ -227,14 +225,15 @@ fn taken(order: usize, lag: f64) -> [[f64; ORDERS]; ORDERS] {
 }
 
 /// e to this matrix.
-fn exponential(matrix: Map) -> Map {
+fn exponential<const D: usize>(matrix: SMatrix<f64, D, D>) -> SMatrix<f64, D, D> {
     let mut halvings = 0;
     let mut small = matrix;
     while small.norm() > SMALL {
         small *= 0.5;
         halvings += 1;
     }
-    let (mut sum, mut term) = (Map::identity(), Map::identity());
+    let mut sum = SMatrix::identity();
+    let mut term = sum;
     for n in 1..=TERMS {
         term = term * small / f64::from(n);
         sum += term;
@@ -246,7 +245,7 @@ fn exponential(matrix: Map) -> Map {
 }
 
 /// How fast a map makes what it is applied to grow, the logarithm a time.
-fn per_application(mut map: Map) -> f64 {
+fn per_application<const D: usize>(mut map: SMatrix<f64, D, D>) -> f64 {
     let mut grown = 0.0;
     for squared in 0..=SQUARINGS {
         let size = map.norm();

@@ -26,15 +26,15 @@ pub(super) struct Partner {
     is_given: bool,
     work: Work,
     /// How often it answered.
-    answers: u32,
+    answered: u32,
 }
 
-stored!(Partner { exchanges, fits, polynomials, law, is_given, work, answers });
+stored!(Partner { exchanges, fits, polynomials, law, is_given, work, answered });
 
 /// A partner as its answers look, where no law of it is in force.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Seen {
-    /// How its loads change with what it is shown.
+pub(super) struct Answers {
+    /// How they change with what it is shown.
     pub slopes: Slopes,
     /// How many communication steps they are late.
     pub lag: usize,
@@ -139,9 +139,9 @@ impl Partner {
         if self.exchanges.add(t, self.law.shows(exchange.at), exchange, &measures) {
             (self.fits, self.polynomials) = Default::default();
             self.work.forget();
-            self.answers = 0;
+            self.answered = 0;
         }
-        self.answers = self.answers.saturating_add(1);
+        self.answered = self.answered.saturating_add(1);
         let known = self.exchanges.known;
         for (degree, missed) in self.polynomials.iter_mut().enumerate() {
             // No polynomial goes through more points than there are.
@@ -178,7 +178,7 @@ impl Partner {
 
     /// Whether the coupling is to be looked at now: it does much work too much or too little.
     pub fn is_doubted(&self) -> bool {
-        self.answers.is_power_of_two() && self.answers >= LOOKED_AT && self.wrong() > LARGE
+        self.answered.is_power_of_two() && self.answered >= LOOKED_AT && self.wrong() > LARGE
     }
 
     /// The part by which the coupling does too much or too little work, of what goes through \[1].
@@ -190,19 +190,19 @@ impl Partner {
     pub fn is_wrong(&self) -> bool {
         let beyond_doubt = match self {
             _ if self.has_learnt() => BEYOND_DOUBT_LEARNT,
-            _ if self.answers >= STEADY => BEYOND_DOUBT_STEADILY,
+            _ if self.answered >= STEADY => BEYOND_DOUBT_STEADILY,
             _ => BEYOND_DOUBT,
         };
         self.wrong() > beyond_doubt
     }
 
-    /// As its answers look; None where a law is in force, or where what it would answer was not predicted well.
-    pub fn seen(&self, exchange: &Exchange, lag: Option<f64>) -> Option<Seen> {
+    /// Its answers as they look; None where a law is in force, or where they were not predicted well.
+    pub fn answers(&self, exchange: &Exchange, lag: Option<f64>) -> Option<Answers> {
         let (lag, fit) = self.best(lags(lag.map(|lag| lag.round() as usize), exchange))?;
         let [held, ..] = self.polynomials;
         let counts = !self.law.is_on && fit.missed < TRUSTED * TRUSTED * held;
         let slopes = Measures::of(exchange).in_units(&fit.slopes);
-        counts.then_some(Seen { slopes, lag, shown: exchange.at })
+        counts.then_some(Answers { slopes, lag, shown: exchange.at })
     }
 
     /// What predicted the last answers best, and by which lag.

@@ -3,6 +3,7 @@
 use crate::harness::named::Named;
 use crate::harness::within;
 use crate::partners::{DRAWN, HELD, LEARNT, Pair, SPAN, apart, drawn, drawn_script, every, turbo, way_of_turbo, whole};
+use split_rotor_model::stored::{from_bytes, to_bytes};
 
 /// Off by more than this of the motion is wrong, and by less than that is right [1].
 const WRONG: f64 = 0.05;
@@ -131,4 +132,69 @@ fn ordinary_calm_is_not_warned_of() {
         }
         assert_eq!(named.simulation.coupling(), None);
     }
+}
+
+/// Held or extrapolated, a step of 1.25 times the longest is found to be wrong, and one of 0.8 times that is not.
+#[test]
+fn ordinary_the_longest_steps_do_and_longer_ones_do_not() {
+    let longest = [(false, [2.0e-4, 4.3e-4, 5.3e-4]), (true, [6.6e-5, 2.05e-4, 2.7e-4])];
+    for (late, longest) in longest {
+        for (order, longest) in longest.into_iter().enumerate() {
+            let lag = u32::from(late);
+            let other = format!("[effects.extrapolation]\norder = {order}\nlag = {lag}.0\n");
+            let found = |part: f64| {
+                let h = part * longest;
+                Pair::linear().watched([HELD[0], &other], h, late, 300.0 * h).1.map(|(step, _)| step)
+            };
+            let [short, long] = [0.8, 1.25].map(found);
+            println!("late: {late}, order {order}: found at {long:?}");
+            assert_eq!(short, None, "late: {late}, order {order}");
+            assert!(long.is_some(), "late: {late}, order {order}");
+        }
+    }
+}
+
+/// A vertical rotor at rest on two partners.
+#[test]
+fn ordinary_a_vertical_rotor_at_rest_is_not_warned_of() {
+    let rotor = "[rotor]\nm = 12.0\nJa = 0.04\nJt = 0.12\n[effects.gravity]\ng = { x = -9.81, y = 0.0, z = 0.0 }\n\
+                 [[effects.probe]]\nposition = 0.12\n";
+    for late in [false, true] {
+        let (_, found) = Pair::held_by_springs(rotor).watched(LEARNT, 1e-4, late, SPAN);
+        assert_eq!(found, None, "late: {late}");
+    }
+}
+
+#[test]
+fn what_is_found_goes_with_the_state() {
+    let text = format!("{}[[effects.port]]\nposition = 0.12\nlearn = false\n", turbo());
+    // A late spring, by what was shown last.
+    let go_on = |named: &mut Named, steps: std::ops::Range<u32>, mut last: f64| {
+        let place = named.place("port[1].f.y");
+        for n in steps {
+            let shown = named.get("port[1].r.y");
+            named.simulation.set_input(place, -1e8 * last);
+            last = shown;
+            named.simulation.advance(f64::from(n + 1) * 1e-4).expect("a possible motion");
+        }
+        last
+    };
+    let restored = |bytes: &[u8]| {
+        let mut named = Named::started(&text);
+        from_bytes(&mut *named.simulation, bytes).expect("whole");
+        named
+    };
+    let mut named = Named::started(&text);
+    let last = go_on(&mut named, 0..10, 0.0);
+    let bytes = to_bytes(&mut *named.simulation);
+    go_on(&mut named, 10..40, last);
+    let found = named.simulation.coupling();
+    assert!(found.is_some());
+    let mut other = restored(&bytes);
+    go_on(&mut other, 10..40, last);
+    assert_eq!(other.simulation.coupling(), found);
+    let mut again = restored(&to_bytes(&mut *other.simulation));
+    assert_eq!(again.simulation.coupling(), found);
+    again.start();
+    assert_eq!(again.simulation.coupling(), None);
 }

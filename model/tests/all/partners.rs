@@ -135,7 +135,11 @@ impl Pair {
     }
 
     pub fn linear() -> Self {
-        Self::new(format!("{ROTOR}[start]\nomega.x = 1500.0\n"), PLACES, Linear::pair())
+        Self::held_by_springs(&format!("{ROTOR}[start]\nomega.x = 1500.0\n"))
+    }
+
+    pub fn held_by_springs(rotor: &str) -> Self {
+        Self::new(rotor.into(), PLACES, Linear::pair())
     }
 
     pub fn journals() -> Self {
