@@ -170,7 +170,7 @@ impl Coupled {
     /// The last points after a communication step, from those before.
     fn map(&self, step: f64, order: usize, lag: f64) -> Map {
         const { assert!(POINTS == 1 + ORDERS, "a motion and its inputs have the room of as many points") };
-        // dx/dt = A x + u₀, du₀/dt = u₁, du₁/dt = u₂ over the step, t in steps
+        // eq. 127: dx/dt = A x + u₀, du₀/dt = u₁, du₁/dt = u₂ over the step, t in steps
         let mut rates = Map::zeros();
         let block = |row: usize, column: usize| (row * LINEAR, column * LINEAR);
         rates.fixed_view_mut::<LINEAR, LINEAR>(0, 0).copy_from(&(self.held * step));

@@ -63,7 +63,7 @@ impl Work {
             let path = exchanges.path(from);
             NODES.iter().map(|[part, weight]| weight * path.step * power(*part, &path)).sum::<f64>()
         };
-        // ∫ f·v dt, f = Σ f_n s^n + J (x − x_s)
+        // eq. 126: ∫ f·v dt, f = Σ f_n s^n + J (x − x_s)
         let acting = |part: f64, path: &Path| {
             let s = part * path.step;
             let mut force = self.acting[0] + (self.acting[1] + self.acting[2] * s) * s;
@@ -82,6 +82,7 @@ impl Work {
         let [to, from] = [exchanges.loads[0], exchanges.loads[1]];
         let answered =
             |part: f64, path: &Path| (from + (to - from) * part).component_div(loads).dot(&path.velocity(part));
+        // eq. 126: ΔW = ∫ (f − a)·v dt
         let excess = self.done[lag] - over(lag, &answered);
         let exchanged = over(lag, &|part, path| answered(part, path).abs());
         (self.excess, self.exchanged) = (FADES * self.excess + excess, FADES * self.exchanged + exchanged);
