@@ -80,6 +80,12 @@ def interpreter(client):
 
 
 @pytest.fixture(scope="session")
+def python_of():
+    """The Python that has a client, by the client's name."""
+    return interpreter
+
+
+@pytest.fixture(scope="session")
 def record(packaged, tmp_path_factory):
     """All calls of a whole run of this client with this scene and these start values, pairs of name and value; each run is
     made once."""
