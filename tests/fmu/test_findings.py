@@ -128,6 +128,30 @@ def test_a_verdict_of_small_motions_says_what_it_leaves_out(findings):
     assert (free.judged, touching.judged) == ("good", "") and touching.what.startswith("while nothing touches, ")
 
 
+def test_regress_a_verdict_of_a_rotor_with_ports_says_that_their_loads_are_held(findings):
+    for ratio in (-0.1, 0.0, 0.1):
+        row = {"mode": 1, "direction": "forward", "frequency_rad_s": 100.0, "damping_ratio": ratio}
+        linear = findings.linear.Linear(modes=[row | {"speed_rad_s": 90.0}], critical=[], thresholds=[], floquet=False)
+        seen = run([80.0, 80.0])
+        assert "ports" not in findings._stability(seen, linear).what
+        seen.scene.blocks = lambda *kinds: ["rotor", "port[2]"]
+        assert "with the loads at its ports held" in findings._stability(seen, linear).what
+
+
+def test_regress_a_picture_of_modes_that_creep_denies_no_growth(findings):
+    """"None of them is damped and none grows" stood below an unstable rotor."""
+    from report import panels
+
+    def caption(ratio):
+        row = {"mode": 1, "direction": "creep", "frequency_rad_s": 0.0, "damping_ratio": ratio}
+        modes = [row | {"speed_rad_s": speed} for speed in (0.0, 90.0)]
+        linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
+        return panels._campbell(run([80.0, 80.0]), linear)["caption"]
+
+    assert caption(0.0).endswith("None of them is damped and none grows.")
+    assert "none grows" not in caption(-1.0) and caption(-1.0).endswith("What creeps or grows without swinging has no decrement.")
+
+
 def test_exact_a_body_that_is_not_symmetric_is_unstable_where_its_revolutions_say_so(findings):
     # Growth of this size is rounding or is not: the linear view knows.
     modes = [{"speed_rad_s": speed, "growth_rate_1_s": 2e-6} for speed in (50.0, 90.0)]

@@ -4,6 +4,7 @@ use crate::effects::{All, Effects};
 use crate::linear::{Machine, stop_drives};
 use crate::log::shown;
 use crate::rotation::{Chart, Tilt};
+use crate::signal::Signal;
 use crate::simulation::Any;
 use crate::state::Kinematics;
 use crate::variable::Place;
@@ -22,6 +23,7 @@ pub(super) type Slopes = SMatrix<f64, NUMBERS, NUMBERS>;
 
 /// What imposes the spin.
 const SPEED: &str = "imposed_speed.w";
+const IMPOSES: &str = "imposed_speed";
 
 /// Tolerance of a revolution, relative \[1], and in nominals \[1]: what only rounding moves would cost a thousand steps.
 const TOLERANCE: [f64; 2] = [1e-10, 1e-13];
@@ -134,6 +136,12 @@ impl Rotating {
         stop_drives(&mut parameters);
         let speed = Parameters::<All>::place(SPEED).expect("the list of all effects has it");
         parameters.effects.switch_on(speed.block);
+        // The scene's run-up is off: at each speed the spin is steady.
+        parameters.effects.for_each(|block| {
+            if block.kind().name == IMPOSES {
+                block.for_each_signal(&mut |signal| *signal = Signal::default());
+            }
+        });
         let setup = &mut parameters.setup;
         let solver = &mut setup.solver;
         (solver.method, solver.method_number) = (numbers::AUTO, 0);

@@ -52,6 +52,18 @@ fn exact_orbit_and_multipliers_of_jeffcotts_rotor() {
     }
 }
 
+/// A speed that the scene runs up with `a` is held here as any other.
+#[test]
+fn regress_a_run_up_is_off_where_the_spin_is_steady() {
+    let text = "[rotor]\nm = 4.9\nJa = 0.15625\nJt = 0.078125\nl = 0.0\n[effects.support]\nc1 = 2000.0\nc2 = 100.0\nd1 = 10.0\nd2 = 0.2\n\
+                [[effects.unbalance]]\nmass = 0.1\nradius = 0.1\nposition = 0.0\n";
+    let run_up = format!("{text}[effects.imposed_speed]\nw = 3.0\na = 40.0\n");
+    for speed in [5.0, 19.9, 40.0] {
+        let [held, run_up] = [text, &run_up].map(|text| found(&rotating(text), speed, None).path(0.0).once);
+        within(&format!("at {speed} rad/s"), apart(&run_up, &held), 1e-8);
+    }
+}
+
 #[test]
 fn exact_multipliers_of_a_body_that_is_not_symmetric() {
     let [a, b, c, spring] = [0.08, 0.05, 0.06, 100.0];

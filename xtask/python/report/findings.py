@@ -153,7 +153,9 @@ def _stability(result, view, touches=False, unheld=""):
     spin = np.clip(spin, min(looked), max(looked))
     row = view.least_damped((spin.min(), spin.max()))
     ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
-    range_ = _range(spin)
+    # A partner at a port may hold what nothing else does.
+    held = ", with the loads at its ports held" if any(block.startswith("port[") for block in result.scene.blocks()) else ""
+    range_ = _range(spin) + held
     if abs(ratio) <= linear.NEITHER:
         return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}; {_looked(view, spin)}")
     size = linear.decrement(ratio)
@@ -165,7 +167,7 @@ def _stability(result, view, touches=False, unheld=""):
         )
         in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
         grows = f"grows by e in {in_}" if in_ else "grows"
-        return Finding("unstable", f"{row['direction']} mode {grows} {at}, {how}{bounds}", "bad")
+        return Finding("unstable", f"{row['direction']} mode {grows} {at}{held}, {how}{bounds}", "bad")
     what = f"at {range_}; least {how}, {row['direction']} mode {at}; {_looked(view, spin)}"
     if unheld:
         return Finding("no mode grows", f"beside the directions in which nothing holds the rotor, {what}")

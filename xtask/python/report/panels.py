@@ -61,8 +61,10 @@ def _campbell(result, view):
     caption = "Modes about the steady state against the speed; dots are critical speeds."
     if len(plots) == 2:
         caption += " Below zero, a mode grows by itself."
-    else:
+    elif all(abs(row["damping_ratio"]) <= linear.NEITHER for row in view.modes):
         caption += " None of them is damped and none grows."
+    else:
+        caption += " What creeps or grows without swinging has no decrement."
     return lines("Campbell diagram", caption, ("speed [rpm]", speeds * RPM), *plots)
 
 
