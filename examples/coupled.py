@@ -8,6 +8,7 @@ the forces, where they go by what they learn, and where the bearings' coefficien
 """
 
 import sys
+from functools import partial
 from tempfile import TemporaryDirectory
 
 import numpy as np
@@ -105,16 +106,18 @@ def coupled(path, step, values):
     return np.array(way)
 
 
-def main(path):
+def compare(steps, whole, coupled):
+    """Prints the errors at these steps [s] of `coupled`, called with a step and values of the ports, beside `whole`, called with a step."""
     held = {f"port[{n}].learn": False for n in (1, 2)}
     print(f"{'step [s]':>9} {'held':>8} {'learnt':>8} {'given':>8}")
-    for step in STEPS:
-        exact = whole(path, step)
+    for step in steps:
+        exact = whole(step)
         tenth = -max(1, len(exact) // 10)
-        ways = [coupled(path, step, values) for values in (held, {}, coefficients("port"))]
+        ways = [coupled(step, values) for values in (held, {}, coefficients("port"))]
         errors = [np.abs(way - exact)[tenth:].max() / np.abs(exact).max() for way in ways]
         print(f"{step:9.0e} " + " ".join(f"{error:8.1e}" for error in errors))
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    (fmu,) = sys.argv[1:]
+    compare(STEPS, partial(whole, fmu), partial(coupled, fmu))

@@ -11,6 +11,7 @@ happens; examples/coupled.py does the same without a master.
 
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -22,7 +23,7 @@ from libcosimpy.CosimSlave import CosimLocalSlave
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from coupled import AXES, DAMPING, PLACES, PROBE, ROTOR, SPAN, STIFFNESS, coefficients  # noqa: E402
+from coupled import AXES, DAMPING, PLACES, PROBE, ROTOR, SPAN, STIFFNESS, coefficients, compare  # noqa: E402
 
 STEPS = (2e-4, 1e-4)  # [s]
 NANOSECONDS = 1e9  # [1/s], the unit of libcosim's clock
@@ -102,14 +103,7 @@ def main(fmu):
             stdout=subprocess.DEVNULL,
         )
         bearing = Path(folder) / "Bearing.fmu"
-        held = {f"port[{n}].learn": False for n in (1, 2)}
-        print(f"{'step [s]':>9} {'held':>8} {'learnt':>8} {'given':>8}")
-        for step in STEPS:
-            exact = whole(fmu, step)
-            tenth = -len(exact) // 10
-            ways = [coupled(fmu, bearing, step, values) for values in (held, {}, coefficients("port"))]
-            errors = [np.abs(way - exact)[tenth:].max() / np.abs(exact).max() for way in ways]
-            print(f"{step:9.0e} " + " ".join(f"{error:8.1e}" for error in errors))
+        compare(STEPS, partial(whole, fmu), partial(coupled, fmu, bearing))
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ def run(speeds, **columns):
     table = np.zeros(101, dtype=[(name, float) for name in columns])
     for name, values in columns.items():
         table[name] = values
-    scene = SimpleNamespace(blocks=lambda *kinds: ["rub[1]"], value=lambda name: 0.01)
+    scene = SimpleNamespace(blocks=lambda *kinds: [] if "port" in kinds else ["rub[1]"], value=lambda name: 0.01)
     return SimpleNamespace(columns=table, scene=scene)
 
 

@@ -23,7 +23,6 @@ pub(super) type Slopes = SMatrix<f64, NUMBERS, NUMBERS>;
 
 /// What imposes the spin.
 const SPEED: &str = "imposed_speed.w";
-const IMPOSES: &str = "imposed_speed";
 
 /// Tolerance of a revolution, relative \[1], and in nominals \[1]: what only rounding moves would cost a thousand steps.
 const TOLERANCE: [f64; 2] = [1e-10, 1e-13];
@@ -137,11 +136,8 @@ impl Rotating {
         let speed = Parameters::<All>::place(SPEED).expect("the list of all effects has it");
         parameters.effects.switch_on(speed.block);
         // The scene's run-up is off: at each speed the spin is steady.
-        parameters.effects.for_each(|block| {
-            if block.kind().name == IMPOSES {
-                block.for_each_signal(&mut |signal| *signal = Signal::default());
-            }
-        });
+        let imposes = parameters.effects.at_mut(speed).expect("its place is known");
+        imposes.for_each_signal(&mut |signal| *signal = Signal::default());
         let setup = &mut parameters.setup;
         let solver = &mut setup.solver;
         (solver.method, solver.method_number) = (numbers::AUTO, 0);

@@ -38,7 +38,7 @@ impl Display for Coupling {
         write!(
             f,
             "the exchange with the models at the ports is wrong at communication steps of {step:?} s: until t = {t:?} s the work of the loads \
-             was off by {:.0} % of what went through",
+             was off by {:.0} % of the work exchanged",
             100.0 * wrong
         )?;
         if *growth > 0.0 {
@@ -46,7 +46,7 @@ impl Display for Coupling {
             write!(
                 f,
                 ", and small motions grow by {:.1} % a step. The models answer like springs of {:.2e} N/m, {lag} {steps} late. The longest \
-                 steps that would do: {held:?} s; with effects.extrapolation, its lag = {lag} and its order = 1: {line:?} s, order = 2: \
+                 steps at which nothing grows by more than 0.01 % a step: {held:?} s; with effects.extrapolation, its lag = {lag} and its order = 1: {line:?} s, order = 2: \
                  {parabola:?} s",
                 100.0 * growth,
                 stiffness
@@ -130,7 +130,7 @@ const ROUNDING: f64 = 1e-4;
 /// What grows in one model by more than this part of it is no fault of the exchange \[1].
 const OWN: f64 = 0.5;
 
-/// Squared so often, a map shows how fast it grows.
+/// Number of squarings after which the growth of a map is known.
 const SQUARINGS: u32 = 18;
 
 /// Steps are sought over this range about that of now \[1], in so many bisections.

@@ -102,13 +102,13 @@ const TRUSTED: f64 = 0.3;
 /// So many exchanges must be known before a fit is trusted.
 const ENOUGH: usize = 6;
 
-/// A coupling is looked at after so many answers, and whenever these have doubled.
+/// Number of answers after which a coupling is checked; it is checked again whenever that number has doubled.
 const LOOKED_AT: u32 = 16;
 
-/// Where it does so much work too much or too little, of what goes through \[1].
+/// Error of the work at a port, relative to the work exchanged, from which on the coupling is checked \[1].
 const LARGE: f64 = 0.15;
 
-/// That alone is beyond doubt from this part on \[1]: in a short run, after so many answers, and under a law that was learnt.
+/// Error that proves a wrong coupling by itself \[1]: in a short run, after [`STEADY`] answers, and under a learnt law.
 const BEYOND_DOUBT: f64 = 0.7;
 const STEADY: u32 = 64;
 const BEYOND_DOUBT_STEADILY: f64 = 0.4;
@@ -148,7 +148,7 @@ impl Partner {
             let points = (degree + 1).min(known - 1);
             *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
         }
-        let lag = lag.map(|lag| (lag.round() as usize).min(POINTS - 1));
+        let lag = in_steps(lag);
         let lags = lags(lag, exchange);
         let given = exchange.given.map(|slopes| measures.measured(&slopes));
         for lag in lags.clone().filter(|_| known > 1) {
@@ -198,7 +198,7 @@ impl Partner {
 
     /// Its answers as they look; None where a law is in force, or where they were not predicted well.
     pub fn answers(&self, exchange: &Exchange, lag: Option<f64>) -> Option<Answers> {
-        let (lag, fit) = self.best(lags(lag.map(|lag| lag.round() as usize), exchange))?;
+        let (lag, fit) = self.best(lags(in_steps(lag), exchange))?;
         let [held, ..] = self.polynomials;
         let counts = !self.law.is_on && fit.missed < TRUSTED * TRUSTED * held;
         let slopes = Measures::of(exchange).in_units(&fit.slopes);
@@ -235,6 +235,11 @@ impl Partner {
         let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
         Some(Law { is_on: true, turns, slopes, shown: self.exchanges.shown[lag], ..Law::default() })
     }
+}
+
+/// A lag that is given, in whole communication steps, of which no more are remembered.
+fn in_steps(lag: Option<f64>) -> Option<usize> {
+    lag.map(|lag| (lag.round() as usize).min(POINTS - 1))
 }
 
 /// By how many steps answers may be late, where `lag` is given or not; none that is fitted where it is later.

@@ -154,7 +154,7 @@ def _stability(result, view, touches=False, unheld=""):
     row = view.least_damped((spin.min(), spin.max()))
     ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
     # A partner at a port may hold what nothing else does.
-    held = ", with the loads at its ports held" if any(block.startswith("port[") for block in result.scene.blocks()) else ""
+    held = ", with the loads at its ports held" if result.scene.blocks("port") else ""
     range_ = _range(spin) + held
     if abs(ratio) <= linear.NEITHER:
         return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}; {_looked(view, spin)}")

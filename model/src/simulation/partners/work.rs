@@ -30,7 +30,7 @@ pub(super) const POWERS: usize = 3;
 /// A step counts by this part of the one after it \[1].
 const FADES: f64 = 0.99;
 
-/// So many steps must be known.
+/// Minimum number of steps.
 const LASTING: u32 = 8;
 
 /// Gauss's nodes and weights over a step, exact for the power of a parabola in force and velocity.
