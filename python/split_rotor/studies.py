@@ -76,7 +76,7 @@ class Campbell(Study):
 
     @property
     def modes(self) -> Columns:
-        """A row for each mode at each speed: speed, number, frequency, damping ratio, direction."""
+        """A row for each mode at each speed: speed, number, frequency, damping ratio, direction, growth."""
         return Columns(self.data["modes"])
 
     @property

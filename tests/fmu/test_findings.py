@@ -27,6 +27,12 @@ def run(speeds, **columns):
     return SimpleNamespace(columns=table, scene=scene)
 
 
+def mode(**numbers):
+    """A row of a mode that swings at 100 rad/s and dies out."""
+    row = {"mode": 1, "direction": "forward", "frequency_rad_s": 100.0, "damping_ratio": 0.1, "growth_rate_1_s": -10.0}
+    return row | numbers
+
+
 def view(findings, **crossing):
     """A linear view with one critical speed, at 200 rad/s."""
     crossing = {"speed_rad_s": 200.0, "damping_ratio": 0.05, "direction": "forward", "sense": 1.0} | crossing
@@ -91,7 +97,8 @@ def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(fi
     rate, swing = 0.4, 20.0
     ratio = -rate / np.hypot(rate, swing)
     row = {"mode": 1, "direction": "forward", "frequency_rad_s": swing}
-    modes = [row | {"speed_rad_s": speed, "damping_ratio": ratio if speed > 40.0 else 0.1} for speed in (0.0, 30.0, 60.0)]
+    quiet, grown = ({"damping_ratio": 0.1, "growth_rate_1_s": -2.0}, {"damping_ratio": ratio, "growth_rate_1_s": rate})
+    modes = [row | {"speed_rad_s": speed} | (grown if speed > 40.0 else quiet) for speed in (0.0, 30.0, 60.0)]
     linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[(40.0, "above", 1)], floquet=False)
     found = findings._stability(run([0.0, 60.0]), linear)
     assert found.judged == "bad" and "forward mode grows by e in 2.5\u00a0s at 573\u00a0rpm" in found.what
@@ -100,6 +107,27 @@ def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(fi
     linear.thresholds.append((50.0, "above", 2))
     assert findings._stability(run([60.0, 60.0]), linear).what.endswith("it grows above 382\u00a0rpm; another grows above 477\u00a0rpm")
     assert findings._stability(run([0.0, 30.0]), linear).judged == "good"
+
+
+def test_regress_the_growth_that_is_told_is_the_fastest_of_all_modes(findings):
+    """Modes that creep have a damping ratio of -1, each of them: the first one was told, which grew by e in 27.5 ms, for one of 3.04 ms."""
+    rates = {1: [36.4, 10.0], 2: [20.0, 329.0], 3: [-5.0, 100.0]}
+    rows = [(number, speed, rate) for number, both in rates.items() for speed, rate in zip((0.0, 100.0), both, strict=True)]
+    creep = {"direction": "creep", "frequency_rad_s": 0.0}
+    modes = [creep | {"mode": n, "speed_rad_s": at, "growth_rate_1_s": r, "damping_ratio": -np.sign(r)} for n, at, r in rows]
+    modes += [mode(mode=4, direction="axial", speed_rad_s=speed, damping_ratio=-0.5, growth_rate_1_s=50.0) for speed in (0.0, 100.0)]
+    linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
+    found = findings._stability(run([0.0, 100.0]), linear)
+    assert (found.value, found.what) == ("unstable", "creep mode grows by e in 3.04\u00a0ms at 955\u00a0rpm, without swinging")
+    # Between two speeds that were looked at, and where a mode along the axis is the fastest.
+    assert "grows by e in 5.73\u00a0ms at 477\u00a0rpm" in findings._stability(run([50.0, 50.0]), linear).what
+    assert findings._stability(run([0.0, 0.0]), linear).what.startswith("axial mode grows by e in 20\u00a0ms at 0\u00a0rpm")
+
+
+def test_regress_a_rotor_that_turns_backwards_is_told(findings):
+    assert findings._backwards(run([0.0, 90.0])) is None
+    assert findings._backwards(run([-90.0, -80.0])).what.endswith("(ω_φ < 0) in this run; speeds are shown by their size")
+    assert "in part of this run" in findings._backwards(run([-10.0, 80.0])).what
 
 
 def test_exact_a_rotor_at_rest_that_leans_far_is_told(findings):
@@ -122,7 +150,7 @@ def test_exact_contact_is_told_with_its_first_time_and_gap(findings):
 
 
 def test_a_verdict_of_small_motions_says_what_it_leaves_out(findings):
-    modes = [{"mode": 1, "direction": "forward", "speed_rad_s": speed, "frequency_rad_s": 100.0, "damping_ratio": 0.1} for speed in (0.0, 90.0)]
+    modes = [mode(speed_rad_s=speed) for speed in (0.0, 90.0)]
     linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
     free, touching = (findings._stability(run([0.0, 80.0]), linear, touches) for touches in (False, True))
     assert (free.judged, touching.judged) == ("good", "") and touching.what.startswith("while nothing touches, ")
@@ -130,7 +158,7 @@ def test_a_verdict_of_small_motions_says_what_it_leaves_out(findings):
 
 def test_regress_a_verdict_of_a_rotor_with_ports_says_that_their_loads_are_held(findings):
     for ratio in (-0.1, 0.0, 0.1):
-        row = {"mode": 1, "direction": "forward", "frequency_rad_s": 100.0, "damping_ratio": ratio}
+        row = mode(damping_ratio=ratio, growth_rate_1_s=-100.0 * ratio)
         linear = findings.linear.Linear(modes=[row | {"speed_rad_s": 90.0}], critical=[], thresholds=[], floquet=False)
         seen = run([80.0, 80.0])
         assert "ports" not in findings._stability(seen, linear).what
@@ -176,8 +204,7 @@ def test_exact_the_largest_deflection_is_that_of_the_run_or_else_said_to_be_a_sa
 
 def test_regress_a_rotor_that_nothing_holds_is_not_called_stable(findings):
     """It drifted by 12.6 mm under a green "stable"."""
-    row = {"mode": 1, "direction": "forward", "damping_ratio": 0.05, "frequency_rad_s": 100.0}
-    modes = [row | {"speed_rad_s": speed} for speed in (0.0, 600.0)]
+    modes = [mode(speed_rad_s=speed) for speed in (0.0, 600.0)]
     linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
     words = "nothing holds the rotor along z (any push there moves it away)"
     held = findings._stability(run([100.0, 300.0]), linear)
@@ -238,7 +265,7 @@ def test_regress_no_picture_is_drawn_of_a_run_up_in_which_nothing_whirls(monkeyp
 
 def test_exact_a_verdict_says_at_how_many_speeds_it_was_looked_at(findings):
     speeds = np.linspace(0.0, 90.0, 10)
-    modes = [{"mode": 1, "direction": "forward", "speed_rad_s": speed, "frequency_rad_s": 100.0, "damping_ratio": 0.1} for speed in speeds]
+    modes = [mode(speed_rad_s=speed) for speed in speeds]
     linear = findings.linear.Linear(modes=modes, critical=[], thresholds=[], floquet=False)
     assert findings._stability(run([0.0, 45.0]), linear).what.endswith("; looked at 5 speeds within those of the run")
     modes = [{"speed_rad_s": speed, "growth_rate_1_s": -1.0} for speed in speeds]

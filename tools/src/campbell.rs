@@ -97,12 +97,22 @@ impl Diagram<'_> {
         let above = points.iter().find(|point| point.speed > threshold.speed);
         if above.is_some_and(|point| point.mode.grows()) { "above" } else { "below" }
     }
+
+    /// Each mode at each speed, with the number of its branch.
+    fn points(&self) -> impl Iterator<Item = (usize, &Point)> {
+        let branches = self.campbell.branches.iter().enumerate();
+        branches.flat_map(|(branch, of)| of.points.iter().map(move |point| (branch, point)))
+    }
+
+    /// The mode that grows fastest at any of the speeds, and the number of its branch; None where none grows.
+    fn fastest_growth(&self) -> Option<(usize, &Point)> {
+        let growing = self.points().filter(|(_, point)| point.mode.grows());
+        growing.max_by(|(_, a), (_, b)| a.mode.eigenvalue.re.total_cmp(&b.mode.eigenvalue.re))
+    }
 }
 
 /// A row for each mode at each speed.
 fn modes(diagram: &Diagram) -> Vec<rows::Row> {
-    let branches = diagram.campbell.branches.iter().enumerate();
-    let all = branches.flat_map(|(branch, of)| of.points.iter().map(move |point| (branch, point)));
     let row = |(branch, point): (usize, &Point)| {
         vec![
             ("speed_rad_s", json!(point.speed)),
@@ -110,9 +120,10 @@ fn modes(diagram: &Diagram) -> Vec<rows::Row> {
             ("frequency_rad_s", json!(point.mode.frequency())),
             ("damping_ratio", json!(point.mode.damping_ratio())),
             ("direction", json!(point.mode.direction.name())),
+            ("growth_rate_1_s", json!(point.mode.eigenvalue.re)),
         ]
     };
-    all.map(row).collect()
+    diagram.points().map(row).collect()
 }
 
 fn json(diagram: &Diagram) -> Value {
@@ -124,7 +135,7 @@ fn json(diagram: &Diagram) -> Value {
             "damping_ratio": crossing.mode.damping_ratio(),
             "direction": crossing.mode.direction.name(),
             "sense": crossing.mode.sense,
-            "held": doubts::held(diagram.scene, crossing.speed),
+            "held": doubts::held(diagram.scene, [crossing.speed; 2]),
         })
     };
     let threshold = |one: &Crossing| {

@@ -11,16 +11,21 @@ pub fn of(scene: &Scene, speeds: [f64; 2]) -> Vec<(String, Doubt)> {
     all
 }
 
-/// The effects whose coefficients are held at a speed [rad/s], beyond or below their tables.
-pub fn held(scene: &Scene, speed: f64) -> Vec<String> {
-    let all = of(scene, [speed; 2]);
+/// The effects whose coefficients are held at a speed from the first to the second of these [rad/s], beyond or below their tables.
+pub fn held(scene: &Scene, speeds: [f64; 2]) -> Vec<String> {
+    let all = of(scene, speeds);
     let is_held = |doubt: &Doubt| !matches!(doubt, Doubt::Backward { .. });
     all.into_iter().filter(|(_, doubt)| is_held(doubt)).map(|(block, _)| block).collect()
 }
 
 /// What marks a speed [rad/s] in a table, where coefficients are held.
 pub fn mark(scene: &Scene, speed: f64) -> &'static str {
-    if held(scene, speed).is_empty() { "" } else { " *" }
+    mark_within(scene, [speed; 2])
+}
+
+/// What marks what is said of all speeds from the first to the second of these [rad/s], where coefficients are held at any of them.
+pub fn mark_within(scene: &Scene, speeds: [f64; 2]) -> &'static str {
+    if held(scene, speeds).is_empty() { "" } else { " *" }
 }
 
 /// A table of these speeds [rad/s], in Markdown, with what is doubtful of it below; as it is where every law is known.
@@ -53,11 +58,12 @@ mod tests {
         let table = "[rotor]\nm = 5.0\nJa = 0.1\nJt = 0.12\n[[effects.bearing]]\nposition = 0.0\nspeed = [10, 90]\nkyy = [1e6, 2e6]\n\
                      [[effects.bearing]]\nposition = 0.0\nspeed = [0, 50]\nkyy = [1e6, 2e6]\n";
         let scene = Scene::parse(Path::new("table.toml"), table).expect("a scene");
-        let held = [5.0, 10.0, 50.0, 60.0, -60.0, 100.0].map(|speed| held(&scene, speed));
+        let held = [5.0, 10.0, 50.0, 60.0, -60.0, 100.0].map(|speed| held(&scene, [speed; 2]));
         let expected: [&[&str]; 6] =
             [&["bearing[1]"], &[], &[], &["bearing[2]"], &["bearing[2]"], &["bearing[1]", "bearing[2]"]];
         assert_eq!(held, expected);
         assert_eq!([mark(&scene, 20.0), mark(&scene, 60.0)], ["", " *"]);
+        assert_eq!([mark_within(&scene, [20.0, 40.0]), mark_within(&scene, [20.0, 60.0])], ["", " *"]);
         let of = |speeds: &[f64]| below("| 1 |\n".into(), &scene, speeds);
         assert_eq!(of(&[10.0, 20.0, 50.0]), "| 1 |\n");
         let doubtful = of(&[0.0, 95.0]);

@@ -11,10 +11,19 @@ use nalgebra::{Complex, ComplexField};
 use serde_json::json;
 use split_rotor_model::linear::{Obstacle, Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
+use split_rotor_tools::doubts;
 use std::path::Path;
 
 /// Outputs that tell how fast the rotor spins.
 const OF_SPIN: [&str; 3] = ["omega_phi", "omega.x", "K_c.x"];
+
+/// Outputs that tell how far it has turned.
+const TURNED: [&str; 3] = ["phi", "turns", "angle"];
+
+/// How the names of inputs end that act about the axis.
+const ABOUT_THE_AXIS: &str = ".m.x";
+
+const HELD: &str = "The linear view holds the spin";
 
 /// What the command found.
 struct Found {
@@ -49,11 +58,15 @@ impl Found {
 
     /// That the spin is held, and what a free one would do.
     fn held_spin(&self) -> String {
+        let from = &self.space.inputs[self.from].name;
+        if !from.ends_with(ABOUT_THE_AXIS) {
+            return format!("{HELD}, and {from} does not act about the axis");
+        }
         let per = split_rotor_tools::scenes::values(&self.scene)("rotor.Ja")
             .map_or_else(String::new, |axial| format!(" = 1/(i Omega {axial:?} kg.m2)"));
         format!(
-            "The linear view holds the spin: what keeps it constant takes up every torque about the axis. A spin that nothing else holds would \
-             answer a moment about the axis with 1/(i Omega Ja){per}; run the scene with that input to see it"
+            "{HELD}: what keeps it constant takes up every torque about the axis. A spin that nothing else holds would answer {from} with \
+             1/(i Omega Ja){per}; run the scene with that input to see it"
         )
     }
 
@@ -118,7 +131,9 @@ fn number(option: &str, name: &str, of: &[Quantity], kind: &str) -> Result<usize
         ),
         false => {
             let meant = known::meant(name, of.iter().map(|one| &*one.name));
-            format!("{option} {name}: no such {kind}{meant}; it can be {}", known())
+            let held =
+                if TURNED.contains(&name) { format!(". {HELD}, so {name} answers nothing") } else { String::new() };
+            format!("{option} {name}: no such {kind}{meant}; it can be {}{held}", known())
         }
     })
 }
@@ -132,6 +147,7 @@ fn write(found: &Found, out: Option<&Path>) -> Result<()> {
         "from": found.space.inputs[found.from].name,
         "to": found.space.outputs[found.to].name,
         "unit": found.unit(),
+        "held": doubts::held(&found.scene, [found.space.steady.speed; 2]),
         "peaks": sheets::objects(self::rows(&found.peaks)),
         "responses": sheets::objects(rows.clone()),
     });
@@ -169,9 +185,19 @@ mod tests {
             [[effects.port]]\nposition = 0.1\n";
         std::fs::write(&file, scene).expect("a file");
         let file = file.display().to_string();
-        let refused = frequency(&file, None, ["port[1].m.x", "omega_phi"], None, 3, Some(&folder));
-        let words = refused.expect_err("the spin is held").to_string();
+        let refused = |from: &str, to: &str| {
+            let refused = frequency(&file, None, [from, to], None, 3, Some(&folder));
+            format!("{:#}", refused.expect_err("the spin is held"))
+        };
+        let words = refused("port[1].m.x", "omega_phi");
         assert!(words.contains("port[1].m.x does not move omega_phi in the linear view"), "{words}");
-        assert!(words.contains("The linear view holds the spin"), "{words}");
+        assert!(words.contains("The linear view holds the spin: what keeps it"), "{words}");
+        let across = refused("port[1].m.y", "omega_phi");
+        assert!(
+            across.ends_with("The linear view holds the spin, and port[1].m.y does not act about the axis"),
+            "{across}"
+        );
+        let turned = refused("port[1].m.x", "phi");
+        assert!(turned.ends_with("The linear view holds the spin, so phi answers nothing"), "{turned}");
     }
 }

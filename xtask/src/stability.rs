@@ -230,6 +230,28 @@ mod tests {
         assert!(table.contains("at all these speeds") && !table.contains("none of these"), "{table}");
     }
 
+    /// Cross stiffness at one of two bearings, without damping: at standstill one mode grows, beyond it two. Two rows told of a threshold at 0.
+    #[test]
+    fn regress_the_first_speed_is_no_threshold_where_a_mode_grows_already() {
+        let bearing = |at: &str, cross: f64| {
+            format!(
+                "[[effects.bearing]]\nposition = {at}\nkyy = 16842.7\nkzz = 16842.7\nkyz = {cross:?}\nkzy = {:?}\n",
+                -cross
+            )
+        };
+        let text =
+            format!("[rotor]\nm = 6.0\nJa = 0.1\nJt = 0.06\n{}{}", bearing("0.1", 0.0), bearing("-0.1", 16842.7));
+        let scene = Scene::parse(Path::new("cross.toml"), &text).expect("a scene");
+        let against = Against { name: "bearing[1].kyz", values: [0.0, 3368.5].map(Given::from), count: 3 };
+        let map = map(scene, &against, Some([0.0, 628.0]), 61).expect("a map");
+        let at_first = |column: &&Column| column.thresholds.iter().any(|at| at.speed < 1e-6);
+        assert!(map.columns.iter().any(|column| at_first(&column)), "no threshold is at the first speed");
+        let table = table::table(&map);
+        let rows: Vec<_> = table.lines().filter(|line| line.starts_with("| ")).collect();
+        assert!(rows.iter().all(|row| !row.contains("on both sides | 0 |")), "{table}");
+        assert!(rows.windows(2).all(|pair| pair[0] != pair[1]), "{table}");
+    }
+
     #[test]
     fn a_parameter_that_is_not_there_is_named_with_those_that_are() {
         let error = |name, values: [f64; 2]| {

@@ -7,6 +7,7 @@ use nalgebra::{Dim, Matrix, RawStorage};
 use serde_json::{Value, json};
 use split_rotor_model::linear::{Machine, Quantity, StateSpace};
 use split_rotor_model::scene::Scene;
+use split_rotor_tools::doubts;
 use std::iter::once;
 use std::path::Path;
 
@@ -19,7 +20,7 @@ pub fn state_space(scene: &str, speed: Option<f64>, out: Option<&Path>) -> Resul
     std::fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder {}", folder.display()))?;
     let file = folder.join("state_space.json");
     std::fs::write(&file, serde_json::to_string_pretty(&json(&scene, &space))? + "\n")?;
-    println!("{}\n{}", told(&space)?, file.display());
+    println!("{}\n{}", told(&scene, &space)?, file.display());
     println!("{}", linear_fmu::write(&scene, &space, &folder)?.display());
     let converter = paths::root().join("xtask/python/state_space.py");
     run::run(python::scipy()?.arg(converter).arg(std::path::absolute(&file)?))
@@ -45,7 +46,7 @@ fn speed_at_start(scene: &Scene) -> f64 {
     value("imposed_speed.w").filter(|_| !is_off).or(value("start.omega.x")).unwrap_or_default()
 }
 
-fn told(space: &StateSpace) -> Result<String> {
+fn told(scene: &Scene, space: &StateSpace) -> Result<String> {
     let StateSpace { steady, states, inputs, outputs, .. } = space;
     let [states, inputs, outputs] = [states, inputs, outputs].map(Vec::len);
     let mut told = format!(
@@ -61,6 +62,9 @@ fn told(space: &StateSpace) -> Result<String> {
     if steady.modes()?.iter().any(|mode| mode.grows()) {
         told += "\na mode grows: the steady state is unstable";
     }
+    for (block, doubt) in doubts::of(scene, [steady.speed; 2]) {
+        told += &format!("\n{}", doubt.words(&block));
+    }
     Ok(told)
 }
 
@@ -75,6 +79,7 @@ fn json(scene: &Scene, space: &StateSpace) -> Value {
         "title": scene.title,
         "speed_rad_s": steady.speed,
         "torque_N_m": steady.torque,
+        "held": doubts::held(scene, [steady.speed; 2]),
         "state_names": names(states),
         "state_safe_names": safe(states),
         "state_units": units(states),
@@ -114,7 +119,22 @@ fn rows<R: Dim, C: Dim>(matrix: &Matrix<f64, R, C, impl RawStorage<f64, R, C>>) 
 
 #[cfg(test)]
 mod tests {
-    use super::safe_names;
+    use super::{json, of, safe_names, told};
+    use split_rotor_model::scene::Scene;
+    use std::path::Path;
+
+    #[test]
+    fn regress_matrices_beyond_a_table_are_said_to_stand_on_held_coefficients() {
+        let table = "[rotor]\nm = 5.0\nJa = 0.1\nJt = 0.12\n[[effects.bearing]]\nposition = 0.1\nspeed = [10, 90]\nkyy = [1e6, 2e6]\n";
+        let scene = Scene::parse(Path::new("table.toml"), table).expect("a scene");
+        let at = |speed: f64| {
+            let space = of(&scene, Some(speed)).expect("matrices");
+            (told(&scene, &space).expect("modes"), json(&scene, &space)["held"].to_string())
+        };
+        assert!(!at(50.0).0.contains("table") && at(50.0).1 == "[]");
+        let (words, held) = at(100.0);
+        assert!(words.contains("bearing[1]: speeds up to 100.0 rad/s") && held == "[\"bearing[1]\"]", "{words} {held}");
+    }
 
     #[test]
     fn exact_safe_names_are_identifiers_and_differ() {

@@ -56,12 +56,32 @@ impl<'l> Head<'l> {
         TIMES.iter().any(|known| known.eq_ignore_ascii_case(self.name))
     }
 
-    /// Its name and the unit that stands at its end without brackets: speed_rpm.
+    /// Its name and the unit that stands at its end without brackets: speed_rpm, speedHz.
     fn bare_unit(&self) -> Option<(&'l str, &'l str)> {
-        let at = self.name.rfind(['_', ' ', '.', '-', ',', ':'])?;
-        let (name, unit) = (&self.name[..at], &self.name[at + 1..]);
+        let behind = self.name.rfind(['_', ' ', '.', '-', ',', ':']).map(|at| (&self.name[..at], &self.name[at + 1..]));
+        let capital =
+            || (1..self.name.len()).filter_map(|at| self.name.split_at_checked(at)).find(is_capital_behind_small);
+        let (name, unit) = behind.or_else(capital)?;
         (self.unit.is_none() && units::read(&one(unit)).is_ok()).then_some((name, unit))
     }
+}
+
+/// Whether a second word of two letters or more begins by a capital, right behind a small letter.
+fn is_capital_behind_small((first, second): &(&str, &str)) -> bool {
+    first.ends_with(char::is_lowercase) && second.starts_with(char::is_uppercase) && second.chars().count() > 1
+}
+
+/// Whether the first cell of a line is a time's.
+pub(super) fn begins_with_time(line: &str) -> bool {
+    let first = Head::of(cells(line)[0]);
+    first.is_time() || first.name.to_lowercase().starts_with(TIMES[0])
+}
+
+/// Whether a line may name columns: it has a unit, or a single word in each cell. A sentence with a comma has neither.
+pub(super) fn may_name(line: &str) -> bool {
+    let heads: Vec<_> = cells(line).into_iter().map(Head::of).collect();
+    heads.iter().any(|head| head.unit.is_some() || head.bare_unit().is_some())
+        || heads.iter().all(|head| head.name.split_whitespace().count() == 1)
 }
 
 /// What is wrong with the columns of a file, and what would be right.
@@ -131,9 +151,14 @@ impl Wanted<'_> {
             (Some(index), _) => index,
             (None, 1) => by_name().next().unwrap_or_default(),
             (None, 0) => {
+                let of_another_unit = heads.iter().find(|head| head.name == asked.name);
                 let names = heads.iter().map(|head| head.name);
-                let right =
-                    did_you_mean(asked.name, names).unwrap_or_else(|| "give the name of one of its columns".into());
+                let right = match of_another_unit.and_then(|head| head.unit) {
+                    Some(unit) => format!("its unit is [{unit}]: write column = \"{}\"", asked.name),
+                    None => {
+                        did_you_mean(asked.name, names).unwrap_or_else(|| "give the name of one of its columns".into())
+                    }
+                };
                 let is = format!("has no column `{column}`");
                 return Err(Wrong { known: of_columns(heads), of_scene: true, ..Wrong::of_line(is, right) });
             }

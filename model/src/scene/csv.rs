@@ -1,6 +1,6 @@
 //! The points of an input from a CSV: a time and a value in each line, below a line that may name the columns and their units.
 
-use super::columns::{Column, Wanted, cells};
+use super::columns::{Column, Wanted, begins_with_time, cells, may_name};
 use super::other_files::{Purpose, recognised};
 use super::problem::{Line, Problem};
 use std::ops::Range;
@@ -138,15 +138,16 @@ fn uncommented(line: &str) -> &str {
 }
 
 /// Of the comments above the first point, the one that names the columns: the last that begins with a time and has as many cells, or the
-/// line just above it where that has as many.
+/// line just above it where that has as many and is no sentence.
 fn head_of_comments<'l, C>(comments: impl Fn() -> C, point: &str) -> Option<(usize, &'l str)>
 where
     C: Iterator<Item = (usize, &'l str)>,
 {
     let width = cells(point).len();
     let is_wide = |(_, line): &(usize, &str)| width > 1 && cells(uncommented(line)).len() == width;
-    let begins = |(_, line): &(usize, &str)| uncommented(line).to_lowercase().starts_with('t');
-    comments().filter(|line| is_wide(line) && begins(line)).last().or_else(|| comments().last().filter(is_wide))
+    let begins = |(_, line): &(usize, &str)| begins_with_time(uncommented(line));
+    let last = || comments().last().filter(is_wide).filter(|(_, line)| may_name(uncommented(line)));
+    comments().filter(|line| is_wide(line) && begins(line)).last().or_else(last)
 }
 
 /// What a line has between its columns in place of commas.

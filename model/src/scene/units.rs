@@ -302,8 +302,11 @@ fn unknown(name: &str) -> String {
     // Two units without a space between, such as Nm, are no third one.
     let parts = name.char_indices().skip(1).map(|(at, _)| name.split_at(at));
     let both = parts.filter(|(one, other)| named(one).is_some() && named(other).is_some());
-    // One letter with an s is a product, as in Ns; more may be a plural, as in kgs.
-    let singular = name.strip_suffix('s').filter(|singular| singular.chars().count() > 1 && named(singular).is_some());
+    // One letter with an s is a product, as in Ns; more may be a plural, as in kgs, and a letter twice a slip, as in rpmm.
+    let is_twice = |shorter: &&str| shorter.chars().last() == name.chars().last();
+    let doubled = || name.char_indices().last().map(|(at, _)| &name[..at]).filter(is_twice);
+    let singular = name.strip_suffix('s').or_else(doubled);
+    let singular = singular.filter(|singular| singular.chars().count() > 1 && named(singular).is_some());
     let singular = singular.map_or_else(String::new, |singular| format!("`{singular}` or "));
     let both = both.last().map(|(one, other)| format!("did you mean {singular}`{one} {other}`?"));
     both.or_else(|| did_you_mean(name, names.iter().map(String::as_str))).unwrap_or_else(|| {
@@ -434,6 +437,7 @@ mod tests {
         assert_eq!(unit("0.04 kgm2").1, "did you mean `kg m`?");
         assert_eq!(unit("5 sec").1, "did you mean `s`?");
         assert_eq!(unit("12 kgs").1, "did you mean `kg` or `kg s`?");
+        assert_eq!(unit("1000 rpmm").1, "did you mean `rpm` or `rpm m`?");
         assert_eq!(unit("2000 Ns/m").1, "did you mean `N s`?");
         assert_eq!(unit("3000 U/min"), ("U", "did you mean `rev`?".into()));
         assert_eq!(unit("5 N/m.s").0, "s");

@@ -30,11 +30,14 @@ const UNHELD: f64 = 1e-12;
 /// Springs hold nothing whose period is beyond all times: the square of a rate [1/s²].
 const NOTHING: f64 = 1e-100;
 
+/// What rounding leaves of loads, over how they change with a place of one radius of gyration, or a tilt of one radian \[1].
+const ROUNDED: f64 = 1e-13;
+
 /// What is left of the loads where they balance, over what they were \[1].
 const BALANCED: f64 = 1e-9;
 
 /// Without inertia a rotor comes to rest in so many steps at most, each of at most so much \[1, rad]; they grow by this factor.
-const MOST_CREEPING: u32 = 300;
+const MOST_CREEPING: u32 = 1000;
 const FARTHEST: f64 = 0.05;
 const GROWS: f64 = 4.0;
 
@@ -178,9 +181,8 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
             let size = step.norm();
             // What rounding leaves shrinks no more.
             if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) || size < 1e-15 {
-                let rounded = 1e-13 * largest * (1.0 + r.norm() / length);
                 let is_held = all.singular_values[UNKNOWNS - 1] > UNHELD * largest;
-                let balances = balance.left.norm() <= BALANCED * first + rounded;
+                let balances = balance.left.norm() <= BALANCED * first + balance.rounding(r, length);
                 return balances.then_some(Rest { r, gamma, is_held, balance });
             }
             let share = if size > LONGEST { LONGEST / size } else { 1.0 };
@@ -251,6 +253,11 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
 }
 
 impl<const N: usize> Balance<N> {
+    /// What rounding leaves of the loads, at most, in [`Balance::left`]'s units, where the mass centre is at `r` \[m].
+    pub(super) fn rounding(&self, r: Vector3<f64>, length: f64) -> f64 {
+        ROUNDED * self.slopes.norm() * (1.0 + r.norm() / length)
+    }
+
     /// Directions in which nothing holds it, or so little that these loads would take it farther than `lost` radii of gyration or \[rad]; None
     /// where they were not found.
     pub(super) fn unheld(&self, loads: &SVector<f64, BALANCES>, lost: f64) -> Option<Free> {

@@ -36,12 +36,15 @@ const SAME: f64 = 1e-6;
 /// Loads that are less than this part of all that acts are rounding \[1].
 const ROUNDING: f64 = 1e-9;
 
+/// What is there to hold a rotor.
+const HOLDERS: [&str; 2] = ["bearing", "support"];
+
 /// What stops a rotor that has gone some way.
 const RING: &str = "rub";
 
 impl Unheld {
-    /// Of a rotor at time `t` \[s] and state `y`; None where something holds it in all directions, or nothing does in any, or other models
-    /// may, through ports.
+    /// Of a rotor at time `t` \[s] and state `y`; None where something holds it in all directions, or nothing is there to hold it, or other
+    /// models may, through ports.
     ///
     /// Stiffness is that where the forces balance, so far as springs hold the rotor: a weight on a point counts.
     pub(super) fn of<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Option<Self> {
@@ -74,7 +77,8 @@ impl Unheld {
                 is_unknown: true,
             });
         };
-        if free.is_empty() || held == 0 {
+        // A free body is meant to be free; one in bearings that only damp is not.
+        if free.is_empty() || held == 0 && !HOLDERS.iter().any(|name| is_active(name)) {
             return None;
         }
         let (inertia, length) = spinning.across();
@@ -94,7 +98,7 @@ impl Unheld {
                 (force + left.fixed_rows::<3>(3).dot(&turn)) * size
             };
             let all = directions.iter().map(of).map(|load| load * load).sum::<f64>().sqrt();
-            if all > ROUNDING * size * left.norm() { all } else { 0.0 }
+            if all > size * (ROUNDING * left.norm()).max(balance.rounding(r, length)) { all } else { 0.0 }
         };
         let load = [loads(&along, length / body.per_m), loads(&about, inertia)];
         let along: Vec<_> = along.iter().map(|direction| direction.fixed_rows::<3>(0).into_owned()).collect();
@@ -201,8 +205,14 @@ impl Display for Unheld {
         if along.iter().any(|way| way.yz().norm() > SAME) {
             remedies.push("kyy and kzz of a bearing along y and z");
         }
+        // A tilt about y moves what is off the middle along z.
         if !about.is_empty() {
-            remedies.push("a second bearing or kt of a bearing against tilt");
+            let turned = about.iter().fold(Vector3::zeros(), |sum, way| sum + way.abs());
+            remedies.push(match (turned.y > SAME, turned.z > SAME) {
+                (true, false) => "kzz of two bearings apart, or kt of one, against tilt",
+                (false, true) => "kyy of two bearings apart, or kt of one, against tilt",
+                _ => "kyy and kzz of two bearings apart, or kt of one, against tilt",
+            });
         }
         let nothing = if *is_weak { "hardly anything" } else { "nothing" };
         write!(f, "{nothing} holds the rotor {}: give it {}", all.join(" and "), remedies.join(", "))

@@ -185,6 +185,21 @@ fn exact_a_top_on_a_weak_spring_leans_where_its_loads_balance_and_it_is_stable()
     }
 }
 
+/// From many a tilt, which bends the stiff pivot far at first. From some of these the way there was longer than the steps that it had.
+#[test]
+fn regress_exact_a_top_leans_there_from_any_tilt_of_its_start() {
+    let exact = |part: f64| oracles::numerics::root(|angle| part * angle - libm::sin(angle), 0.1, 3.0);
+    let from = |part: f64, tilt: &str| top(part, 5.0).replace("gamma.z = 1e-4", tilt);
+    for part in [0.1, 0.25, 0.51, 0.76, 0.97] {
+        for tilt in ["gamma.z = 0.01", "gamma.y = 0.3", "gamma.z = 1.0", "gamma.y = -2.5"] {
+            let mut leaning = Named::started(&from(part, tilt));
+            let axis = ["axis.y", "axis.z"].map(|name| leaning.get(name));
+            let found = libm::atan2(libm::hypot(axis[0], axis[1]), leaning.get("axis.x"));
+            within("tilt", (found / exact(part) - 1.0).abs(), 1e-9);
+        }
+    }
+}
+
 #[test]
 fn regress_at_rest_without_a_stable_place_is_the_balance_that_is_there() {
     let text = "[rotor]\nm = 6.0\nJa = 0.01\nJt = 0.06\n[start]\nat_rest = true\nomega.x = 100.0\nr_c.y = 20e-6\n\

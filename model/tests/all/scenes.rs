@@ -249,6 +249,8 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         "t [ms],Torque [mNm]\n0,0\n100,1000\n100,2500\n",
         "\"time\",\"drive.tau\"\n\"0\",\"0\"\n\"0.1\",\"1\"\n\"0.1\",\"2.5\"\n",
         "# bench 3\ntime,tau\n# warm\n0,0\n0.1,1\n  # a jump\n0.1,2.5\n# end\n",
+        "# Measured on site, at the bench\n0,0\n0.1,1\n0.1,2.5\n",
+        "# test on site, third run\n0,0\n0.1,1\n0.1,2.5\n",
         "# Measured in May, at 20 degrees, by us\n# Time [s],Torque [Nm]\n0,0\n0.1,1\n0.1,2.5\n",
         // Of several columns that with the input's name, or the only one with a unit that fits.
         "time,drive.w,drive.tau,phi\n0,7,0,1\n0.1,8,1,2\n0.1,9,2.5,3\n",
@@ -274,6 +276,7 @@ fn inputs_over_time_from_the_scene_or_a_csv() {
         ("-,-\n1,2\n", "line 1 of x.csv is no point"),
         ("O.0,3O.0\n1,2\n", columns),
         ("# zero,thirty\n1,2\n", columns),
+        ("# run, Drehzahl in rpm\n1,2\n", columns),
         ("zero,thirty\n1,2\n", columns),
         ("tau,time\n1,2\n", columns),
         ("time,time\n1,2\n", columns),
@@ -349,6 +352,20 @@ fn regress_a_column_is_never_read_as_another_quantity() {
     assert_eq!(
         torque_of(bare, "imposed_speed.w", "column = \"speed_rpm\"").map_err(|wrong| wrong[0].clone()),
         Err("line 1 of x.csv has a unit without brackets, speed_rpm".into())
+    );
+    // Without anything between them.
+    for (head, name, unit) in [("speedHz", "speed", "Hz"), ("speedRPM", "speed", "RPM")] {
+        let right = format!("write {name} [{unit}], or column = \"{head} [{unit}]\" in the scene");
+        let bare = bare.replace("speed_rpm", head);
+        for column in [String::new(), format!("column = \"{head}\"")] {
+            let is = format!("has a unit without brackets, {head}");
+            assert_eq!(torque_of(&bare, "imposed_speed.w", &column), wrong(&is, &right));
+        }
+    }
+    let hertz = bare.replace("speed_rpm", "speed [Hz]");
+    assert_eq!(
+        torque_of(&hertz, "imposed_speed.w", "column = \"speed [rpm]\""),
+        Err(["x.csv has no column `speed [rpm]`".into(), "its unit is [Hz]: write column = \"speed\"".into()])
     );
     let speeds = [0.0, rpm(3000.0), rpm(3000.0)].to_vec();
     assert_eq!(torque_of(bare, "imposed_speed.w", "column = \"speed_rpm [rpm]\""), Ok(speeds.clone()));

@@ -34,7 +34,7 @@ fn regress_exact_a_rotor_that_nothing_holds_in_a_direction_is_told() {
     let named_otherwise = bearings(&BOTH, "kxx = 1e6\nkyy = 0.8e6\ncxx = 1e3\n");
     // 12 kg · 9.81 m/s² = 118 N fall.
     let falls = "nothing holds the rotor along z (a load of 117.720 N acts there) and against tilt about y (any push there moves it away): \
-                 give it kyy and kzz of a bearing along y and z, a second bearing or kt of a bearing against tilt";
+                 give it kyy and kzz of a bearing along y and z, kzz of two bearings apart, or kt of one, against tilt";
     assert_eq!(said(&format!("{GRAVITY}{named_otherwise}")), Some((falls.into(), false)));
     let (drifts, _) = said(&named_otherwise).expect("nothing holds it along z");
     assert!(drifts.starts_with("nothing holds the rotor along z (any push there moves it away"), "{drifts}");
@@ -55,7 +55,19 @@ fn exact_what_holds_a_rotor() {
         (String::new(), None),
         (GRAVITY.into(), None),
         ("[effects.drag]\nlinear = 1e-3\n".into(), None),
-        (format!("{GRAVITY}[effects.support]\nc2 = 1e-300\n"), None),
+        // What is there to hold it does not.
+        (
+            format!("{GRAVITY}[effects.support]\nc2 = 1e-300\n"),
+            Some("nothing holds the rotor along x, y and z (a load of 117.720 N"),
+        ),
+        (
+            format!("{GRAVITY}{}", bearings(&BOTH, "cyy = 1e3\nczz = 1e3\n")),
+            Some("nothing holds the rotor along x, y and z (a load of 117.720 N"),
+        ),
+        (
+            format!("{GRAVITY}{}", bearings(&BOTH, "kyy = 1e6\nczz = 1e3\nkxx = 1e5\n")),
+            Some("nothing holds the rotor along z (a load of 117.720 N"),
+        ),
         // Others may hold it.
         (format!("{GRAVITY}[[effects.port]]\nposition = 0.1\n{}", one(0.1, ROUND)), None),
         // Along its axis alone.
@@ -151,6 +163,6 @@ fn what_is_said_of_the_scenes() {
     });
     // A disk that moves in its plane alone.
     let jeffcott = "jeffcott: nothing holds the rotor against tilt about y and z (any push there moves it away): \
-                    give it a second bearing or kt of a bearing against tilt";
+                    give it kyy and kzz of two bearings apart, or kt of one, against tilt";
     assert_eq!(said.collect::<Vec<_>>(), [jeffcott]);
 }

@@ -3,7 +3,7 @@
 use super::{Diagram, number};
 use crate::doubts::{below, mark};
 use crate::numbers::{SHOWN, rounded, rpm, spread};
-use split_rotor_model::linear::{Branch, Crossing, Direction, Mode};
+use split_rotor_model::linear::{Branch, Crossing, Direction, Mode, Point};
 use std::fmt::Write;
 
 /// All of it, in Markdown.
@@ -29,8 +29,8 @@ fn critical_speeds(diagram: &Diagram, text: &mut String) {
         "| critical speed [rad/s] | [rpm] | line | mode | direction | damping ratio |\n|--:|--:|--:|--:|---|--:|\n";
     for (order, Crossing { branch, speed, mode }) in rows {
         let (number, direction, ratio) = (number(*branch), mode.direction.name(), ratio(mode, 4));
-        let (mark, speed, rpm) = (mark(diagram.scene, *speed), rounded(*speed), rounded(rpm(*speed)));
-        let _ = writeln!(text, "| {speed}{mark} | {rpm} | {order}X | {number} | {direction} | {ratio:.4} |");
+        let (speed, rpm) = (at(diagram, *speed), rounded(rpm(*speed)));
+        let _ = writeln!(text, "| {speed} | {rpm} | {order}X | {number} | {direction} | {ratio:.4} |");
     }
     if diagram
         .critical
@@ -46,21 +46,29 @@ fn stability(diagram: &Diagram, text: &mut String) {
     for threshold @ Crossing { branch, speed, mode } in &diagram.thresholds {
         let _ = writeln!(
             text,
-            "Mode {} ({}, {} rad/s) grows {} {} rad/s ({} rpm){}.",
+            "Mode {} ({}, {} rad/s) grows {} {} rad/s ({} rpm).",
             number(*branch),
             mode.direction.name(),
             rounded(mode.eigenvalue.im),
             diagram.grows(threshold),
-            rounded(*speed),
-            rounded(rpm(*speed)),
-            mark(diagram.scene, *speed)
+            at(diagram, *speed),
+            rounded(rpm(*speed))
         );
     }
     let grows_always = |(_, branch): &(usize, &Branch)| branch.points.iter().all(|point| point.mode.grows());
     for (branch, Branch { points }) in diagram.campbell.branches.iter().enumerate().filter(grows_always) {
-        let direction = points[0].mode.direction.name();
-        let [from, to] = [0, points.len() - 1].map(|end| rounded(points[end].speed));
-        let _ = writeln!(text, "Mode {} ({direction}) grows from {from} to {to} rad/s.", number(branch));
+        let [from, to] = [0, points.len() - 1].map(|end| at(diagram, points[end].speed));
+        let _ = writeln!(text, "Mode {} ({}) grows from {from} to {to} rad/s.", number(branch), directions(points));
+    }
+    if let Some((branch, Point { speed, mode })) = diagram.fastest_growth() {
+        let _ = writeln!(
+            text,
+            "Fastest growth: mode {} ({}) at {} rad/s, by a factor of e in {} s.",
+            number(branch),
+            mode.direction.name(),
+            at(diagram, *speed),
+            rounded(1.0 / mode.eigenvalue.re)
+        );
     }
     if !diagram.campbell.grows() {
         *text += "No mode grows at any of these speeds.\n";
@@ -82,11 +90,26 @@ fn modes(diagram: &Diagram, text: &mut String) {
         }
         *text += "\n";
     }
-    *text += "\nFrequency [rad/s], negative where it whirls backward, and damping ratio in brackets.\n";
+    *text += "\nFrequency [rad/s], negative where it whirls backward, and damping ratio in brackets; of a mode that creeps, its growth, \
+              negative where it dies out.\n";
+}
+
+/// A speed [rad/s], marked where coefficients are held.
+fn at(diagram: &Diagram, speed: f64) -> String {
+    rounded(speed) + mark(diagram.scene, speed)
+}
+
+/// The directions that a mode has one after another.
+fn directions(points: &[Point]) -> String {
+    let runs = points.chunk_by(|a, b| a.mode.direction == b.mode.direction);
+    runs.map(|run| run[0].mode.direction.name()).collect::<Vec<_>>().join(", then ")
 }
 
 fn told(mode: &Mode) -> String {
-    format!("{} ({:.3})", rounded(mode.frequency()), ratio(mode, 3))
+    match mode.direction {
+        Direction::Creep => format!("creep, {} 1/s", rounded(mode.eigenvalue.re)),
+        _ => format!("{} ({:.3})", rounded(mode.frequency()), ratio(mode, 3)),
+    }
 }
 
 /// A damping ratio, which is not a zero with a minus sign where it is rounded to so many places.

@@ -75,7 +75,16 @@ impl<'s> Turning<'s> {
         orbits.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         orbits.dedup_by(|a, b| a.speed == b.speed);
         let changes = orbits.windows(2).filter(|pair| pair[0].loss().is_some() != pair[1].loss().is_some());
-        let thresholds = changes.map(|pair| threshold(&rotating, pair)).collect::<Result<_, _>>().with_context(file)?;
+        let thresholds: Vec<_> =
+            changes.map(|pair| threshold(&rotating, pair)).collect::<Result<_, _>>().with_context(file)?;
+        // In the middle of a band motions grow fastest.
+        for ends in thresholds.windows(2) {
+            match rotating.orbit(0.5 * (ends[0] + ends[1]), before(&orbits, ends[1])) {
+                Ok(orbit) => orbits.push(orbit),
+                Err(obstacle) => missed.push(obstacle),
+            }
+        }
+        orbits.sort_by(|a, b| a.speed.total_cmp(&b.speed));
         Ok(Self { scene, orbits, missed, sums, no_sums, apart, thresholds })
     }
 
@@ -124,6 +133,11 @@ impl<'s> Turning<'s> {
         all.map(row).collect()
     }
 
+    /// A speed [rad/s], marked where coefficients are held.
+    fn at(&self, speed: f64) -> String {
+        rounded(speed) + doubts::mark(self.scene, speed)
+    }
+
     /// Which speeds were looked at, in words.
     fn looked_at(&self) -> String {
         let [first, last] = [0, self.orbits.len() - 1].map(|n| rounded(self.orbits[n].speed));
@@ -148,6 +162,17 @@ impl<'s> Turning<'s> {
         text + ". Elsewhere a band narrower than the distance of the speeds would not be seen (--steps).\n"
     }
 
+    /// Some of the motions from the first to the last, and of each band in which they grow the one beside which they grow fastest.
+    fn shown(&self) -> impl Iterator<Item = &Orbit> {
+        let bands = self.orbits.chunk_by(|a, b| a.loss().is_some() == b.loss().is_some());
+        let growing = bands.filter(|band| band[0].loss().is_some());
+        let fastest = growing.filter_map(|band| band.iter().max_by(|a, b| fastest(a)[0].total_cmp(&fastest(b)[0])));
+        let mut all: Vec<_> = spread(self.orbits.len(), 2 * SHOWN).map(|n| &self.orbits[n]).chain(fastest).collect();
+        all.sort_by(|a, b| a.speed.total_cmp(&b.speed));
+        all.dedup_by(|a, b| a.speed == b.speed);
+        all.into_iter()
+    }
+
     /// For people, in Markdown.
     pub(super) fn table(&self) -> String {
         let mut text = format!("{}: {}\n\n", self.scene.name, self.scene.title);
@@ -155,9 +180,8 @@ impl<'s> Turning<'s> {
         text += "\nThe body is not symmetric about its axis, so its equations change as it turns (Floquet): growth of small motions beside those that \
                  repeat with each revolution, balanced, drives off, the spin imposed. Frequencies count but for whole multiples of the spin.\n\n";
         for threshold in &self.thresholds {
-            let before = self.orbits.iter().rfind(|orbit| orbit.speed < *threshold);
-            let ceases = before.is_some_and(|orbit| orbit.loss().is_some());
-            let (verb, at) = (if ceases { "cease" } else { "begin" }, rounded(*threshold));
+            let ceases = before(&self.orbits, *threshold).is_some_and(|orbit| orbit.loss().is_some());
+            let (verb, at) = (if ceases { "cease" } else { "begin" }, self.at(*threshold));
             text += &format!("Small motions {verb} to grow at {at} rad/s ({} rpm).\n", rounded(rpm(*threshold)));
         }
         let (leave, missed): (Vec<_>, Vec<_>) = self.missed.iter().partition(|obstacle| is_growth(obstacle));
@@ -180,15 +204,25 @@ impl<'s> Turning<'s> {
             _ => {}
         }
         text += "\n| speed [rad/s] | fastest growth [1/s] | its frequency [rad/s] | multiplier |\n|--:|--:|--:|--:|\n";
-        for orbit in spread(self.orbits.len(), 2 * SHOWN).map(|n| &self.orbits[n]) {
-            let [growth, frequency] = exponents(orbit).first().map_or([0.0; 2], |first| [first.re, first.im]);
+        for orbit in self.shown() {
+            let [growth, frequency] = fastest(orbit);
             let largest = rounded(orbit.largest_multiplier());
             text +=
-                &format!("| {} | {} | {} | {largest} |\n", rounded(orbit.speed), rounded(growth), rounded(frequency));
+                &format!("| {} | {} | {} | {largest} |\n", self.at(orbit.speed), rounded(growth), rounded(frequency));
         }
         let speeds: Vec<_> = self.orbits.iter().map(|orbit| orbit.speed).collect();
         doubts::below(text, self.scene, &speeds)
     }
+}
+
+/// The last motion below a speed [rad/s].
+fn before(orbits: &[Orbit], speed: f64) -> Option<&Orbit> {
+    orbits.iter().rfind(|orbit| orbit.speed < speed)
+}
+
+/// The fastest growth \[1/s] beside a motion, and its frequency [rad/s].
+fn fastest(orbit: &Orbit) -> [f64; 2] {
+    exponents(orbit).first().map_or([0.0; 2], |first| [first.re, first.im])
 }
 
 fn is_growth(obstacle: &Obstacle) -> bool {
@@ -219,7 +253,7 @@ fn beside_a_sum(rotating: &Rotating, known: &[Orbit], sum: f64, far: f64) -> Res
         found.push(at(sum + step)?);
     }
     // Between them, beside that which comes nearest to growth.
-    let growth = |orbit: &Orbit| exponents(orbit).first().map_or(f64::NEG_INFINITY, |first| first.re);
+    let growth = |orbit: &Orbit| fastest(orbit)[0];
     let mut step = far / f64::from(BESIDE);
     for _ in 0..BESIDE {
         step *= 0.5;
@@ -319,6 +353,10 @@ mod tests {
             assert!((found - exact).abs() < BOUND, "{found} {exact}");
         }
         assert!(table.contains("closer where two whirl frequencies add up to twice the spin"), "{table}");
+        // The growth inside it is shown, though it is narrower than the distance of the rows: fastest near its middle.
+        let row = table.lines().find(|line| line.starts_with("| 379.")).expect("a row inside the band");
+        let growth: f64 = row.split('|').nth(2).and_then(|number| number.trim().parse().ok()).expect("a number");
+        assert!(growth > 0.0, "{table}");
         // Below the band there is a sum of frequencies too, or none; nothing is said of speeds at which nobody looked.
         let below = Turning::of(&scene, Some([300.0, 340.0]), 3).expect("motions that repeat").table();
         assert!(

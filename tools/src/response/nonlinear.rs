@@ -1,6 +1,7 @@
 //! The response by the laws as they stand: motions that repeat with each revolution, followed through the speeds.
 
 use super::{Found, Sight, Station, once};
+use crate::doubts::mark;
 use crate::numbers::{micrometres, rounded, rpm};
 use crate::rows::Row;
 use serde_json::json;
@@ -92,7 +93,7 @@ pub(super) fn words(found: &Found, text: &mut String) {
               its end on.\n";
     for branch in branches {
         match branch {
-            Ok(branch) => tell(branch, text),
+            Ok(branch) => tell(found.scene, branch, text),
             Err(obstacle) => *text += &format!("\n- None found: {obstacle}.\n"),
         }
     }
@@ -110,17 +111,17 @@ pub(super) fn words(found: &Found, text: &mut String) {
         let [seen, major, minor, farthest] = all.map(micrometres);
         let lasts = if peak.loss().is_none() { "yes" } else { "no" };
         let name = station.title();
-        let (rounded, rpm) = (rounded(speed), rounded(rpm(speed)));
+        let (mark, rounded, rpm) = (mark(found.scene, speed), rounded(speed), rounded(rpm(speed)));
         *text += &format!(
-            "| {rounded} | {rpm} | {name} | {} | {seen} | {major} and {minor} | {farthest} | {lasts} |\n",
+            "| {rounded}{mark} | {rpm} | {name} | {} | {seen} | {major} and {minor} | {farthest} | {lasts} |\n",
             sight.name()
         );
     }
 }
 
 /// Where a branch goes, turns back, and does not last.
-fn tell(branch: &Branch, text: &mut String) {
-    let at = |orbit: &Orbit| format!("{} rad/s", rounded(orbit.speed));
+fn tell(scene: &Scene, branch: &Branch, text: &mut String) {
+    let at = |orbit: &Orbit| format!("{}{} rad/s", rounded(orbit.speed), mark(scene, orbit.speed));
     let [first, last] = [&branch.orbits[0], &branch.orbits[branch.orbits.len() - 1]].map(at);
     *text += &format!("\n- From {first} to {last}.\n");
     for fold in branch.folds() {

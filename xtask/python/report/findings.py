@@ -17,6 +17,9 @@ SHARP = 2.5
 ROUNDING = 1e-9
 """A speed that is beyond a table by less than this part of it is not."""
 
+TURNS = 1e-3
+"""A speed of less than this part of the largest has no sense of rotation."""
+
 LEANS = 10.0
 """A rotor at rest that leans by more [°] was hardly meant to."""
 
@@ -36,10 +39,19 @@ class Finding:
 def findings(result, view, unheld=""):
     """All that this run and its linear view have; `unheld` says in which directions nothing holds the rotor, "" where something does."""
     contact = _contact(result)
-    found = [_critical(view), *_passed(result, view), *_held(result, view), _unheld(unheld)]
+    found = [_backwards(result), _critical(view), *_passed(result, view), *_held(result, view), _unheld(unheld)]
     found += [_stability(result, view, contact is not None, unheld), _rest(result), *_motion(result), contact]
     found += [_load(result), _time(result), _energy(result)]
     return [finding for finding in found if finding]
+
+
+def _backwards(result):
+    """That the rotor turns backwards, since speeds are shown by their size."""
+    spin = result.columns["omega_phi"]
+    if spin.min() >= -TURNS * np.abs(spin).max():
+        return None
+    how = "in part of this run" if spin.max() > 0.0 else "in this run"
+    return Finding("backwards", f"the rotor turns against its axis (ω_φ < 0) {how}; speeds are shown by their size")
 
 
 def _critical(view):
@@ -151,27 +163,31 @@ def _stability(result, view, touches=False, unheld=""):
     # Nothing is said of speeds at which nobody looked.
     looked = [row["speed_rad_s"] for row in view.modes]
     spin = np.clip(spin, min(looked), max(looked))
-    row = view.least_damped((spin.min(), spin.max()))
-    ratio, at = row["damping_ratio"], f"at {rpm(row['speed_rad_s'])}"
     # A partner at a port may hold what nothing else does.
     held = ", with the loads at its ports held" if result.scene.blocks("port") else ""
     range_ = _range(spin) + held
-    if abs(ratio) <= linear.NEITHER:
-        return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}; {_looked(view, spin)}")
-    size = linear.decrement(ratio)
-    how = f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
-    if ratio < 0.0:
+    if row := view.fastest_growing(spin.min(), spin.max()):
         bounds = "".join(
             f"; {'it' if mode == row['mode'] else 'another'} grows {grows} {rpm(speed)}{_when(result, speed)}"
             for speed, grows, mode in view.thresholds
         )
-        in_ = quantity(-np.sqrt(1.0 - ratio**2) / (ratio * abs(row["frequency_rad_s"])), "s") if row["frequency_rad_s"] else None
-        grows = f"grows by e in {in_}" if in_ else "grows"
-        return Finding("unstable", f"{row['direction']} mode {grows} {at}{held}, {how}{bounds}", "bad")
+        at, in_ = rpm(row["speed_rad_s"]), quantity(1.0 / row["growth_rate_1_s"], "s")
+        return Finding("unstable", f"{row['direction']} mode grows by e in {in_} at {at}{held}, {_decrement(row)}{bounds}", "bad")
+    row = view.least_damped(spin.min(), spin.max())
+    if row is None:
+        return None
+    at, how = f"at {rpm(row['speed_rad_s'])}", _decrement(row)
+    if abs(row["damping_ratio"]) <= linear.NEITHER:
+        return Finding("undamped", f"no mode grows and one or more do not die out, at {range_}; {_looked(view, spin)}")
     what = f"at {range_}; least {how}, {row['direction']} mode {at}; {_looked(view, spin)}"
     if unheld:
         return Finding("no mode grows", f"beside the directions in which nothing holds the rotor, {what}")
     return Finding("stable", f"while nothing touches, {what}") if touches else Finding("stable", what, "good")
+
+
+def _decrement(row):
+    size = linear.decrement(row["damping_ratio"])
+    return f"log. decrement {number(size, 2)}" if np.isfinite(size) else "without swinging"
 
 
 def _looked(view, spin):

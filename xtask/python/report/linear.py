@@ -34,15 +34,22 @@ class Linear:
             if any(row["direction"] != AXIAL and row["frequency_rad_s"] for row in rows):
                 yield number, rows
 
-    def least_damped(self, speeds):
-        """The row of the least damping ratio from the first to the second of these speeds [rad/s]."""
-        low, high = speeds
-        found = []
+    def between(self, low, high):
+        """The rows of all modes from one speed to another [rad/s], both included."""
         for number in {row["mode"] for row in self.modes}:
-            rows = [row for row in self.modes if row["mode"] == number and row["direction"] != AXIAL]
-            found += [row for row in rows if low < row["speed_rad_s"] < high]
-            found += [between for speed in (low, high) if (between := _between(rows, speed))]
-        return min(found, key=lambda row: row["damping_ratio"])
+            rows = [row for row in self.modes if row["mode"] == number]
+            yield from (row for row in rows if low < row["speed_rad_s"] < high)
+            yield from filter(None, (_between(rows, speed) for speed in (low, high)))
+
+    def least_damped(self, low, high):
+        """The row of the least damping ratio from one speed to another [rad/s], modes along the axis left out; None where there are no others."""
+        across = [row for row in self.between(low, high) if row["direction"] != AXIAL]
+        return min(across, key=lambda row: row["damping_ratio"], default=None)
+
+    def fastest_growing(self, low, high):
+        """The row of the fastest growth from one speed to another [rad/s], of any mode; None where none grows."""
+        growing = [row for row in self.between(low, high) if row["damping_ratio"] < -NEITHER]
+        return max(growing, key=lambda row: row["growth_rate_1_s"], default=None)
 
     def growth(self):
         """Speeds [rad/s] and the fastest growth at each [1/s], of a body that is not symmetric."""
@@ -94,7 +101,7 @@ def _between(rows, speed):
     below, above = rows[max(after - 1, 0)], rows[after]
     width = above["speed_rad_s"] - below["speed_rad_s"]
     part = (speed - below["speed_rad_s"]) / width if width else 1.0
-    numbers = ("damping_ratio", "frequency_rad_s")
+    numbers = ("damping_ratio", "frequency_rad_s", "growth_rate_1_s")
     return above | {"speed_rad_s": speed} | {name: (1.0 - part) * below[name] + part * above[name] for name in numbers}
 
 

@@ -4,6 +4,7 @@ use super::{Found, Point, is_of_spin};
 use crate::numbers::{rounded, spread};
 use nalgebra::ComplexField;
 use split_rotor_model::linear::Obstacle;
+use split_rotor_tools::doubts;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -25,6 +26,9 @@ pub fn table(found: &Found) -> Result<String, Obstacle> {
     }
     if found.space.steady.modes()?.iter().any(|mode| mode.grows()) {
         text += "A mode grows: a run does not settle to this answer.\n";
+    }
+    for (block, doubt) in doubts::of(&found.scene, [found.space.steady.speed; 2]) {
+        let _ = writeln!(text, "{}.", doubt.words(&block));
     }
     Ok(text)
 }

@@ -90,7 +90,8 @@ impl Plane {
         text += &line(head, &mut columns.iter().map(|&n| rounded(x.values[n])));
         text += &format!("|--:|{}\n", "--:|".repeat(columns.len()));
         for n in spread(y.values.len(), SHOWN) {
-            let cell = |&m: &usize| self.rows[n][m].map_or("none".into(), rounded);
+            let cell =
+                |&m: &usize| self.rows[n][m].map_or("none".into(), |speed| rounded(speed) + doubts::mark(scene, speed));
             text += &line(rounded(y.values[n]), &mut columns.iter().map(cell));
         }
         doubts::below(text, scene, ends)
