@@ -357,7 +357,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         // Where inputs are extrapolated, somebody has decided how loads go on.
         let may_learn = self.parameters.effects.order() == 0;
         let (lag, partners) = (self.parameters.effects.lag(), &mut self.partners);
-        let mut changes = false;
+        let (mut answers, mut changes) = (false, false);
         self.parameters.effects.for_each_partner(|number, block| {
             if !(block.is_active() && block.is_answered(t)) {
                 return;
@@ -367,11 +367,13 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
                 exchange.learns &= may_learn;
                 let before = *partner.law();
                 partner.add(t, &exchange, lag);
-                changes |= *partner.law() != before;
+                (answers, changes) = (true, changes || !partner.law().is_like(&before));
             }
         });
         if changes {
             self.hold();
+        }
+        if answers {
             let partners = &self.partners;
             self.parameters.effects.set_laws(|number| partners[number].law());
         }

@@ -5,6 +5,7 @@ mod picture;
 mod sweep;
 mod table;
 
+use crate::numbers::rounded;
 use crate::{known, peaks, scenes, sheets, state_space};
 use anyhow::{Context, Result, ensure};
 use nalgebra::{Complex, ComplexField};
@@ -62,11 +63,11 @@ impl Found {
         if !from.ends_with(ABOUT_THE_AXIS) {
             return format!("{HELD}, and {from} does not act about the axis");
         }
-        let per = split_rotor_tools::scenes::values(&self.scene)("rotor.Ja")
-            .map_or_else(String::new, |axial| format!(" = 1/(i Omega {axial:?} kg.m2)"));
+        // Of all of it, what is out of balance included.
+        let axial = rounded(self.scene.parameters().shape().tensor()[(0, 0)]);
         format!(
             "{HELD}: what keeps it constant takes up every torque about the axis. A spin that nothing else holds would answer {from} with \
-             1/(i Omega Ja){per}; run the scene with that input to see it"
+             1/(i Omega J), J = {axial} kg.m2 of all that turns; run the scene with that input to see it"
         )
     }
 
@@ -182,7 +183,8 @@ mod tests {
         std::fs::create_dir_all(&folder).expect("a folder");
         let file = folder.join("held.toml");
         let scene = "[rotor]\nm = 6.0\nJa = 0.01\nJt = 0.06\n[start]\nomega.x = 500.0\n[[effects.bearing]]\nposition = 0.1\nkyy = 1e6\nkzz = 1e6\n\
-            [[effects.port]]\nposition = 0.1\n";
+            [[effects.port]]\nposition = 0.1\n[[effects.unbalance]]\nmass = 1.0\nradius = 0.1\nposition = 0.0\n\
+            [[effects.unbalance]]\nmass = 1.0\nradius = 0.1\nposition = 0.0\nangle = \"180 deg\"\n";
         std::fs::write(&file, scene).expect("a file");
         let file = file.display().to_string();
         let refused = |from: &str, to: &str| {
@@ -191,7 +193,11 @@ mod tests {
         };
         let words = refused("port[1].m.x", "omega_phi");
         assert!(words.contains("port[1].m.x does not move omega_phi in the linear view"), "{words}");
-        assert!(words.contains("The linear view holds the spin: what keeps it"), "{words}");
+        // Two masses of 1 kg on 0.1 m turn with it.
+        assert!(
+            words.contains("The linear view holds the spin: what keeps it") && words.contains("J = 0.0300000 kg.m2"),
+            "{words}"
+        );
         let across = refused("port[1].m.y", "omega_phi");
         assert!(
             across.ends_with("The linear view holds the spin, and port[1].m.y does not act about the axis"),

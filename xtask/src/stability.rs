@@ -138,6 +138,12 @@ fn told(scene: &Scene, with: &[(&Axis, f64)]) -> String {
     format!("{}: {}", scene.file.display(), values.join(", "))
 }
 
+/// That a coefficient is added to its table, where the scene has one.
+fn added(scene: &Scene, axis: &Axis) -> String {
+    let is_table = scene.variables.iter().any(|variable| variable.name == format!("{}[1]", axis.name));
+    if is_table { format!("\n{} is added to its table at every speed.\n", axis.name) } else { String::new() }
+}
+
 /// Where the scene with these values, of which the first is the column's, is unstable.
 fn column(scene: &Scene, with: &[(&Axis, f64)], speeds: &[f64]) -> Result<Column> {
     let here = || told(scene, with);
@@ -250,6 +256,19 @@ mod tests {
         let rows: Vec<_> = table.lines().filter(|line| line.starts_with("| ")).collect();
         assert!(rows.iter().all(|row| !row.contains("on both sides | 0 |")), "{table}");
         assert!(rows.windows(2).all(|pair| pair[0] != pair[1]), "{table}");
+    }
+
+    #[test]
+    fn regress_a_coefficient_is_said_to_be_added_to_its_table() {
+        let text = "[rotor]\nm = 10.0\nJa = 0.1\nJt = 0.2\n[[effects.bearing]]\nposition = 0.0\nspeed = [100, 300]\nkyy = [1e6, 1e6]\nkzz = [1e6, 1e6]\n\
+            cyy = [100, 100]\nczz = 100.0\nkxx = 1e6\nkt = 1e5\n";
+        let scene = || Scene::parse(Path::new("table.toml"), text).expect("a scene");
+        for (name, is_added) in [("bearing[1].cyy", true), ("bearing[1].czz", false)] {
+            let against = Against { name, values: [50.0, 400.0].map(Given::from), count: 2 };
+            let table = table::table(&map(scene(), &against, Some([350.0, 500.0]), 4).expect("a map"));
+            assert_eq!(table.contains(&format!("{name} is added to its table at every speed.")), is_added, "{table}");
+            assert!(table.contains("at none of these speeds * |"), "{table}");
+        }
     }
 
     #[test]

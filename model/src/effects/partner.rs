@@ -36,11 +36,18 @@ pub struct Law {
     pub at: Shown,
     /// What is shown is so far ahead of the motion \[s].
     pub ahead: f64,
+    /// The energy that the exchange brought into the motion so far \[J].
+    pub error: f64,
 }
 
-stored!(Law { is_on, turns, slopes, shown, since, at, ahead });
+stored!(Law { is_on, turns, slopes, shown, since, at, ahead, error });
 
 impl Law {
+    /// Whether it makes the same loads as another one.
+    pub fn is_like(&self, other: &Self) -> bool {
+        Self { error: 0.0, ..*self } == Self { error: 0.0, ..*other }
+    }
+
     /// What is shown of this place and motion: the place ahead, as it goes on.
     pub fn shows(&self, at: Shown) -> Shown {
         let mut shown = at;

@@ -5,7 +5,7 @@ use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
-    METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN,
+    JOULE, METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN,
     NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE, RADIAN, RADIAN_PER_SECOND,
 };
 use crate::variable::{Access, Bound, Kind, Meta, Role, input, output, parameter};
@@ -152,6 +152,12 @@ impl Effect for Port {
         coefficient!(czy, c[3], &NEWTON_SECOND_PER_METRE, "damping, force along z by speed along y,"),
         coefficient!(czz, c[4], &NEWTON_SECOND_PER_METRE, "damping, force along z by speed along z,"),
         coefficient!(ct, c[5], &NEWTON_METRE_SECOND_PER_RADIAN, "damping of the tilt"),
+        output!(
+            "energy_error",
+            &JOULE,
+            "energy that the exchange brought in so far: work of the loads beyond that of the partner's answers, joined by lines",
+            |p, _| Scalar::constant(p.law.error)
+        ),
     ];
 
     const TERMINAL: Option<Terminal> =

@@ -50,8 +50,8 @@ pub struct StateSpace {
     sizes: SVector<f64, STATES>,
 }
 
-/// Outputs that count or sum up over a run begin with these.
-const OF_A_RUN: [&str; 3] = ["solver.", "energy.", "turns"];
+/// Outputs that count or sum up over a run begin with these, or are this.
+const OF_A_RUN: [&str; 4] = ["solver.", "energy.", "turns", "energy_error"];
 
 /// Beside a pole one looks so far \[1]: an answer that goes smoothly past is known to the square of it.
 const BESIDE: f64 = 1e-5;

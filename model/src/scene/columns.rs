@@ -62,7 +62,8 @@ impl<'l> Head<'l> {
         let capital =
             || (1..self.name.len()).filter_map(|at| self.name.split_at_checked(at)).find(is_capital_behind_small);
         let (name, unit) = behind.or_else(capital)?;
-        (self.unit.is_none() && units::read(&one(unit)).is_ok()).then_some((name, unit))
+        let is_unit = units::read(&one(unit)).is_ok() || units::may_be_meant(unit);
+        (self.unit.is_none() && is_unit).then_some((name, unit))
     }
 }
 
@@ -246,8 +247,12 @@ impl Wanted<'_> {
                         let unit = head.name;
                         format!("name the column {name} [{unit}], or say column = \"{unit} [{unit}]\" in the scene")
                     }
+                    // Nobody here knows its unit.
                     Some(head) => {
-                        format!("name the column {name}{unit}, or say column = \"{}{unit}\" in the scene", head.name)
+                        let column = head.name;
+                        format!(
+                            "name the column {name}{unit}, or say column = \"{column} [...]\" in the scene, with its unit"
+                        )
                     }
                     None => format!("name the column {name}{unit}, or say column = \"...\" in the scene"),
                 };
@@ -257,6 +262,9 @@ impl Wanted<'_> {
         }
     }
 }
+
+/// What is said of a speed in 1/min.
+const CLEAR: &str = "turns a minute are [rpm], radians [rad/min]";
 
 /// What is said of a line that names no column of the input.
 const UNNAMED: &str = "does not name the columns";
@@ -272,7 +280,7 @@ fn unfit(head: &Head, own: &Unit) -> Wrong {
     let unit = head.unit.unwrap_or_default();
     let right = match (units::read(&one(unit)), units::quantity(own.exponents)) {
         (Err(Unreadable::Unit(_, right)), _) => right,
-        (Ok(one), _) if one.may_count_turns(own) => "turns a minute are [rpm], radians [rad/min]".into(),
+        (Ok(one), _) if one.may_count_turns(own) => CLEAR.into(),
         (_, Some(what)) if own.name.is_empty() => format!("the column must hold {what}: write [-]"),
         (_, Some(what)) => {
             let pounds = units::pounds(unit, own).unwrap_or_default();
@@ -286,12 +294,17 @@ fn unfit(head: &Head, own: &Unit) -> Wrong {
 /// A column of what has this unit has its own unit without brackets.
 fn bare(head: &Head, own: &Unit) -> Wrong {
     let (name, unit) = head.bare_unit().unwrap_or((head.name, ""));
-    let right = if fits(unit, own) {
-        format!("write {name} [{unit}], or column = \"{} [{unit}]\" in the scene", head.name)
-    } else {
-        let what = units::read(&one(unit)).ok().and_then(|one| units::quantity(one.exponents)).unwrap_or("no unit");
-        let ours = brackets(own);
-        format!("{unit} is {what}; if it is no unit here, write column = \"{}{ours}\" in the scene", head.name)
+    let right = match units::read(&one(unit)) {
+        Ok(_) if fits(unit, own) => {
+            format!("write {name} [{unit}], or column = \"{} [{unit}]\" in the scene", head.name)
+        }
+        Ok(one) if one.may_count_turns(own) => format!("{CLEAR}: write {name} [rpm]"),
+        Err(Unreadable::Unit(_, right)) => format!("{right} Units stand in brackets: {name} [...]"),
+        read => {
+            let what = read.ok().and_then(|one| units::quantity(one.exponents)).unwrap_or("no unit");
+            let ours = brackets(own);
+            format!("{unit} is {what}; if it is no unit here, write column = \"{}{ours}\" in the scene", head.name)
+        }
     };
     Wrong::of_line(format!("has a unit without brackets, {}", head.whole), right)
 }
@@ -301,9 +314,9 @@ fn one(unit: &str) -> String {
     format!("1 {unit}")
 }
 
-/// Whether what a text names is a unit that fits this one.
+/// Whether what a text names is a unit that fits this one, and clear.
 fn fits(unit: &str, own: &Unit) -> bool {
-    units::read(&one(unit)).is_ok_and(|one| one.fits(own))
+    units::read(&one(unit)).is_ok_and(|one| one.fits(own) && !one.may_count_turns(own))
 }
 
 /// Whether a variable is called so: an input by its own name too, without its block.

@@ -67,8 +67,16 @@ pub(super) const UNITS: &[Written] = &[
 ];
 
 /// What people write for some of them, which no likeness of letters finds.
-const ALSO: &[(&str, &str)] =
-    &[("sec", "s"), ("r", "rev"), ("U", "rev"), ("turns", "rev"), ("degrees", "deg"), ("inch", "in"), ("lbs", "lb")];
+const ALSO: &[(&str, &str)] = &[
+    ("sec", "s"),
+    ("r", "rev"),
+    ("U", "rev"),
+    ("turns", "rev"),
+    ("rps", "rev/s"),
+    ("degrees", "deg"),
+    ("inch", "in"),
+    ("lbs", "lb"),
+];
 
 /// Prefixes and their powers of ten.
 pub(super) const PREFIXES: &[(&str, i32)] =
@@ -288,6 +296,19 @@ fn with_a_point(text: &str) -> (&'static str, String) {
     let point = if separates { "" } else { "." };
     let comma = if whole.contains(MARKS) { "has a mark between thousands" } else { "has a decimal comma" };
     (comma, format!("{}{point}{}{rest}", whole.replace(MARKS, ""), decimals.replace(MARKS, "")))
+}
+
+/// Whether a text may be meant as a unit, though it is none: `hz`, `U/min`, `krpm`, `min-1`.
+pub(super) fn may_be_meant(text: &str) -> bool {
+    let mut parts = text.split(['/', '*', '.', '-']).map(|part| part.trim_end_matches(|c: char| c.is_ascii_digit()));
+    let is_known = |name: &str| {
+        let is_it = |known: &str| known.chars().count() > 1 && known.eq_ignore_ascii_case(name);
+        UNITS.iter().any(|unit| is_it(unit.name)) || ALSO.iter().any(|(also, _)| *also == name)
+    };
+    let without_prefix =
+        |name: &str| PREFIXES.iter().any(|(prefix, _)| name.strip_prefix(prefix).is_some_and(is_known));
+    parts.clone().any(|part| !part.is_empty())
+        && parts.all(|part| part.is_empty() || named(part).is_some() || is_known(part) || without_prefix(part))
 }
 
 /// What is said of a name that is no unit.

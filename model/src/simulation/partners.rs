@@ -9,7 +9,7 @@ mod work;
 use crate::effects::partner::{LOADS, Loads, SHOWN, Shown, Slopes};
 use crate::effects::{Exchange, Law};
 use crate::stored::{Damaged, Stored, Walk, stored};
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 use std::ops::Range;
 use work::{Path, Work};
 
@@ -82,6 +82,9 @@ pub(super) const LAGS: usize = 2;
 const CHANGES: usize = 7;
 const POINTS: usize = CHANGES + LAGS;
 
+/// So many of the loads are forces, the rest moments; and so much of what is shown is a place, the rest a lean.
+const WAYS: usize = 3;
+
 /// What is shown of leans, and of how they change.
 const TURNS: [usize; 4] = [3, 4, LOADS + 3, LOADS + 4];
 
@@ -98,6 +101,9 @@ const TIME: f64 = 1e-3;
 /// A fit is trusted where it missed the last loads by at most this part of what holding them did, and a line and a parabola through those
 /// before: a script's forces, to which the rotor answers, look like a partner's \[1].
 const TRUSTED: f64 = 0.3;
+
+/// Fits that missed less than this part of that are alike \[1].
+const ALIKE: f64 = 1e-6;
 
 /// So many exchanges must be known before a fit is trusted.
 const ENOUGH: usize = 6;
@@ -156,7 +162,9 @@ impl Partner {
         }
         // Of states of its own nobody here knows the work.
         if known > 1 && !exchange.has_states {
-            let lag = lag.or(self.best(lags.clone()).map(|(lag, _)| lag)).unwrap_or_default();
+            // A law is the answer to what its own lag says.
+            let of_law = || self.best(lags.clone()).map(|(lag, _)| lag).filter(|_| self.law.is_on);
+            let lag = lag.or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
             self.work.count(&self.exchanges, &self.law, &measures.loads, lag);
         }
         let ahead = if known > 1 { exchange.ahead * step } else { 0.0 };
@@ -165,6 +173,7 @@ impl Partner {
             self.work.follow_law();
         }
         self.law = if law.is_on || ahead > 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
+        self.law.error = self.work.error();
         self.is_given = given.is_some();
         self.work.begin([exchange.loads, Loads::zeros(), Loads::zeros()]);
     }
@@ -211,6 +220,14 @@ impl Partner {
         fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed))
     }
 
+    /// By how many steps its answers are late: the least number that predicts them, since of a plain vibration each does.
+    fn late_by(&self, lags: Range<usize>) -> Option<usize> {
+        let [held, ..] = self.polynomials;
+        let least = |lag: usize| self.fits[lag].iter().map(|fit| fit.missed).fold(f64::INFINITY, f64::min);
+        let missed = |lag: &usize| least(*lag).max(ALIKE * ALIKE * held);
+        lags.min_by(|one, other| missed(one).total_cmp(&missed(other)))
+    }
+
     /// The law to go on with after a communication step of this length \[s]; None where none is to be trusted.
     fn chosen(
         &self,
@@ -254,7 +271,6 @@ fn lags(lag: Option<usize>, exchange: &Exchange) -> Range<usize> {
 impl Exchanges {
     /// Adds one; returns whether those before say nothing of the partner.
     fn add(&mut self, t: f64, shown: Shown, exchange: &Exchange, measures: &Measures) -> bool {
-        let has_moment = |loads: &Loads| loads[3] != 0.0 || loads[4] != 0.0;
         let loads = exchange.loads.component_mul(&measures.loads);
         if self.known == 0 {
             // Before the first exchange all was as it is there.
@@ -309,15 +325,28 @@ impl Exchanges {
         if given.is_some() {
             return;
         }
-        let mut changes = SMatrix::<f64, SHOWN, CHANGES>::zeros();
-        let mut answers = SMatrix::<f64, LOADS, CHANGES>::zeros();
+        // A bearing at a point answers places with forces; what is left out is 0.
+        let turns = |fit: &Fit| fit.slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
+        if self.loads.iter().any(has_moment) || fits.iter().any(turns) {
+            self.fit_to::<LOADS, SHOWN>(lag, change, fits);
+        } else {
+            self.fit_to::<WAYS, { 2 * WAYS }>(lag, change, fits);
+        }
+    }
+
+    /// Fits the first `L` loads to the first `L` places and their velocities, by these changes of what was shown.
+    fn fit_to<const L: usize, const S: usize>(&self, lag: usize, change: impl Fn(usize) -> Shown, fits: &mut [Fit]) {
+        let number = |n: usize| if n < L { n } else { LOADS + n - L };
+        let mut changes = SMatrix::<f64, S, CHANGES>::zeros();
+        let mut answers = SMatrix::<f64, L, CHANGES>::zeros();
         let mut weight = 1.0;
         for n in 0..CHANGES.min(self.known - lag - 1) {
             let change = change(lag + n);
             let size = change.norm();
             if size > 0.0 {
-                changes.set_column(n, &(change * (weight / size)));
-                answers.set_column(n, &((self.loads[n] - self.loads[n + 1]) * (weight / size)));
+                let (part, answer) = (weight / size, self.loads[n] - self.loads[n + 1]);
+                changes.set_column(n, &SVector::<f64, S>::from_fn(|row, _| change[number(row)] * part));
+                answers.set_column(n, &(answer.fixed_rows::<L>(0) * part));
             }
             weight *= FADES;
         }
@@ -325,11 +354,23 @@ impl Exchanges {
         for (fit, ridge) in fits.iter_mut().zip(RIDGES) {
             // eq. 125: J + (Δf − J Δx)(Δxᵀ Δx + ε)⁻¹ Δxᵀ, the least change that fits
             let Some(solved) = (products + SMatrix::identity() * ridge).cholesky() else { continue };
-            let left = answers - fit.slopes * changes;
-            let fitted = fit.slopes + (changes * solved.solve(&left.transpose())).transpose();
-            fit.slopes = if fitted.iter().all(|slope| slope.is_finite()) { fitted } else { Slopes::zeros() };
+            let slopes = SMatrix::<f64, L, S>::from_fn(|load, n| fit.slopes[(load, number(n))]);
+            let left = answers - slopes * changes;
+            let fitted = slopes + (changes * solved.solve(&left.transpose())).transpose();
+            if !fitted.iter().all(|slope| slope.is_finite()) {
+                fit.slopes = Slopes::zeros();
+                continue;
+            }
+            for n in 0..S {
+                fit.slopes.fixed_view_mut::<L, 1>(0, number(n)).copy_from(&fitted.column(n));
+            }
         }
     }
+}
+
+/// Whether loads have a moment.
+fn has_moment(loads: &Loads) -> bool {
+    loads[WAYS] != 0.0 || loads[WAYS + 1] != 0.0
 }
 
 /// In which measures all that is shown, and all loads, count alike: leans times the radius of gyration and moments over it, velocities

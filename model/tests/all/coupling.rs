@@ -30,6 +30,38 @@ fn exact_the_longest_steps_are_those_of_trials() {
     }
 }
 
+/// A mass on a partner that is a spring without damping: what the exchange brings in, the whole energy gains, at each order, fresh and late.
+#[test]
+fn exact_the_energy_error_is_what_an_undamped_pair_gains() {
+    const STEPS: usize = 400;
+    let (m, k, start): (f64, f64, f64) = (2.0, 2e4, 1e-3);
+    let swing = (k / m).sqrt();
+    for (order, h) in [(0, 0.02 / swing), (1, 0.2 / swing), (2, 0.2 / swing)] {
+        for lag in [0, 1] {
+            let text = format!(
+                "[rotor]\nm = {m:?}\nJa = 1e-3\nJt = 1e-3\n[start]\nr_c.y = {start:?}\n[[effects.port]]\nposition = 0.0\nlearn = false\n\
+                 [effects.extrapolation]\norder = {order}\nlag = {lag}.0\n"
+            );
+            let mut named = Named::started(&text);
+            let place = named.place("port[1].f.y");
+            let mut shown = vec![start; lag + 1];
+            let mut energies = Vec::new();
+            for n in 0..=STEPS {
+                let at = named.get("port[1].r.y");
+                energies.push(0.5 * m * libm::pow(named.get("port[1].v.y"), 2.0) + 0.5 * k * at * at);
+                shown.push(at);
+                named.simulation.set_input(place, -k * shown[shown.len() - 1 - lag]);
+                named.simulation.advance((n + 1) as f64 * h).expect("a possible motion");
+            }
+            // It is known up to the last exchange, or as many steps before as answers are late.
+            let gained = energies[STEPS - lag] - energies[0];
+            let told = named.get("port[1].energy_error");
+            println!("order {order}, lag {lag}: {told:e} J of {gained:e} J, at first {:e} J", energies[0]);
+            within(&format!("order {order}, lag {lag}"), (told / gained - 1.0).abs(), 0.2);
+        }
+    }
+}
+
 /// Whether a run that is off by so much was warned of where it should not be, or not where it should; one that ends in an error is not silent.
 fn judged(off: f64, found: bool) -> [u32; 2] {
     [off > WRONG && off.is_finite() && !found, off < RIGHT && found].map(u32::from)

@@ -362,6 +362,18 @@ fn regress_a_column_is_never_read_as_another_quantity() {
             assert_eq!(torque_of(&bare, "imposed_speed.w", &column), wrong(&is, &right));
         }
     }
+    // What is hardly a unit here is none to be guessed: advice that gives a wrong speed is no advice.
+    for (head, hint) in
+        [("speed_hz", "`Hz`"), ("Drehzahl U/min", "`rev`"), ("speed_rps", "`rev/s`"), ("n_1/min", "[rpm]")]
+    {
+        for column in [String::new(), format!("column = \"{head}\"")] {
+            let [is, right] = torque_of(&bare.replace("speed_rpm", head), "imposed_speed.w", &column).expect_err(head);
+            assert_eq!(is, format!("line 1 of x.csv has a unit without brackets, {head}"));
+            assert!(right.contains(hint) && !right.contains("[rad/s]"), "{head}: {right}");
+        }
+    }
+    let [_, right] = torque_of(&bare.replace("speed_rpm", "Torque"), "imposed_speed.w", "").expect_err("a torque");
+    assert!(right.ends_with("or say column = \"Torque [...]\" in the scene, with its unit"), "{right}");
     let hertz = bare.replace("speed_rpm", "speed [Hz]");
     assert_eq!(
         torque_of(&hertz, "imposed_speed.w", "column = \"speed [rpm]\""),

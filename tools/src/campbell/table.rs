@@ -1,7 +1,7 @@
 //! The table: critical speeds, thresholds, and the modes at a few speeds.
 
 use super::{Diagram, number};
-use crate::doubts::{below, mark};
+use crate::doubts::{below, mark, mark_within};
 use crate::numbers::{SHOWN, rounded, rpm, spread};
 use split_rotor_model::linear::{Branch, Crossing, Direction, Mode, Point};
 use std::fmt::Write;
@@ -71,7 +71,9 @@ fn stability(diagram: &Diagram, text: &mut String) {
         );
     }
     if !diagram.campbell.grows() {
-        *text += "No mode grows at any of these speeds.\n";
+        let speeds = &diagram.campbell.steady;
+        let mark = mark_within(diagram.scene, [speeds[0].speed, speeds[speeds.len() - 1].speed]);
+        let _ = writeln!(text, "No mode grows at any of these speeds{mark}.");
     }
     *text += "\n";
 }
@@ -80,7 +82,7 @@ fn modes(diagram: &Diagram, text: &mut String) {
     let steady = &diagram.campbell.steady;
     let shown: Vec<_> = spread(steady.len(), SHOWN).map(|n| steady[n].speed).collect();
     *text += "| mode |";
-    shown.iter().for_each(|speed| *text += &format!(" at {} rad/s |", rounded(*speed)));
+    shown.iter().for_each(|speed| *text += &format!(" at {} rad/s |", at(diagram, *speed)));
     *text += &format!("\n|--:|{}\n", "--:|".repeat(shown.len()));
     for (branch, of) in diagram.campbell.branches.iter().enumerate() {
         *text += &format!("| {} |", number(branch));

@@ -50,7 +50,8 @@ fn peaks(found: &Found, linear: &Linear, text: &mut String) {
 fn sizes(found: &Found, linear: &Linear, text: &mut String) {
     let shown: Vec<_> = spread(linear.points.len(), SHOWN).map(|n| &linear.points[n]).collect();
     *text += "| station |";
-    shown.iter().for_each(|point| *text += &format!(" at {} rad/s |", rounded(point.speed)));
+    let at = |speed: f64| rounded(speed) + mark(found.scene, speed);
+    shown.iter().for_each(|point| *text += &format!(" at {} rad/s |", at(point.speed)));
     *text += &format!("\n|---|{}\n", "--:|".repeat(shown.len()));
     for station in &found.stations {
         *text += &format!("| {} |", station.title());

@@ -1,6 +1,6 @@
 //! Against two parameters: the lowest speed at which a mode grows.
 
-use super::{Against, Axis, Column, column, leave, machine};
+use super::{Against, Axis, Column, added, column, leave, machine};
 use crate::numbers::{rounded, spread};
 use crate::{chart, sheets, speeds};
 use anyhow::{Context, Result, ensure};
@@ -89,11 +89,13 @@ impl Plane {
         let head = format!("{} down, {} across", y.label(), x.label());
         text += &line(head, &mut columns.iter().map(|&n| rounded(x.values[n])));
         text += &format!("|--:|{}\n", "--:|".repeat(columns.len()));
+        let none = || format!("none{}", doubts::mark_within(scene, *ends));
         for n in spread(y.values.len(), SHOWN) {
             let cell =
-                |&m: &usize| self.rows[n][m].map_or("none".into(), |speed| rounded(speed) + doubts::mark(scene, speed));
+                |&m: &usize| self.rows[n][m].map_or_else(none, |speed| rounded(speed) + doubts::mark(scene, speed));
             text += &line(rounded(y.values[n]), &mut columns.iter().map(cell));
         }
+        text += &self.axes.each_ref().map(|axis| added(scene, axis)).concat();
         doubts::below(text, scene, ends)
     }
 

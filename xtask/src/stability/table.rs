@@ -1,6 +1,6 @@
 //! The table: the thresholds at a few values of the parameter.
 
-use super::{Column, Map};
+use super::{Column, Map, added};
 use crate::numbers::{rounded, rpm, spread};
 use crate::speeds;
 use split_rotor_model::linear::Crossing;
@@ -35,6 +35,7 @@ pub fn table(map: &Map) -> String {
         }
         rows.iter().for_each(|row| text += &format!("| {value} | {row} |\n"));
     }
+    text += &added(&map.scene, &map.against);
     below(text, &map.scene, &map.speeds)
 }
 

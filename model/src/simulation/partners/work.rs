@@ -20,9 +20,11 @@ pub(super) struct Work {
     steps: u32,
     /// Whether a law was in force.
     has_law: bool,
+    /// By how much loads did more since the first exchange \[J].
+    error: f64,
 }
 
-stored!(Work { acting, done, excess, exchanged, steps, has_law });
+stored!(Work { acting, done, excess, exchanged, steps, has_law, error });
 
 /// Inputs are polynomials of degree 2.
 pub(super) const POWERS: usize = 3;
@@ -45,7 +47,7 @@ impl Work {
 
     /// Of a partner that is another from here on.
     pub fn forget(&mut self) {
-        *self = Self { acting: self.acting, done: self.done, ..Self::default() };
+        *self = Self { acting: self.acting, done: self.done, error: self.error, ..Self::default() };
     }
 
     /// A law is in force: what held loads did before the first one is past.
@@ -86,7 +88,13 @@ impl Work {
         let excess = self.done[lag] - over(lag, &answered);
         let exchanged = over(lag, &|part, path| answered(part, path).abs());
         (self.excess, self.exchanged) = (FADES * self.excess + excess, FADES * self.exchanged + exchanged);
+        self.error += excess;
         self.steps += 1;
+    }
+
+    /// By how much loads did more since the first exchange than the answers would have done \[J].
+    pub fn error(&self) -> f64 {
+        self.error
     }
 
     /// The part by which the coupling does too much or too little work, of what goes through \[1]; 0 where that is not known yet.
