@@ -79,9 +79,11 @@ impl<'s> Turning<'s> {
             changes.map(|pair| threshold(&rotating, pair)).collect::<Result<_, _>>().with_context(file)?;
         // In the middle of a band motions grow fastest.
         for ends in thresholds.windows(2) {
-            match rotating.orbit(0.5 * (ends[0] + ends[1]), before(&orbits, ends[1])) {
-                Ok(orbit) => orbits.push(orbit),
-                Err(obstacle) => missed.push(obstacle),
+            let within = before(&orbits, ends[1]).filter(|orbit| orbit.loss().is_some());
+            match within.map(|near| rotating.orbit(0.5 * (ends[0] + ends[1]), Some(near))) {
+                Some(Ok(orbit)) => orbits.push(orbit),
+                Some(Err(obstacle)) => missed.push(obstacle),
+                None => {}
             }
         }
         orbits.sort_by(|a, b| a.speed.total_cmp(&b.speed));
