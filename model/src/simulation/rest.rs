@@ -258,6 +258,11 @@ impl<const N: usize> Balance<N> {
         ROUNDED * self.slopes.norm() * (1.0 + r.norm() / length)
     }
 
+    /// Whether a force follows the velocity.
+    pub(super) fn damps(&self) -> bool {
+        Block { jacobian: &self.jacobian, of: 3..6 }.rates_of::<3>(3).iter().any(|slope| *slope != 0.0)
+    }
+
     /// Directions in which nothing holds it, or so little that these loads would take it farther than `lost` radii of gyration or \[rad]; None
     /// where they were not found.
     pub(super) fn unheld(&self, loads: &SVector<f64, BALANCES>, lost: f64) -> Option<Free> {

@@ -36,15 +36,12 @@ const SAME: f64 = 1e-6;
 /// Loads that are less than this part of all that acts are rounding \[1].
 const ROUNDING: f64 = 1e-9;
 
-/// What is there to hold a rotor.
-const HOLDERS: [&str; 2] = ["bearing", "support"];
-
 /// What stops a rotor that has gone some way.
 const RING: &str = "rub";
 
 impl Unheld {
-    /// Of a rotor at time `t` \[s] and state `y`; None where something holds it in all directions, or nothing is there to hold it, or other
-    /// models may, through ports.
+    /// Of a rotor at time `t` \[s] and state `y`; None where something holds it in all directions, or nothing holds or damps it in
+    /// any, or other models may, through ports.
     ///
     /// Stiffness is that where the forces balance, so far as springs hold the rotor: a weight on a point counts.
     pub(super) fn of<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Option<Self> {
@@ -78,7 +75,7 @@ impl Unheld {
             });
         };
         // A free body is meant to be free; one in bearings that only damp is not.
-        if free.is_empty() || held == 0 && !HOLDERS.iter().any(|name| is_active(name)) {
+        if free.is_empty() || held == 0 && !balance.damps() {
             return None;
         }
         let (inertia, length) = spinning.across();
