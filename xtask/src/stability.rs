@@ -140,7 +140,8 @@ fn told(scene: &Scene, with: &[(&Axis, f64)]) -> String {
 
 /// That a coefficient is added to its table, where the scene has one.
 fn added(scene: &Scene, axis: &Axis) -> String {
-    let is_table = scene.variables.iter().any(|variable| variable.name == format!("{}[1]", axis.name));
+    let value = scenes::values(scene);
+    let is_table = (1..).map_while(|n| value(&format!("{}[{n}]", axis.name))).any(|node| node != 0.0);
     if is_table { format!("\n{} is added to its table at every speed.\n", axis.name) } else { String::new() }
 }
 
