@@ -5,11 +5,11 @@
 # initialization; a time series that is read from step 0 on, with room for more samples than there are, has them all.
 #
 # Seen: before the first step last_real_values returns 0.0, whatever the start value is: the FMUs are initialized in the first call of step().
-#   The clock is 0 there, as in the sample of t = 0 that a time series has later, with the right value.
+#   The clock shows 0 then. A time series, read later, has a sample of that time with the right value.
 #   time_series_real_samples from step 0 on lacks the newest sample, however many are asked for: after three steps 0, 1 and 2 of the steps
 #   0 to 3, and with sample_count=2 one. From step 1 on it has all: 1, 2 and 3.
-# Who answers the motion of a rotor from a script would answer a place of 0 at first: make one step before the first reading, or begin with the
-# start values of the model description. Who reads a whole series takes step 0 apart from the rest.
+# A script that answers the motion of a rotor would answer a position of 0 at first: make one step before the first reading, or begin with the
+# start values of the model description. To read a whole series, read step 0 and the rest apart.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

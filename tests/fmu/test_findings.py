@@ -28,7 +28,7 @@ def run(speeds, **columns):
 
 
 def mode(**numbers):
-    """A row of a mode that swings at 100 rad/s and dies out."""
+    """A row of a mode that swings at 100 rad/s and decays."""
     row = {"mode": 1, "direction": "forward", "frequency_rad_s": 100.0, "damping_ratio": 0.1, "growth_rate_1_s": -10.0}
     return row | numbers
 
@@ -110,7 +110,7 @@ def test_exact_growth_is_told_with_its_time_and_when_the_threshold_was_passed(fi
 
 
 def test_regress_the_growth_that_is_told_is_the_fastest_of_all_modes(findings):
-    """Modes that creep have a damping ratio of -1, each of them: the first one was told, which grew by e in 27.5 ms, for one of 3.04 ms."""
+    """Every mode that creeps has a damping ratio of -1: the report gave the first one, of 27.5 ms, where another grows by e in 3.04 ms."""
     rates = {1: [36.4, 10.0], 2: [20.0, 329.0], 3: [-5.0, 100.0]}
     rows = [(number, speed, rate) for number, both in rates.items() for speed, rate in zip((0.0, 100.0), both, strict=True)]
     creep = {"direction": "creep", "frequency_rad_s": 0.0}

@@ -1,5 +1,6 @@
 //! Where a result stands on coefficients that nobody gave: a table is left, or constants do not turn round with the rotor.
 
+use crate::numbers::rounded;
 use serde_json::{Value, json};
 use split_rotor_model::effects::{Doubt, Effects};
 use split_rotor_model::scene::Scene;
@@ -18,9 +19,14 @@ pub fn held(scene: &Scene, speeds: [f64; 2]) -> Vec<String> {
     all.into_iter().filter(|(_, doubt)| is_held(doubt)).map(|(block, _)| block).collect()
 }
 
-/// What marks a speed [rad/s] in a table, where coefficients are held.
-pub fn mark(scene: &Scene, speed: f64) -> &'static str {
-    mark_within(scene, [speed; 2])
+/// What is doubtful of the laws of a scene at these speeds [rad/s], a sentence each, without its full stop.
+pub fn words(scene: &Scene, speeds: [f64; 2]) -> impl Iterator<Item = String> {
+    of(scene, speeds).into_iter().map(|(block, doubt)| doubt.words(&block))
+}
+
+/// A speed [rad/s] as tables show it, marked where coefficients are held.
+pub fn marked(scene: &Scene, speed: f64) -> String {
+    rounded(speed) + mark_within(scene, [speed; 2])
 }
 
 /// What marks what is said of all speeds from the first to the second of these [rad/s], where coefficients are held at any of them.
@@ -30,11 +36,12 @@ pub fn mark_within(scene: &Scene, speeds: [f64; 2]) -> &'static str {
 
 /// A table of these speeds [rad/s], in Markdown, with what is doubtful of it below; as it is where every law is known.
 pub fn below(table: String, scene: &Scene, speeds: &[f64]) -> String {
-    let all = speeds.first().zip(speeds.last()).map_or_else(Vec::new, |(first, last)| of(scene, [*first, *last]));
-    if all.is_empty() {
+    let ends = speeds.first().zip(speeds.last()).map(|(first, last)| [*first, *last]);
+    let lines: String =
+        ends.into_iter().flat_map(|ends| words(scene, ends)).map(|line| format!("- {line}.\n")).collect();
+    if lines.is_empty() {
         return table;
     }
-    let lines: String = all.iter().map(|(block, doubt)| format!("- {}.\n", doubt.words(block))).collect();
     let table = table.trim_end();
     format!("{table}\n\n\\* What is found there stands on coefficients that the scene does not have:\n\n{lines}\n")
 }
@@ -62,7 +69,7 @@ mod tests {
         let expected: [&[&str]; 6] =
             [&["bearing[1]"], &[], &[], &["bearing[2]"], &["bearing[2]"], &["bearing[1]", "bearing[2]"]];
         assert_eq!(held, expected);
-        assert_eq!([mark(&scene, 20.0), mark(&scene, 60.0)], ["", " *"]);
+        assert_eq!([marked(&scene, 20.0), marked(&scene, 60.0)], ["20.0000", "60.0000 *"]);
         assert_eq!([mark_within(&scene, [20.0, 40.0]), mark_within(&scene, [20.0, 60.0])], ["", " *"]);
         let of = |speeds: &[f64]| below("| 1 |\n".into(), &scene, speeds);
         assert_eq!(of(&[10.0, 20.0, 50.0]), "| 1 |\n");

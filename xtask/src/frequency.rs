@@ -18,7 +18,7 @@ use std::path::Path;
 /// Outputs that tell how fast the rotor spins.
 const OF_SPIN: [&str; 3] = ["omega_phi", "omega.x", "K_c.x"];
 
-/// Outputs that tell how far it has turned.
+/// Outputs that show how far it has turned.
 const TURNED: [&str; 3] = ["phi", "turns", "angle"];
 
 /// How the names of inputs end that act about the axis.
@@ -61,7 +61,7 @@ impl Found {
     fn held_spin(&self) -> String {
         let from = &self.space.inputs[self.from].name;
         if !from.ends_with(ABOUT_THE_AXIS) {
-            return format!("{HELD}, and {from} does not act about the axis");
+            return HELD.into();
         }
         // Of all of it, what is out of balance included.
         let axial = rounded(self.scene.parameters().shape().tensor()[(0, 0)]);
@@ -111,7 +111,11 @@ pub fn frequency(
         found.points.iter().any(|point| point.answer.is_some_and(|answer| answer.modulus() > 0.0)),
         "{}: {from} does not move {to} in the linear view: the response is 0 at every frequency{}",
         found.scene.file.display(),
-        if is_of_spin(to) { format!(". {}", found.held_spin()) } else { String::new() }
+        match is_of_spin(to) {
+            true if from.ends_with(ABOUT_THE_AXIS) => format!(". {}", found.held_spin()),
+            true => format!(". {HELD}, and {from} does not act about the axis"),
+            false => String::new(),
+        }
     );
     let seen = |point: &Point| (point.frequency, point.size());
     found.peaks = peaks::of(&found.points, seen, |frequency, _| found.at(frequency))?;

@@ -237,7 +237,7 @@ mod tests {
         assert!(table.contains("at all these speeds") && !table.contains("none of these"), "{table}");
     }
 
-    /// Cross stiffness at one of two bearings, without damping: at standstill one mode grows, beyond it two. Two rows told of a threshold at 0.
+    /// Cross stiffness at one of two bearings, without damping: at standstill one mode grows, beyond it two. Two rows had a threshold at 0.
     #[test]
     fn regress_the_first_speed_is_no_threshold_where_a_mode_grows_already() {
         let bearing = |at: &str, cross: f64| {

@@ -62,8 +62,8 @@ fn told(scene: &Scene, space: &StateSpace) -> Result<String> {
     if steady.modes()?.iter().any(|mode| mode.grows()) {
         told += "\na mode grows: the steady state is unstable";
     }
-    for (block, doubt) in doubts::of(scene, [steady.speed; 2]) {
-        told += &format!("\n{}", doubt.words(&block));
+    for line in doubts::words(scene, [steady.speed; 2]) {
+        told += &format!("\n{line}");
     }
     Ok(told)
 }

@@ -1,7 +1,7 @@
 //! The table: critical speeds, thresholds, and the modes at a few speeds.
 
 use super::{Diagram, number};
-use crate::doubts::{below, mark, mark_within};
+use crate::doubts::{below, mark_within, marked};
 use crate::numbers::{SHOWN, rounded, rpm, spread};
 use split_rotor_model::linear::{Branch, Crossing, Direction, Mode, Point};
 use std::fmt::Write;
@@ -29,7 +29,7 @@ fn critical_speeds(diagram: &Diagram, text: &mut String) {
         "| critical speed [rad/s] | [rpm] | line | mode | direction | damping ratio |\n|--:|--:|--:|--:|---|--:|\n";
     for (order, Crossing { branch, speed, mode }) in rows {
         let (number, direction, ratio) = (number(*branch), mode.direction.name(), ratio(mode, 4));
-        let (speed, rpm) = (at(diagram, *speed), rounded(rpm(*speed)));
+        let (speed, rpm) = (marked(diagram.scene, *speed), rounded(rpm(*speed)));
         let _ = writeln!(text, "| {speed} | {rpm} | {order}X | {number} | {direction} | {ratio:.4} |");
     }
     if diagram
@@ -51,13 +51,13 @@ fn stability(diagram: &Diagram, text: &mut String) {
             mode.direction.name(),
             rounded(mode.eigenvalue.im),
             diagram.grows(threshold),
-            at(diagram, *speed),
+            marked(diagram.scene, *speed),
             rounded(rpm(*speed))
         );
     }
     let grows_always = |(_, branch): &(usize, &Branch)| branch.points.iter().all(|point| point.mode.grows());
     for (branch, Branch { points }) in diagram.campbell.branches.iter().enumerate().filter(grows_always) {
-        let [from, to] = [0, points.len() - 1].map(|end| at(diagram, points[end].speed));
+        let [from, to] = [0, points.len() - 1].map(|end| marked(diagram.scene, points[end].speed));
         let _ = writeln!(text, "Mode {} ({}) grows from {from} to {to} rad/s.", number(branch), directions(points));
     }
     if let Some((branch, Point { speed, mode })) = diagram.fastest_growth() {
@@ -66,7 +66,7 @@ fn stability(diagram: &Diagram, text: &mut String) {
             "Fastest growth: mode {} ({}) at {} rad/s, by a factor of e in {} s.",
             number(branch),
             mode.direction.name(),
-            at(diagram, *speed),
+            marked(diagram.scene, *speed),
             rounded(1.0 / mode.eigenvalue.re)
         );
     }
@@ -82,7 +82,7 @@ fn modes(diagram: &Diagram, text: &mut String) {
     let steady = &diagram.campbell.steady;
     let shown: Vec<_> = spread(steady.len(), SHOWN).map(|n| steady[n].speed).collect();
     *text += "| mode |";
-    shown.iter().for_each(|speed| *text += &format!(" at {} rad/s |", at(diagram, *speed)));
+    shown.iter().for_each(|speed| *text += &format!(" at {} rad/s |", marked(diagram.scene, *speed)));
     *text += &format!("\n|--:|{}\n", "--:|".repeat(shown.len()));
     for (branch, of) in diagram.campbell.branches.iter().enumerate() {
         *text += &format!("| {} |", number(branch));
@@ -93,12 +93,7 @@ fn modes(diagram: &Diagram, text: &mut String) {
         *text += "\n";
     }
     *text += "\nFrequency [rad/s], negative where it whirls backward, and damping ratio in brackets; of a mode that creeps, its growth, \
-              negative where it dies out.\n";
-}
-
-/// A speed [rad/s], marked where coefficients are held.
-fn at(diagram: &Diagram, speed: f64) -> String {
-    rounded(speed) + mark(diagram.scene, speed)
+              negative where it decays.\n";
 }
 
 /// The directions that a mode has one after another.

@@ -135,11 +135,6 @@ impl<'s> Turning<'s> {
         all.map(row).collect()
     }
 
-    /// A speed [rad/s], marked where coefficients are held.
-    fn at(&self, speed: f64) -> String {
-        rounded(speed) + doubts::mark(self.scene, speed)
-    }
-
     /// Which speeds were looked at, in words.
     fn looked_at(&self) -> String {
         let [first, last] = [0, self.orbits.len() - 1].map(|n| rounded(self.orbits[n].speed));
@@ -183,7 +178,7 @@ impl<'s> Turning<'s> {
                  repeat with each revolution, balanced, drives off, the spin imposed. Frequencies count but for whole multiples of the spin.\n\n";
         for threshold in &self.thresholds {
             let ceases = before(&self.orbits, *threshold).is_some_and(|orbit| orbit.loss().is_some());
-            let (verb, at) = (if ceases { "cease" } else { "begin" }, self.at(*threshold));
+            let (verb, at) = (if ceases { "cease" } else { "begin" }, doubts::marked(self.scene, *threshold));
             text += &format!("Small motions {verb} to grow at {at} rad/s ({} rpm).\n", rounded(rpm(*threshold)));
         }
         let (leave, missed): (Vec<_>, Vec<_>) = self.missed.iter().partition(|obstacle| is_growth(obstacle));
@@ -209,8 +204,12 @@ impl<'s> Turning<'s> {
         for orbit in self.shown() {
             let [growth, frequency] = fastest(orbit);
             let largest = rounded(orbit.largest_multiplier());
-            text +=
-                &format!("| {} | {} | {} | {largest} |\n", self.at(orbit.speed), rounded(growth), rounded(frequency));
+            text += &format!(
+                "| {} | {} | {} | {largest} |\n",
+                doubts::marked(self.scene, orbit.speed),
+                rounded(growth),
+                rounded(frequency)
+            );
         }
         let speeds: Vec<_> = self.orbits.iter().map(|orbit| orbit.speed).collect();
         doubts::below(text, self.scene, &speeds)

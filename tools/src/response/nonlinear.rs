@@ -1,7 +1,7 @@
 //! The response by the laws as they stand: motions that repeat with each revolution, followed through the speeds.
 
 use super::{Found, Sight, Station, once};
-use crate::doubts::mark;
+use crate::doubts::marked;
 use crate::numbers::{micrometres, rounded, rpm};
 use crate::rows::Row;
 use serde_json::json;
@@ -111,9 +111,9 @@ pub(super) fn words(found: &Found, text: &mut String) {
         let [seen, major, minor, farthest] = all.map(micrometres);
         let lasts = if peak.loss().is_none() { "yes" } else { "no" };
         let name = station.title();
-        let (mark, rounded, rpm) = (mark(found.scene, speed), rounded(speed), rounded(rpm(speed)));
+        let (at, rpm) = (marked(found.scene, speed), rounded(rpm(speed)));
         *text += &format!(
-            "| {rounded}{mark} | {rpm} | {name} | {} | {seen} | {major} and {minor} | {farthest} | {lasts} |\n",
+            "| {at} | {rpm} | {name} | {} | {seen} | {major} and {minor} | {farthest} | {lasts} |\n",
             sight.name()
         );
     }
@@ -121,7 +121,7 @@ pub(super) fn words(found: &Found, text: &mut String) {
 
 /// Where a branch goes, turns back, and does not last.
 fn tell(scene: &Scene, branch: &Branch, text: &mut String) {
-    let at = |orbit: &Orbit| format!("{}{} rad/s", rounded(orbit.speed), mark(scene, orbit.speed));
+    let at = |orbit: &Orbit| format!("{} rad/s", marked(scene, orbit.speed));
     let [first, last] = [&branch.orbits[0], &branch.orbits[branch.orbits.len() - 1]].map(at);
     *text += &format!("\n- From {first} to {last}.\n");
     for fold in branch.folds() {

@@ -1,7 +1,7 @@
 //! The table: where the orbits are largest, and how large they are at a few speeds.
 
 use super::{Found, Linear, Peak, lag, nonlinear};
-use crate::doubts::{below, mark};
+use crate::doubts::{below, marked};
 use crate::numbers::{SHOWN, micrometres, rounded, rpm, spread};
 use std::fmt::Write;
 
@@ -33,8 +33,8 @@ fn peaks(found: &Found, linear: &Linear, text: &mut String) {
     for (station, peaks) in found.stations.iter().zip(&linear.peaks) {
         for Peak { sight, point } in peaks {
             let (speed, name) = (point.speed, station.title());
-            let mark = mark(found.scene, speed);
-            let _ = write!(text, "| {}{mark} | {} | {name} | {} | ", rounded(speed), rounded(rpm(speed)), sight.name());
+            let at = marked(found.scene, speed);
+            let _ = write!(text, "| {at} | {} | {name} | {} | ", rounded(rpm(speed)), sight.name());
             let _ = match point.orbit(station) {
                 Some(orbit) => {
                     let [seen, major, minor] = [sight.of(&orbit), orbit.major(), orbit.minor()].map(micrometres);
@@ -50,8 +50,7 @@ fn peaks(found: &Found, linear: &Linear, text: &mut String) {
 fn sizes(found: &Found, linear: &Linear, text: &mut String) {
     let shown: Vec<_> = spread(linear.points.len(), SHOWN).map(|n| &linear.points[n]).collect();
     *text += "| station |";
-    let at = |speed: f64| rounded(speed) + mark(found.scene, speed);
-    shown.iter().for_each(|point| *text += &format!(" at {} rad/s |", at(point.speed)));
+    shown.iter().for_each(|point| *text += &format!(" at {} rad/s |", marked(found.scene, point.speed)));
     *text += &format!("\n|---|{}\n", "--:|".repeat(shown.len()));
     for station in &found.stations {
         *text += &format!("| {} |", station.title());

@@ -27,8 +27,8 @@ pub fn table(found: &Found) -> Result<String, Obstacle> {
     if found.space.steady.modes()?.iter().any(|mode| mode.grows()) {
         text += "A mode grows: a run does not settle to this answer.\n";
     }
-    for (block, doubt) in doubts::of(&found.scene, [found.space.steady.speed; 2]) {
-        let _ = writeln!(text, "{}.", doubt.words(&block));
+    for line in doubts::words(&found.scene, [found.space.steady.speed; 2]) {
+        let _ = writeln!(text, "{line}.");
     }
     Ok(text)
 }

@@ -91,8 +91,7 @@ impl Plane {
         text += &format!("|--:|{}\n", "--:|".repeat(columns.len()));
         let none = || format!("none{}", doubts::mark_within(scene, *ends));
         for n in spread(y.values.len(), SHOWN) {
-            let cell =
-                |&m: &usize| self.rows[n][m].map_or_else(none, |speed| rounded(speed) + doubts::mark(scene, speed));
+            let cell = |&m: &usize| self.rows[n][m].map_or_else(none, |speed| doubts::marked(scene, speed));
             text += &line(rounded(y.values[n]), &mut columns.iter().map(cell));
         }
         text += &self.axes.each_ref().map(|axis| added(scene, axis)).concat();

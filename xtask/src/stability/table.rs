@@ -4,7 +4,7 @@ use super::{Column, Map, added};
 use crate::numbers::{rounded, rpm, spread};
 use crate::speeds;
 use split_rotor_model::linear::Crossing;
-use split_rotor_tools::doubts::{below, mark, mark_within};
+use split_rotor_tools::doubts::{below, mark_within, marked};
 
 /// So many values are shown.
 const SHOWN: usize = 12;
@@ -44,14 +44,14 @@ fn ends(map: &Map) -> [f64; 2] {
     [map.speeds[0], map.speeds[map.speeds.len() - 1]]
 }
 
-/// What is told of a threshold; None where one more mode begins to grow at the first speed, at which another one does already.
+/// The row of a threshold; None where one more mode begins to grow at the first speed, at which another one does already.
 fn row(column: &Column, map: &Map, at: &Crossing) -> Option<String> {
     let ([first, last], side) = (ends(map), side(column, map, at.speed));
     if side == BOTH && at.speed - first <= AT_THE_END * (last - first) {
         return None;
     }
-    let (speed, rpm, whirl) = (rounded(at.speed), rounded(rpm(at.speed)), rounded(at.mode.frequency()));
-    Some(format!("{side} | {speed}{} | {rpm} | {whirl}", mark(&map.scene, at.speed)))
+    let (rpm, whirl) = (rounded(rpm(at.speed)), rounded(at.mode.frequency()));
+    Some(format!("{side} | {} | {rpm} | {whirl}", marked(&map.scene, at.speed)))
 }
 
 /// On which side of a threshold [rad/s] the machine is unstable.
