@@ -295,10 +295,10 @@ fn unfit(head: &Head, own: &Unit) -> Wrong {
 fn bare(head: &Head, own: &Unit) -> Wrong {
     let (name, unit) = head.bare_unit().unwrap_or((head.name, ""));
     let right = match units::read(&one(unit)) {
-        Ok(_) if fits(unit, own) => {
+        Ok(one) if one.may_count_turns(own) => format!("{CLEAR}: write {name} [rpm]"),
+        Ok(one) if one.fits(own) => {
             format!("write {name} [{unit}], or column = \"{} [{unit}]\" in the scene", head.name)
         }
-        Ok(one) if one.may_count_turns(own) => format!("{CLEAR}: write {name} [rpm]"),
         Err(Unreadable::Unit(_, right)) => format!("{right} Units stand in brackets: {name} [...]"),
         read => {
             let what = read.ok().and_then(|one| units::quantity(one.exponents)).unwrap_or("no unit");

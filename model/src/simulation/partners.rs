@@ -160,12 +160,13 @@ impl Partner {
         for lag in lags.clone().filter(|_| known > 1) {
             self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
         }
+        let mut error = self.law.error;
         // Of states of its own nobody here knows the work.
         if known > 1 && !exchange.has_states {
             // A law is the answer to what its own lag says.
             let of_law = || self.best(lags.clone()).map(|(lag, _)| lag).filter(|_| self.law.is_on);
             let lag = lag.or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
-            self.work.count(&self.exchanges, &self.law, &measures.loads, lag);
+            error += self.work.count(&self.exchanges, &self.law, &measures.loads, lag);
         }
         let ahead = if known > 1 { exchange.ahead * step } else { 0.0 };
         let law = self.chosen(lag, lags, exchange, &measures, step).unwrap_or_default();
@@ -173,7 +174,7 @@ impl Partner {
             self.work.follow_law();
         }
         self.law = if law.is_on || ahead > 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
-        self.law.error = self.work.error();
+        self.law.error = error;
         self.is_given = given.is_some();
         self.work.begin([exchange.loads, Loads::zeros(), Loads::zeros()]);
     }

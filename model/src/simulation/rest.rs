@@ -182,7 +182,7 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
             // What rounding leaves shrinks no more.
             if size == 0.0 || (size < 1e-9 && size >= 0.5 * before) || size < 1e-15 {
                 let is_held = all.singular_values[UNKNOWNS - 1] > UNHELD * largest;
-                let balances = balance.left.norm() <= BALANCED * first + balance.rounding(r, length);
+                let balances = balance.left.norm() <= BALANCED * first + rounding(largest, r, length);
                 return balances.then_some(Rest { r, gamma, is_held, balance });
             }
             let share = if size > LONGEST { LONGEST / size } else { 1.0 };
@@ -253,11 +253,6 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
 }
 
 impl<const N: usize> Balance<N> {
-    /// What rounding leaves of the loads, at most, in [`Balance::left`]'s units, where the mass centre is at `r` \[m].
-    pub(super) fn rounding(&self, r: Vector3<f64>, length: f64) -> f64 {
-        ROUNDED * self.slopes.norm() * (1.0 + r.norm() / length)
-    }
-
     /// Whether a force follows the velocity.
     pub(super) fn damps(&self) -> bool {
         Block { jacobian: &self.jacobian, of: 3..6 }.rates_of::<3>(3).iter().any(|slope| *slope != 0.0)
@@ -274,14 +269,27 @@ impl<const N: usize> Balance<N> {
         let is_lost = |n: &usize| !is_free(n) && loads[*n].abs() > lost * all.singular_values[*n];
         let unheld = (0..UNKNOWNS).filter(|n| is_free(n) || is_lost(n));
         let directions: Vec<_> = unheld.map(|n| rows.row(n).transpose()).collect();
-        Some(Free { held: UNKNOWNS - directions.len(), is_weak: (0..UNKNOWNS).any(|n| is_lost(&n)), directions })
+        Some(Free {
+            held: UNKNOWNS - directions.len(),
+            is_weak: (0..UNKNOWNS).any(|n| is_lost(&n)),
+            largest,
+            directions,
+        })
     }
+}
+
+/// What rounding leaves of the loads, at most, in the units of [`Balance::left`]: with this largest stiffness, the mass centre at `r` \[m], and
+/// this radius of gyration \[m].
+pub(super) fn rounding(largest: f64, r: Vector3<f64>, length: f64) -> f64 {
+    ROUNDED * largest * (1.0 + r.norm() / length)
 }
 
 /// Directions in which nothing holds a rotor.
 pub(super) struct Free {
     /// Orthonormal in place over the radius of gyration and tilt.
     pub directions: Vec<SVector<f64, UNKNOWNS>>,
+    /// The largest stiffness, as in [`Balance::left`] \[1/s²].
+    pub largest: f64,
     /// In how many directions something holds it.
     pub held: usize,
     /// Whether something does in these too, if hardly.

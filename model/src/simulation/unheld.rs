@@ -1,7 +1,7 @@
 //! In which directions nothing holds a rotor that is held in others: it drifts there, whether or not a motion grows.
 
 use super::growth::PORT;
-use super::rest::{Free, Spinning, UNKNOWNS, settled};
+use super::rest::{Free, Spinning, UNKNOWNS, rounding, settled};
 use crate::effects::Effects;
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
@@ -61,7 +61,7 @@ impl Unheld {
         let begun = Coordinates::from_slice(rigid(y));
         let begun = spinning.balance(begun.r, begun.gamma).left;
         let lost = if gamma.norm() < LEANS { LOST } else { f64::INFINITY };
-        let Some(Free { directions: free, held, is_weak }) = balance.unheld(&begun, lost) else {
+        let Some(Free { directions: free, held, is_weak, largest }) = balance.unheld(&begun, lost) else {
             // Where forces overflow the motion itself cannot go on, and says so.
             if balanced.jacobian(t, y).as_flattened().iter().any(|slope| !slope.is_finite()) {
                 return None;
@@ -95,7 +95,7 @@ impl Unheld {
                 (force + left.fixed_rows::<3>(3).dot(&turn)) * size
             };
             let all = directions.iter().map(of).map(|load| load * load).sum::<f64>().sqrt();
-            if all > size * (ROUNDING * left.norm()).max(balance.rounding(r, length)) { all } else { 0.0 }
+            if all > size * (ROUNDING * left.norm()).max(rounding(largest, r, length)) { all } else { 0.0 }
         };
         let load = [loads(&along, length / body.per_m), loads(&about, inertia)];
         let along: Vec<_> = along.iter().map(|direction| direction.fixed_rows::<3>(0).into_owned()).collect();

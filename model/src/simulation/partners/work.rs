@@ -20,11 +20,9 @@ pub(super) struct Work {
     steps: u32,
     /// Whether a law was in force.
     has_law: bool,
-    /// By how much loads did more since the first exchange \[J].
-    error: f64,
 }
 
-stored!(Work { acting, done, excess, exchanged, steps, has_law, error });
+stored!(Work { acting, done, excess, exchanged, steps, has_law });
 
 /// Inputs are polynomials of degree 2.
 pub(super) const POWERS: usize = 3;
@@ -47,7 +45,7 @@ impl Work {
 
     /// Of a partner that is another from here on.
     pub fn forget(&mut self) {
-        *self = Self { acting: self.acting, done: self.done, error: self.error, ..Self::default() };
+        *self = Self { acting: self.acting, done: self.done, ..Self::default() };
     }
 
     /// A law is in force: what held loads did before the first one is past.
@@ -59,8 +57,9 @@ impl Work {
     }
 
     /// Counts the communication step that ends with the latest of these exchanges, under this law; the measures of `loads`, whose
-    /// answers are late by `lag` steps.
-    pub fn count(&mut self, exchanges: &Exchanges, law: &Law, loads: &Loads, lag: usize) {
+    /// answers are late by `lag` steps. Returns by how much loads did more than the answers would have done in the last step of which that
+    /// is known \[J].
+    pub fn count(&mut self, exchanges: &Exchanges, law: &Law, loads: &Loads, lag: usize) -> f64 {
         let over = |from: usize, power: &dyn Fn(f64, &Path) -> f64| {
             let path = exchanges.path(from);
             NODES.iter().map(|[part, weight]| weight * path.step * power(*part, &path)).sum::<f64>()
@@ -79,7 +78,7 @@ impl Work {
         all.as_mut_slice().rotate_right(1);
         all[0] = done;
         if exchanges.known < lag + 2 {
-            return;
+            return 0.0;
         }
         let [to, from] = [exchanges.loads[0], exchanges.loads[1]];
         let answered =
@@ -88,13 +87,8 @@ impl Work {
         let excess = self.done[lag] - over(lag, &answered);
         let exchanged = over(lag, &|part, path| answered(part, path).abs());
         (self.excess, self.exchanged) = (FADES * self.excess + excess, FADES * self.exchanged + exchanged);
-        self.error += excess;
         self.steps += 1;
-    }
-
-    /// By how much loads did more since the first exchange than the answers would have done \[J].
-    pub fn error(&self) -> f64 {
-        self.error
+        excess
     }
 
     /// The part by which the coupling does too much or too little work, of what goes through \[1]; 0 where that is not known yet.
