@@ -26,7 +26,7 @@ fn folder() -> PathBuf {
 
 /// Packages scenes for every platform, each in one FMU, and runs them there. To compile each list of effects three times would take half
 /// an hour: the scenes that the general library can be run over it.
-pub fn bits_of_every_platform() -> Result<()> {
+pub fn bits_of_every_platform() -> Result<String> {
     let all = Scene::names(&paths::scenes());
     let all = all.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
     let general = scenes::find(GENERAL)?;
@@ -64,8 +64,7 @@ pub fn bits_of_every_platform() -> Result<()> {
         Ok(())
     })?;
     drop(progress);
-    println!("{} trajectories, bit for bit", compared.into_inner());
-    Ok(())
+    Ok(format!("{} trajectories, bit for bit", compared.into_inner()))
 }
 
 /// A scene over the general library, with a sheet of its own variables only: the states of effects that are off are not in its hash.

@@ -29,6 +29,11 @@ pub enum Peers {
 const TRIED: usize = 4;
 pub use tolerances::tolerances;
 
+/// The names of the peers.
+pub fn peers() -> impl Iterator<Item = &'static str> {
+    peers::PEERS.iter().map(|(name, _)| *name)
+}
+
 /// Packages the scene, measures it, and writes into the folder `out`, or target/accuracy/SCENE; which peers were left out, and why.
 pub fn accuracy(scene: &str, peers: Peers, out: Option<&Path>) -> Result<Vec<String>> {
     let found = scenes::find(scene)?;

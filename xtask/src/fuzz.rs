@@ -15,8 +15,8 @@ const CARGO_FUZZ: &str = "0.13.2";
 const SCENES: [&str; 2] = ["paper", "driven"];
 const SEQUENCES: usize = 1_000_000;
 
-/// Where somebody wants fewer of them: the name of an environment variable with their number.
-const FEWER: &str = "SPLIT_ROTOR_SEQUENCES";
+/// Where somebody has no half hour for them: the name of an environment variable with the longest time \[s], after which none is begun.
+const LONGEST_TIME: &str = "SPLIT_ROTOR_FUZZ_SECONDS";
 
 /// The longest sequence, in bytes; a call takes some five.
 const LONGEST: u32 = 200;
@@ -29,21 +29,23 @@ pub fn fuzz() -> Result<()> {
     if !(cfg!(target_os = "linux") && cfg!(target_env = "gnu")) {
         bail!("fuzzing needs Linux with the GNU C library, for the sanitizers");
     }
-    let sequences = match std::env::var(FEWER) {
-        Ok(number) => number.parse().with_context(|| format!("{FEWER} = {number} must be a whole number"))?,
-        Err(_) => SEQUENCES,
+    let seconds = match std::env::var(LONGEST_TIME) {
+        Ok(number) => {
+            Some(number.parse().with_context(|| format!("{LONGEST_TIME} = {number} must be a whole number"))?)
+        }
+        Err(_) => None,
     };
     let cargo_fuzz = installed("cargo-fuzz", CARGO_FUZZ)?;
     let folder = paths::target().join("fuzz");
     let targets = SCENES.iter().map(|scene| build(scene, &cargo_fuzz, &folder)).collect::<Result<Vec<_>>>()?;
-    let started =
-        SCENES.iter().zip(&targets).map(|(scene, target)| start(scene, target, sequences / SCENES.len(), &folder));
+    let started = SCENES.iter().zip(&targets).map(|(scene, target)| start(scene, target, seconds, &folder));
     let mut running = started.collect::<Result<Vec<_>>>()?;
     let statuses = running.iter_mut().map(|(_, child)| child.wait()).collect::<Result<Vec<_>, _>>()?;
     for ((log, _), status) in running.iter().zip(statuses) {
         if !status.success() {
-            bail!("{}: the fuzz target failed ({status}): {}", log.display(), end(log)?);
+            bail!("{}: the fuzz target failed ({status}): {}", log.display(), end(log, 40)?);
         }
+        println!("{}: {}", log.display(), end(log, 1)?);
     }
     Ok(())
 }
@@ -67,10 +69,11 @@ fn build(scene: &str, cargo_fuzz: &Path, folder: &Path) -> Result<PathBuf> {
 }
 
 /// Starts a run; its log and its process.
-fn start(scene: &str, target: &Path, sequences: usize, folder: &Path) -> Result<(PathBuf, Child)> {
-    let log = folder.join(format!("{scene}.log"));
+fn start(scene: &str, target: &Path, seconds: Option<u32>, folder: &Path) -> Result<(PathBuf, Child)> {
+    let (log, sequences) = (folder.join(format!("{scene}.log")), SEQUENCES / SCENES.len());
     eprintln!("{sequences} random sequences of calls with {scene}, log in {}", log.display());
     let child = Command::new(target)
+        .args(seconds.map(|seconds| format!("-max_total_time={seconds}")))
         .args([format!("-runs={sequences}"), "-seed=1".into()])
         .args([format!("-max_len={LONGEST}"), "-len_control=0".into(), format!("-timeout={PATIENCE}")])
         .arg(format!("-artifact_prefix={}/{scene}-", folder.display()))
@@ -81,10 +84,9 @@ fn start(scene: &str, target: &Path, sequences: usize, folder: &Path) -> Result<
     Ok((log, child))
 }
 
-/// The last lines of a log.
-fn end(log: &Path) -> Result<String> {
-    const LINES: usize = 40;
+/// So many last lines of a log.
+fn end(log: &Path, count: usize) -> Result<String> {
     let text = String::from_utf8_lossy(&std::fs::read(log)?).into_owned();
     let lines: Vec<_> = text.lines().collect();
-    Ok(lines[lines.len().saturating_sub(LINES)..].join("\n"))
+    Ok(lines[lines.len().saturating_sub(count)..].join("\n"))
 }

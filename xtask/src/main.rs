@@ -78,6 +78,9 @@ enum Command {
         /// The long ones too: third-party clients
         #[arg(long)]
         long: bool,
+        /// Of the long ones also those that have not changed since they last ran
+        #[arg(long, requires = "long")]
+        all: bool,
     },
     /// Package scenes as target/fmu/SCENE.fmu
     Package {
@@ -310,7 +313,16 @@ fn pair(option: &str, given: Option<&[String]>) -> Result<Option<[f64; 2]>> {
 fn dispatch(command: Command) -> Result<()> {
     match command {
         Command::Demo { scene } => demo::demo(&scene),
-        Command::Test { part, long } => test::test(&part, long),
+        Command::Test { part, long, all } => {
+            let length = if all {
+                test::Length::All
+            } else if long {
+                test::Length::Long
+            } else {
+                test::Length::Short
+            };
+            test::test(&part, length)
+        }
         Command::Package { scenes, out, platforms } => {
             let platforms: Vec<_> = platforms.iter().map(String::as_str).collect();
             package::package_for(&scenes, &platforms, out.as_deref()).map(drop)

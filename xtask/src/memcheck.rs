@@ -5,12 +5,13 @@ use crate::test::by_library;
 use crate::unpacked::unpack;
 use crate::{c, c_host, library, paths, scenes};
 use anyhow::Result;
+use split_rotor_model::scene::Scene;
 
 /// Runs a shorter C host under memcheck on one scene's FMU of every library, as it was packaged last: what the same library runs is the same
 /// machine code. Errors and leaks fail.
 pub fn valgrind() -> Result<()> {
     let host = c_host::compile("host", &[])?;
-    let (compiled, _) = by_library();
+    let (compiled, _) = by_library(Scene::names(&paths::scenes()))?;
     let all = compiled.iter().map(|name| scenes::find(name)).collect::<Result<Vec<_>>>()?;
     side_by_side(&library::by_list(&all), |_, scenes| {
         let mut command = c::tool("valgrind", "valgrind")?;

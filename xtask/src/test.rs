@@ -1,12 +1,15 @@
 //! `test`: everything that must hold, as a list of jobs.
 
 mod times;
+mod unchanged;
 
 use crate::accuracy::{self, Peers};
 use crate::hard_cases::{self, Extent};
 use crate::progress::Progress;
 use crate::run::{cargo, run, side_by_side};
-use crate::{abroad, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, wheel};
+use crate::{
+    abroad, bench, c_host, copies, fuzz, known, memcheck, package, paths, python, ross, sanitize, scenes, wheel,
+};
 use anyhow::{Context, Result, bail, ensure};
 use split_rotor_model::scene::Scene;
 use std::env;
@@ -15,10 +18,31 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::thread;
 use times::Watch;
+use unchanged::{Basis, unless_unchanged};
 
-/// What a job does, the folders in target/ that it alone needs, and what runs it, at length where asked; where it cannot, that is an error,
-/// which names what is to be installed.
-type Job = (&'static str, &'static [&'static str], fn(long: bool) -> Result<()>);
+/// What a job does, the folders in target/ that it alone needs, and what runs it; where it cannot, that is an error, which names what is to
+/// be installed.
+type Job = (&'static str, &'static [&'static str], fn(Length) -> Result<()>);
+
+/// How much is run.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Length {
+    Short,
+    Long,
+    /// Also what has not changed since it last ran.
+    All,
+}
+
+impl Length {
+    /// The switches that ask for it.
+    const fn switches(self) -> &'static [&'static str] {
+        match self {
+            Length::Short => &[],
+            Length::Long => &["--long"],
+            Length::All => &["--long", "--all"],
+        }
+    }
+}
 
 /// What always runs. Several run side by side, here and below, so what takes longest comes first.
 const SHORT: [Job; 3] = [
@@ -29,7 +53,7 @@ const SHORT: [Job; 3] = [
 
 /// What takes long, or needs more than the README asks for.
 const LONG: [Job; 16] = [
-    ("bits of every platform", &["abroad"], |_| abroad::bits_of_every_platform()),
+    ("bits of every platform", &["abroad"], bits_of_every_platform),
     ("counts that must hold", &[], |_| bench::must_hold()),
     ("third-party clients", &[], |_| clients()),
     ("fuzz", &["fuzz"], |_| fuzz::fuzz()),
@@ -43,15 +67,15 @@ const LONG: [Job; 16] = [
     ("hard cases in full", &[], |_| whole_gallery()),
     ("absence is free", &["copies/absence", "copies/code"], |_| copies::absence_is_free()),
     ("bytes elsewhere", &[], |_| copies::place_leaves_no_trace()),
-    ("peers", &["peers"], |_| peers()),
-    ("against ROSS", &[], |_| ross::ross()),
+    ("peers", &["peers"], peers),
+    ("against ROSS", &[], against_ross),
 ];
 
 /// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took
 /// ([`times`]).
-pub fn test(part: &str, long: bool) -> Result<()> {
+pub fn test(part: &str, length: Length) -> Result<()> {
     let of = |jobs: &'static [Job]| jobs.iter().filter(|(name, ..)| name.contains(part)).collect::<Vec<_>>();
-    let (short, others) = (of(&SHORT), if long { of(&LONG) } else { Vec::new() });
+    let (short, others) = (of(&SHORT), if length == Length::Short { Vec::new() } else { of(&LONG) });
     let names = |jobs: &[Job]| jobs.iter().map(|(name, ..)| format!("\n  {name}")).collect::<String>();
     match *[&short[..], &others].concat() {
         // Nothing run would pass for nothing wrong.
@@ -64,14 +88,14 @@ pub fn test(part: &str, long: bool) -> Result<()> {
         [(name, _, job)] => {
             println!("\n== {name}");
             let watch = Watch::of(name);
-            let done = job(long);
+            let done = job(length);
             let stopped = watch.stop();
             done.and(stopped)
         }
         _ => {
             times::clear()?;
             let groups = [short, others];
-            let done = groups.iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs, long));
+            let done = groups.iter().filter(|jobs| !jobs.is_empty()).try_for_each(|jobs| together(jobs, length));
             let printed = times::print();
             done.and(printed)
         }
@@ -79,7 +103,7 @@ pub fn test(part: &str, long: bool) -> Result<()> {
 }
 
 /// Runs these jobs side by side, each by an xtask of its own, whose words are shown when it has ended.
-fn together(jobs: &[&Job], long: bool) -> Result<()> {
+fn together(jobs: &[&Job], length: Length) -> Result<()> {
     let (progress, running) = (Progress::of(jobs.len()), Mutex::new(Vec::new()));
     side_by_side(jobs, |_, (name, folders, _)| {
         progress.tell(&format!("== {name} begins"));
@@ -90,7 +114,7 @@ fn together(jobs: &[&Job], long: bool) -> Result<()> {
         };
         now(&|running| running.push(name));
         let mut job = Command::new(env::current_exe()?);
-        let output = job.args(["test", name]).args(long.then_some("--long")).stdin(Stdio::null()).output()?;
+        let output = job.args(["test", name]).args(length.switches()).stdin(Stdio::null()).output()?;
         progress.suspend(|| {
             print!("{}", String::from_utf8_lossy(&output.stdout));
             eprint!("{}", String::from_utf8_lossy(&output.stderr));
@@ -125,37 +149,43 @@ fn driven_tests() -> Result<()> {
 }
 
 /// The bits are the same where nothing is optimised, with wide vectors and fused arithmetic at the disposal of every library, where this
-/// machine has them. Where all is optimised, the packaged FMUs have them too.
+/// machine has them: each scene by one method. Where all is optimised, each has them by all, and so have the packaged FMUs.
 fn plain_wide_build() -> Result<()> {
     // There the laws of all effects stand on the stack one within another: 2 MB of it.
     let stack = (8 << 20).to_string();
     run(cargo()
         .args(["test", "--quiet", "--test", "bits", "--profile", "unoptimised"])
         .env("RUST_MIN_STACK", stack)
+        .env("SPLIT_ROTOR_METHODS_BY_TURNS", "1")
         .env("RUSTFLAGS", "-Ctarget-cpu=native"))
 }
 
 /// The packaged FMUs under a host in C and under fmpy, those of all scenes only at length; then the hard cases by them, the long ones
 /// shortened, and that each can fail.
-fn packaged_fmus(long: bool) -> Result<()> {
-    let (compiled, others) = if long { by_library() } else { (first(), Vec::new()) };
+fn packaged_fmus(length: Length) -> Result<()> {
+    let scenes = if length == Length::Short { first() } else { Scene::names(&paths::scenes()) };
+    let (compiled, others) = by_library(scenes)?;
     c_host::plain(&[package::package(&compiled, None)?, package::over_general(&others)?].concat())?;
     let names = [("SPLIT_ROTOR_PACKAGED", compiled), ("SPLIT_ROTOR_OVER_GENERAL", others)];
     run(pytest(&["tests/fmu", "tests/clients"])?.envs(names.map(|(variable, names)| (variable, names.join(" ")))))?;
     hard_cases::run(&Extent { mutants: true, ..Extent::default() })
 }
 
-/// Each list of effects takes a minute to compile: of the scenes those of the hard cases, one through all charts, and that of the README.
+/// The scenes of the hard cases, one through all charts, and that of the README.
 fn first() -> Vec<String> {
     hard_cases::scenes().into_iter().chain(["tumbling", "turbo"]).map(str::to_owned).collect()
 }
 
-/// Scenes with a drive and bearings, as `turbo` has: their FMUs are made over the library of every effect.
-const OVER_GENERAL: [&str; 3] = ["centrifuge", "flywheel", "overhung"];
+/// To compile a list of effects takes a minute: those of these scenes are compiled, no effect, few, many, one with tables, and every effect.
+const COMPILED: [&str; 5] = ["free_top", "paper", "turbo", "film_bearings", "rotor"];
 
-/// The scenes whose lists are compiled, and the others.
-pub fn by_library() -> (Vec<String>, Vec<String>) {
-    Scene::names(&paths::scenes()).into_iter().partition(|name| !OVER_GENERAL.contains(&name.as_str()))
+/// Of these scenes those whose lists are compiled, and the others: their FMUs are made over the library of every effect, with the same bits.
+pub fn by_library(scenes: Vec<String>) -> Result<(Vec<String>, Vec<String>)> {
+    let list = |name: &str| Ok(scenes::find(name)?.list());
+    let compiled = COMPILED.iter().map(|name| list(name)).collect::<Result<Vec<_>>>()?;
+    let is_compiled = scenes.iter().map(|name| Ok(compiled.contains(&list(name)?))).collect::<Result<Vec<_>>>()?;
+    let mut is_compiled = is_compiled.into_iter();
+    Ok(scenes.into_iter().partition(|_| is_compiled.next() == Some(true)))
 }
 
 /// The hard cases that were shortened, in full.
@@ -177,13 +207,62 @@ fn long_runs() -> Result<()> {
     run(cargo().args(all).args(["--skip", "what_auto_costs"]))
 }
 
-/// What a user would pick instead of us still runs, all of it. What it takes is measured by `cargo xtask accuracy --peers`.
-fn peers() -> Result<()> {
-    let left_out = accuracy::accuracy("paper", Peers::Tried, Some(&paths::target().join("test/peers")))?;
-    if !left_out.is_empty() {
-        bail!("{}", left_out.join(" "));
-    }
-    Ok(())
+/// The golden bits on every platform, where anything has changed that is part of an FMU or makes one.
+fn bits_of_every_platform(length: Length) -> Result<()> {
+    let apart = [
+        ".ci",
+        "benches",
+        "docs",
+        "examples",
+        "findings",
+        "fuzz",
+        "model/examples",
+        "model/tests",
+        "oracles",
+        "python",
+        "tests/clients",
+        "tests/fmu",
+        "tests/golden/jobs",
+        "tests/interface",
+        "*.md",
+    ];
+    let apart = apart.map(|path| format!(":!{path}"));
+    let tracked = [&["."], &apart.each_ref().map(String::as_str)[..]].concat();
+    let basis = Basis { tracked: &tracked, made: &[] };
+    unless_unchanged(
+        &unchanged::file("bits_of_every_platform"),
+        &basis,
+        length == Length::All,
+        abroad::bits_of_every_platform,
+    )
+}
+
+/// What a user would pick instead of us still runs, all of it, where anything has changed of that, or of what asks it. What it takes is
+/// measured by `cargo xtask accuracy --peers`.
+fn peers(length: Length) -> Result<()> {
+    let tracked = [
+        "Cargo.lock",
+        "Cargo.toml",
+        "benches/peers",
+        "model/src/scene",
+        "model/src/variables.rs",
+        "scenes/paper.toml",
+        "tools",
+        "xtask",
+    ];
+    let basis = Basis { tracked: &tracked, made: &[] };
+    unless_unchanged(&unchanged::file("peers"), &basis, length == Length::All, || {
+        let left_out = accuracy::accuracy("paper", Peers::Tried, Some(&paths::target().join("test/peers")))?;
+        ensure!(left_out.is_empty(), "{}", left_out.join(" "));
+        Ok(accuracy::peers().map(|name| format!("{name} runs\n")).collect())
+    })
+}
+
+/// ROSS and the linear view find the same, where anything has changed of what either finds: ours is found anew in any case.
+fn against_ross(length: Length) -> Result<()> {
+    let tracked = ["xtask/python/looks.py", "xtask/python/peers", "xtask/src/python.rs", "xtask/src/ross.rs"];
+    let basis = Basis { tracked: &tracked, made: &ross::ours()? };
+    unless_unchanged(&unchanged::file("against_ROSS"), &basis, length == Length::All, ross::theirs)
 }
 
 /// A command that runs these tests, as many files at a time as there are processors.
@@ -196,10 +275,12 @@ fn pytest(arguments: &[&str]) -> Result<Command> {
 
 #[cfg(test)]
 mod tests {
+    use super::Length;
+
     #[test]
     fn a_job_that_is_not_there_is_an_error() {
         for part in ["nosuchjob", "absence is free"] {
-            let refused = super::test(part, false).expect_err("nothing to run").to_string();
+            let refused = super::test(part, Length::Short).expect_err("nothing to run").to_string();
             assert!(
                 refused.starts_with(&format!("no job's name holds {part:?}: there are\n  Rust's tests\n")),
                 "{refused}"
