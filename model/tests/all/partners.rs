@@ -357,23 +357,6 @@ pub fn drawn(number: u64) -> (Pair, String, f64, bool) {
     (Pair::new(rotor, places, bearings), text, h, late)
 }
 
-/// So many drawn pairs err by a quarter of what held loads do at most, over the last tenth of 300 steps; none errs by more than these.
-const QUARTERED: u64 = 54;
-
-#[test]
-fn ordinary_drawn_bearings_are_learnt() {
-    let mut quartered = 0;
-    for number in 0..DRAWN {
-        let (pair, text, h, late) = drawn(number);
-        let exact = whole(&text, h, 300.0 * h);
-        let [held, learnt] = [HELD, LEARNT].map(|ports| apart(&pair.coupled(ports, h, late, 300.0 * h), &exact)[1]);
-        within(&format!("pair {number}, steps of {h:.1e} s, late: {late}, held {held:.1e}"), learnt, 1.05 * held);
-        quartered += u64::from(learnt < 0.25 * held);
-    }
-    println!("{quartered} of {DRAWN} err by less than a quarter of what held loads do");
-    assert!(quartered >= QUARTERED, "{quartered}");
-}
-
 /// Two sines of a script, whose steps are of this length \[s]: forces \[N] by time \[s].
 pub fn drawn_script(number: u64, h: f64) -> impl Fn(f64) -> f64 {
     let mut dice = Dice::new(0x5_c21 + number);
