@@ -62,3 +62,4 @@ mod traced;
 mod turns;
 mod typed;
 mod unheld;
+mod units;

@@ -7,11 +7,11 @@ use crate::unpacked::unpack;
 use crate::{paths, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::variable::Kind;
-use split_rotor_model::xml;
 use split_rotor_tools::accuracy::motion::Point;
 use split_rotor_tools::accuracy::run::{OUTPUTS, point};
 use std::cell::Cell;
 use std::collections::BTreeMap;
+use std::fs;
 
 /// The loaded FMU of a scene.
 pub struct Stage {
@@ -42,7 +42,10 @@ impl Stage {
         let scene = scenes::find(name)?;
         let fmu = paths::fmu(name);
         let unpacked = unpack(&fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
-        let fmu = Fmu::load(&unpacked.library, &xml::guid(&scene))?;
+        // One over the library of every effect has more states than its scene, and a GUID of its own.
+        let sheet = fs::read_to_string(&unpacked.sheet)?;
+        let guid = sheet.lines().find_map(|line| line.strip_prefix("attribute fmiModelDescription.guid "));
+        let fmu = Fmu::load(&unpacked.library, guid.context("the XML has no GUID")?)?;
         let variables: BTreeMap<_, _> =
             (scene.variables.iter()).map(|v| (v.name.clone(), (v.place.value_reference(), v.meta.kind))).collect();
         let outputs = OUTPUTS.map(|name| variables[name].0);
