@@ -396,30 +396,30 @@ impl Instance {
         }
     }
 
-    /// Says once, where a run begins, that all inputs are 0 though the scene begins with others: some hosts send 0 to inputs that
+    /// Says once, where a run begins, that all inputs of what is on are 0 though the scene begins with others: some hosts send 0 to what
     /// nobody connected.
     fn warn_of_zeros(&mut self) {
-        let memory = &mut self.memory;
+        let memory = &self.memory;
         if memory.warned[warned::OF_ZEROS] || memory.simulation.time() != Some(memory.experiment.start) {
             return;
         }
-        let is_input = |reference| {
-            Parameters::<Effects>::meta(Place::of(reference))
-                .is_some_and(|meta| matches!(meta.role, Role::Input { .. }))
+        let is_input = |place| {
+            Parameters::<Effects>::meta(place).is_some_and(|meta| matches!(meta.role, Role::Input { .. }))
+                && self.off_for(place).is_none()
         };
         let values = scene::values();
-        let mut inputs = values.starts().filter(|(reference, _)| is_input(*reference));
+        let inputs = values.starts().map(|(reference, start)| (Place::of(reference), start));
+        let mut inputs = inputs.filter(|(place, _)| is_input(*place));
         let other = inputs.clone().find(|(_, start)| *start != 0.0);
-        let is_zero = |reference| memory.simulation.value(Place::of(reference)) == Some(0.0);
-        if let Some((reference, start)) = other
-            && inputs.all(|(reference, _)| is_zero(reference))
+        if let Some((place, start)) = other
+            && inputs.all(|(place, _)| memory.simulation.value(place) == Some(0.0))
         {
-            memory.warned[warned::OF_ZEROS] = true;
-            let name = Parameters::<Effects>::name(Place::of(reference)).unwrap_or_default();
+            let name = Parameters::<Effects>::name(place).unwrap_or_default();
             let message = format!(
                 "all inputs are 0, and the scene begins with {name} = {start:?}: some hosts send 0 to inputs that nobody \
                  connected; connect them, or set them to their start values"
             );
+            self.memory.warned[warned::OF_ZEROS] = true;
             self.logger.log(Severity::Warning, Category::Warning, &message);
         }
     }
