@@ -403,16 +403,18 @@ impl Instance {
         if memory.warned[warned::OF_ZEROS] || memory.simulation.time() != Some(memory.experiment.start) {
             return;
         }
-        let is_input = |place| {
-            Parameters::<Effects>::meta(place).is_some_and(|meta| matches!(meta.role, Role::Input { .. }))
-                && self.off_for(place).is_none()
-        };
+        let is_input =
+            |place| Parameters::<Effects>::meta(place).is_some_and(|meta| matches!(meta.role, Role::Input { .. }));
+        let is_zero = |place| memory.simulation.value(place) == Some(0.0);
         let values = scene::values();
         let inputs = values.starts().map(|(reference, start)| (Place::of(reference), start));
-        let mut inputs = inputs.filter(|(place, _)| is_input(*place));
+        // Whether an effect is on is asked last: of the few that are not 0.
+        let mut inputs = inputs
+            .filter(|(place, start)| is_input(*place) && (*start != 0.0 || !is_zero(*place)))
+            .filter(|(place, _)| self.off_for(*place).is_none());
         let other = inputs.clone().find(|(_, start)| *start != 0.0);
         if let Some((place, start)) = other
-            && inputs.all(|(place, _)| memory.simulation.value(place) == Some(0.0))
+            && inputs.all(|(place, _)| is_zero(place))
         {
             let name = Parameters::<Effects>::name(place).unwrap_or_default();
             let message = format!(
