@@ -180,22 +180,40 @@ pub fn whole_rates<S: Scalar, E: Effects, const N: usize>(
     }
     let own = &state[..own(N)];
     if effects.works() {
-        all_rates::<S, E, N, true>(effects, motion, own)
+        all_rates::<S, E, N, true, false>(effects, motion, own)
     } else {
-        all_rates::<S, E, N, false>(effects, motion, own)
+        all_rates::<S, E, N, false, false>(effects, motion, own)
     }
 }
 
-/// The rates of a state of N numbers, of the work where `ALL` is asked for.
+/// Whether what is long for these effects is compiled once and called: of those with switches, where they are compiled for commands and
+/// tests, which shall not take long to build. An FMU has it wherever it is asked for, which runs faster, with the same bits.
+const fn is_apart<E: Effects>() -> bool {
+    cfg!(feature = "general") && E::FACTS.switched
+}
+
+/// [`Effects::act`].
 #[inline(always)]
-fn all_rates<S: Scalar, E: Effects, const N: usize, const ALL: bool>(
+pub(crate) fn acting<S: Scalar, E: Effects>(effects: &E, motion: &Motion<S>) -> Act<S> {
+    if const { is_apart::<E>() } { acting_called(effects, motion) } else { effects.act(motion) }
+}
+
+/// [`Effects::act`], called.
+#[inline(never)]
+fn acting_called<S: Scalar, E: Effects>(effects: &E, motion: &Motion<S>) -> Act<S> {
+    effects.act(motion)
+}
+
+/// The rates of a state of N numbers, of the work where `ALL` is asked for; what acts is found here, or by [`acting`].
+#[inline(always)]
+fn all_rates<S: Scalar, E: Effects, const N: usize, const ALL: bool, const HERE: bool>(
     effects: &E,
     motion: &Kinematics<S>,
     states: &[S],
 ) -> [S; N] {
     let mut all = [S::zero(); N];
     let seen = Motion::new(motion, states);
-    let act = effects.act(&seen);
+    let act = if HERE { effects.act(&seen) } else { acting(effects, &seen) };
     effects.own_rates(&seen, &mut all[..own(N)]);
     written::<S, E, N, ALL>(effects, motion, &act, all)
 }
@@ -265,7 +283,7 @@ impl<'e, E: Effects> Rotor<'e, E> {
     fn rates_in<S: Scalar, const N: usize, const ALL: bool>(&self, chart: Chart, t: f64, y: &[S; N]) -> [S; N] {
         let motion = self.motion_in(chart, t, y);
         debug_assert!(ALL || !self.frame.works, "what works is solved with its work");
-        all_rates::<S, E, N, ALL>(self.effects, &motion, &y[..own(N)])
+        all_rates::<S, E, N, ALL, false>(self.effects, &motion, &y[..own(N)])
     }
 
     /// The same in any form, called: beside it in every stage, the usual one would wait for registers.
@@ -287,7 +305,7 @@ impl<'e, E: Effects> Rotor<'e, E> {
     fn rates_of_switched<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         let body = self.frame.body.symmetric();
         let motion = Kinematics::new(body, self.frame.chart, Coordinates::from_slice(rigid(y)));
-        all_rates::<f64, E, N, ALL>(self.effects, &motion.when(t, self.frame.turns), &y[..own(N)])
+        all_rates::<f64, E, N, ALL, true>(self.effects, &motion.when(t, self.frame.turns), &y[..own(N)])
     }
 
     /// Whether a state may have this γ \[rad] in the chart, whose own reach is told, under these effects.

@@ -14,7 +14,7 @@ use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::integrate::{Refusal, System};
 use crate::rotation::arc::{Reduced, atan2};
 use crate::rotation::{Angle, Chart, Tilt, Turn, Winding};
-use crate::rotor::{FORBIDDEN, LIMIT, Rotor, groups};
+use crate::rotor::{FORBIDDEN, LIMIT, Rotor, acting, groups};
 use crate::state::{Coordinates, Kinematics, PHI, own, put_work, rigid, rigid_mut, work};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
@@ -224,7 +224,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     /// Follows the speeds for a time `h` \[s], the place and the time `t` \[s] standing still.
     #[inline(always)]
     fn push(&mut self, t: f64, h: f64) {
-        let effects = &self.rotor.effects;
+        let effects = self.rotor.effects;
         if self.refusal.is_some() {
             return;
         }
@@ -240,12 +240,12 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return;
         }
         let motion = self.motion(t, self.at.v, self.at.k);
-        let load = effects.act(&Motion::new(&motion, &self.y[..own(N)])).load;
+        let load = acting(effects, &Motion::new(&motion, &self.y[..own(N)])).load;
         let (v, k) = (load.force * (h * self.rotor.frame.body.per_m), load.about_centre(&motion) * h);
         if self.works {
             // No load follows the speeds, so power does so linearly, and the middle of the way tells the work.
             let middle = self.motion(t, self.at.v + v * 0.5, self.at.k + k * 0.5);
-            let act = effects.act(&Motion::new(&middle, &self.y[..own(N)]));
+            let act = acting(effects, &Motion::new(&middle, &self.y[..own(N)]));
             self.work = [self.work[0] + act.supply * h, self.work[1] + act.loss * h];
             self.evaluations += 1.0;
         }
@@ -258,14 +258,14 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     /// back, or all of the motion would be kept where it can be called with.
     #[inline(never)]
     fn pushed_followed(mut self, tableau: &Tableau, t: f64, h: f64) -> Self {
-        let effects = &self.rotor.effects;
+        let effects = self.rotor.effects;
         let mut speeds = self.y;
         Coordinates { v: self.at.v, k: self.at.k, ..self.at }.write(rigid_mut(&mut speeds));
         put_work(&mut speeds, self.work);
         let rates = |speeds: &[f64; N]| {
             let at = Coordinates::from_slice(rigid(speeds));
             let motion = self.motion(t, at.v, at.k);
-            let act = effects.act(&Motion::new(&motion, &speeds[..own(N)]));
+            let act = acting(effects, &Motion::new(&motion, &speeds[..own(N)]));
             let load = act.load + act.damping;
             let mut rates = [0.0; N];
             effects.own_rates(&Motion::new(&motion, &speeds[..own(N)]), &mut rates[..own(N)]);

@@ -1,6 +1,6 @@
 //! Loads that are outputs, as groups of their own: the error of each counts beside how far it goes.
 
-use super::Rotor;
+use super::{Rotor, is_apart};
 use crate::effects::{Change, Effects, Pose};
 use crate::integrate::sizes::{MOST_GROUPS, Squares};
 use crate::rotation::{Chart, Tilt};
@@ -39,7 +39,7 @@ impl<E: Effects> Rotor<'_, E> {
         let axis_rate = tilt.axis_change(&rate.gamma);
         let excursion = Change { r_c, axis, v_c: velocity, axis_rate, speed: rate.phi };
         let pose = self.pose(at, tilt, axis_rate, rate.phi);
-        self.effects.loads::<true>(&pose, &excursion, &mut squares[Self::load_groups::<N>()]);
+        self.load_squares::<N, true>(&pose, &excursion, squares);
     }
 
     /// Writes by how much each load changes with a small change `by` of the coordinates.
@@ -78,7 +78,7 @@ impl<E: Effects> Rotor<'_, E> {
         // ω_φ without the precession of the axis, which is slow beside the spin.
         let speed = momentum.dot(&tilt.axis) * (body.per_jt + body.spin);
         let pose = self.pose(at, *tilt, momentum.cross(&tilt.axis) * body.per_jt, speed);
-        self.effects.loads::<false>(&pose, change, &mut squares[Self::load_groups::<N>()]);
+        self.load_squares::<N, false>(&pose, change, squares);
     }
 
     /// Writes what loads change by where place and tilt change as numbers that are rounded, which have these sizes: r_c \[m], v_c [m/s],
@@ -102,7 +102,28 @@ impl<E: Effects> Rotor<'_, E> {
             speed: tilt_rate,
         };
         let pose = self.pose(at, Tilt::new(self.frame.chart, at.gamma), Vector3::zeros(), 0.0);
-        self.effects.loads::<false>(&pose, &change, &mut squares[Self::load_groups::<N>()]);
+        self.load_squares::<N, false>(&pose, &change, squares);
+    }
+
+    /// Writes how large each load is, or by how much it changes.
+    #[inline(always)]
+    fn load_squares<const N: usize, const SIZES: bool>(&self, pose: &Pose, change: &Change, squares: &mut Squares) {
+        if const { is_apart::<E>() } {
+            self.load_squares_called::<N, SIZES>(pose, change, squares);
+        } else {
+            self.effects.loads::<SIZES>(pose, change, &mut squares[Self::load_groups::<N>()]);
+        }
+    }
+
+    /// The same, called.
+    #[inline(never)]
+    fn load_squares_called<const N: usize, const SIZES: bool>(
+        &self,
+        pose: &Pose,
+        change: &Change,
+        squares: &mut Squares,
+    ) {
+        self.effects.loads::<SIZES>(pose, change, &mut squares[Self::load_groups::<N>()]);
     }
 
     /// How the rotor lies at these coordinates, where its axis has this tilt and rate [1/s] and φ this rate [rad/s].
