@@ -8,7 +8,7 @@ use proptest::test_runner::{RngSeed, TestError, TestRunner};
 use split_rotor::abi::{CO_SIMULATION, MODEL_EXCHANGE, Status};
 
 /// So many sequences on each of so many threads.
-const SEQUENCES: u32 = 4_000;
+const SEQUENCES: u32 = 10_000;
 const THREADS: u64 = 2;
 
 /// The longest sequence, in bytes; a call takes some five.
