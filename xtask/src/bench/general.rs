@@ -8,7 +8,6 @@ use anyhow::{Result, ensure};
 use split_rotor_model::effects;
 use split_rotor_model::scene::Scene;
 use split_rotor_tools::general;
-use std::path::PathBuf;
 
 /// fmi2DoStep of the general FMU over that of the scene of the same effects \[1]: the target, and what fails. The target is missed since
 /// the errors of loads count, of effects that are off too: measured 1.364.
@@ -21,49 +20,32 @@ const SETS: usize = 3;
 /// With which seed, where none is given.
 pub const SEED: u64 = 8;
 
-/// A scene whose list of effects is compiled for other tests too, and the ratio \[1] that fails: measured 1.197.
-const OF_THE_TESTS: (&str, f64) = ("turbo", 1.25);
-
 /// Instructions of an evaluation that an effect costs which is switched off: the target, and what fails; measured 3.61, 2.52 before ports had laws.
 const OFF: f64 = 4.0;
 const OFF_FAILS: f64 = 4.2;
 
-/// Prints what a second of each set drawn with this seed takes in the general FMU and in its own; what is beyond its limit.
-pub fn print_drawn(seed: u64) -> Result<Vec<String>> {
-    let sets: Vec<_> = sets::drawn(seed).take(SETS).collect();
-    let written = (1..).zip(&sets).map(|(number, set)| sets::written(&folder(), &format!("set{number}"), "", set));
-    let scenes = written.collect::<Result<Vec<_>>>()?;
-    print(&sets.iter().map(sets::words).collect::<Vec<_>>(), &scenes, GENERAL_FAILS)
-}
-
-/// The same of a scene of the project, for which nothing is compiled but what other tests need too.
-pub fn print_of_the_tests() -> Result<Vec<String>> {
-    let (scene, fails) = OF_THE_TESTS;
-    print(&[scene.into()], &[scene.into()], fails)
-}
-
-/// The same of these scenes, names or files, in these words.
-fn print(words: &[String], scenes: &[String], fails: f64) -> Result<Vec<String>> {
+/// Prints what a second of each set drawn with this seed takes in the general FMU and in its own, and what is off; what is
+/// beyond its limit.
+pub fn print(seed: u64) -> Result<Vec<String>> {
     let mut broken = Vec::new();
-    let fmus = packaged(&[&["rotor".into()], scenes].concat(), &folder())?;
+    let folder = paths::target().join("general");
+    let sets: Vec<_> = sets::drawn(seed).take(SETS).collect();
+    let written = (1..).zip(&sets).map(|(number, set)| sets::written(&folder, &format!("set{number}"), "", set));
+    let scenes = std::iter::once(Ok("rotor".into())).chain(written).collect::<Result<Vec<_>>>()?;
+    let fmus = packaged(&scenes, &folder)?;
     println!("{}", head(&["a second of", "scene", "general", "ratio", "at most"]));
-    for ((words, scene), own) in words.iter().zip(scenes).zip(&fmus[1..]) {
+    for ((set, scene), own) in sets.iter().zip(&scenes[1..]).zip(&fmus[1..]) {
         let values = values(&scenes::find("rotor")?, &scenes::find(scene)?)?;
         let [own, all] = [spent(own, &[])?, spent(&fmus[0], &values)?];
-        let ratio = all.instructions / own.instructions;
+        let (words, ratio) = (sets::words(set), all.instructions / own.instructions);
         let target = target(Some(GENERAL), ratio);
         println!("| {words} | {} | {} | {ratio:.3} | {target} |", own.instructions, all.instructions);
         ensure!(own.evaluations == all.evaluations, "{words}: other steps, {} evaluations", all.evaluations);
-        if ratio > fails {
+        if ratio > GENERAL_FAILS {
             broken.push(format!("the general FMU with {words}: {ratio:.3} times its scene"));
         }
     }
     Ok(broken)
-}
-
-/// Where the scenes and FMUs of these tables lie.
-fn folder() -> PathBuf {
-    paths::target().join("general")
 }
 
 /// General FMUs with so many bearings and ports, all of them off: what there may be several of and has a law.
@@ -76,7 +58,7 @@ const ACTING: [&[&str]; 3] = [&["gravity"], &["drag"], &["support", "drag"]];
 /// Prints what an effect costs that is switched off, as what more of them cost more; what is beyond its limit.
 pub fn print_off() -> Result<Vec<String>> {
     let mut broken = Vec::new();
-    let folder = folder();
+    let folder = paths::target().join("general");
     let generals = [("fewer", FEWER), ("more", MORE)].map(|(name, number)| {
         let set = set(&[("bearing", number), ("port", number)]);
         sets::written(&folder, name, "general = true\n", &set)
