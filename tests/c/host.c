@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct options options = {.cycles = 10000, .steps = 1000, .memory = true};
+struct options options = {.cycles = 1000, .steps = 1000, .memory = true};
 
 static void usage(void)
 {

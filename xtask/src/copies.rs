@@ -68,11 +68,11 @@ pub fn absence_is_free() -> Result<()> {
     Ok(())
 }
 
-/// The libraries of `paper` that travel, for any Linux and for Windows, are the same to the byte where the project lies elsewhere: behind
+/// The libraries of no effect that travel, for any Linux and for Windows, are the same to the byte where the project lies elsewhere: behind
 /// the system's libraries in the order of names, by which a linker may sort, or before them.
 pub fn place_leaves_no_trace() -> Result<()> {
     let _alone = alone()?;
-    let scene = scenes::find("paper")?;
+    let scene = scenes::find("free_top")?;
     let parent = if paths::root() < Path::new("/usr") { "/var/tmp" } else { "/tmp" };
     let copy = copied_to(Path::new(parent).join(format!("split-rotor elsewhere {}", std::process::id())))?;
     for toolchain in Toolchain::named(&[LINUX64.name, WIN64.name])? {

@@ -37,7 +37,7 @@ const FOUND: [u64; 8] = [505_566, 507_845, 501_449, 20_782_623, 502_827, 507_266
 
 /// Scenes that are drawn in the long test, and how long it goes on to draw where a machine is slow.
 const OF_A_DAY: u64 = 1000;
-const DRAWN_FOR: Duration = Duration::from_secs(300);
+const DRAWN_FOR: Duration = Duration::from_secs(150);
 
 /// A scene is drawn anew so often until one is fit.
 const ATTEMPTS: u64 = 50;
