@@ -1,0 +1,209 @@
+"""Six pairs of a rotor and models of another tool, and what is right of each: by the FMU's own bearings, by equations, or by a master of our
+own with much shorter steps."""
+
+from dataclasses import dataclass, field
+
+from masters import by_fmpy
+
+TOLERANCE = 1e-9
+PROBE = ("rotor.probe[1].r.y", "rotor.probe[1].r.z")
+TURBO = {
+    "effects.support": False,
+    "effects.unbalance[1]": True,
+    "effects.probe[1]": True,
+    "rotor.m": 12.0,
+    "rotor.Ja": 0.04,
+    "rotor.Jt": 0.12,
+    "rotor.l": 0.0,
+    "start.omega.x": 1500.0,
+    "unbalance[1].mass": 1e-3,
+    "unbalance[1].radius": 0.04,
+    "unbalance[1].position": 0.03,
+    "probe[1].position": 0.12,
+    "solver.relative_tolerance": TOLERANCE,
+}
+PLACES = (-0.12, 0.12)  # [m]
+# Axial positions are counted from the first bearing: a master that sends 0 to a bearing before it has read anything stretches no spring.
+PORTS = {"start.r_c.x": -PLACES[0]} | {
+    name: value
+    for n, place in enumerate(PLACES, 1)
+    for name, value in ((f"effects.port[{n}]", True), (f"port[{n}].position", place))
+}
+BEARING = {"kyy": 2e7, "kzz": 1.5e7, "cyy": 2000.0, "czz": 2000.0}
+BEARINGS = (BEARING | {"kxx": 1e6, "cxx": 500.0}, BEARING)
+LATE = {"effects.extrapolation": True, "extrapolation.lag": 1.0}
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Models that are coupled."""
+
+    models: dict
+    """By name: "rotor" or the file of a partner, and its start values."""
+    links: tuple
+    """Of outputs to inputs, as "model.variable"."""
+    watched: tuple
+    """Outputs that are compared."""
+    span: float
+    """[s]"""
+    exact: object
+    """Called with the paths of the FMUs, a step, and a much shorter one [s]: the watched outputs after each step."""
+    held: dict = field(default_factory=dict)
+    """Values of the rotor with which its inputs are held."""
+    advised: dict = field(default_factory=dict)
+    """Values of the rotors that docs/cosimulation.md advises."""
+    means: bool = True
+    """Whether a partner that holds its inputs takes the mean of a step, in a master that iterates; else what is there at its start."""
+
+
+def turbo(partner, values, axes, others=(), of_rotor=(), **more):
+    """The turbo rotor on two partners of this kind, which answer along these axes; `others` are links to both, such as the speed."""
+    names = ("first", "second")
+    links = [
+        (f"rotor.port[{n}].{of}.{axis}", f"{name}.{of}{axis}")
+        for n, name in enumerate(names, 1)
+        for of in "rv"
+        if f"{of}y" in SHOWN[partner]
+        for axis in axes
+    ]
+    links += [(source, f"{name}.{sink}") for name in names for source, sink in others]
+    links += [
+        (f"{name}.f{axis}", f"rotor.port[{n}].f.{axis}") for n, name in enumerate(names, 1) for axis in axes
+    ]
+    models = {"rotor": ("rotor", TURBO | PORTS | dict(of_rotor))}
+    models |= {name: (partner, of_one) for name, of_one in zip(names, values)}
+    held = {f"port[{n}].learn": False for n in (1, 2)}
+    return Pair(models, tuple(links), PROBE, 0.05, held=held, **more)
+
+
+SHOWN = {"bearing": {"ry", "vy"}, "journal": {"ry", "vy"}, "pedestal": {"ry", "vy"}, "magnetic": {"ry"}}
+
+
+def own_bearings(paths, step, _):
+    """The turbo rotor in bearings of its own."""
+    values = TURBO | {
+        name: value
+        for n, (place, bearing) in enumerate(zip(PLACES, BEARINGS), 1)
+        for name, value in (
+            (f"effects.bearing[{n}]", True),
+            (f"bearing[{n}].position", place),
+            *((f"bearing[{n}].{key}", value) for key, value in bearing.items()),
+        )
+    }
+    return by_fmpy.plain({"rotor": (paths["rotor"], values)}, (), PROBE, step, round(0.05 / step))
+
+
+def finely(name):
+    """A pair with short steps, each partner answering at once."""
+
+    def exact(paths, step, fine):
+        pair = PAIRS[name]
+        every, models = round(step / fine), with_paths(pair, paths, pair.held)
+        return by_fmpy.fresh(models, pair.links, pair.watched, fine, round(pair.span / fine))[every - 1 :: every]
+
+    return exact
+
+
+def with_paths(pair, paths, values):
+    """The models of a pair: path and start values, those of rotors with these too."""
+    return {
+        name: (paths[kind], own | (values if kind == "rotor" else {})) for name, (kind, own) in pair.models.items()
+    }
+
+
+def integrated(rates, start, watched, span):
+    """Runge-Kutta steps of these equations, as a reference: `watched` are numbers of states."""
+
+    def exact(_, step, fine):
+        inner = max(1, round(step / fine))
+        h, state, found = step / inner, list(start), []
+        add = lambda a, k, b: [x + k * y for x, y in zip(a, b)]  # noqa: E731
+        for _ in range(round(span / step)):
+            for _ in range(inner):
+                k1 = rates(state)
+                k2 = rates(add(state, h / 2, k1))
+                k3 = rates(add(state, h / 2, k2))
+                k4 = rates(add(state, h, k3))
+                state = [x + h / 6 * (a + 2 * b + 2 * c + d) for x, a, b, c, d in zip(state, k1, k2, k3, k4)]
+            found.append([state[n] for n in watched])
+        return found
+
+    return exact
+
+
+def motor_rates(state):
+    """Of angle and speed of the rotor (Ja = 0.08 kg m²) and of the motor, as partners/motor.py has them."""
+    phi, w, phi_m, w_m = state
+    torque = 2e4 * (phi_m - phi) + 2.0 * (w_m - w)
+    drive = max(-200.0, min(200.0, 5.0 * (300.0 - w_m)))
+    return [w, torque / 0.08, w_m, (drive - torque) / 0.05]
+
+
+def two_rates(state):
+    """Of angle and speed of two rotors (0.08 and 0.05 kg m²) with a torsion spring between."""
+    phi1, w1, phi2, w2 = state
+    torque = 2e4 * (phi1 - phi2) + 1.0 * (w1 - w2)
+    return [w1, -torque / 0.08, w2, torque / 0.05]
+
+
+def in_line(axial, **start):
+    """A rotor with a drive, without weight and support."""
+    values = {"effects.support": False, "effects.gravity": False, "effects.drive": True, "rotor.l": 0.0, "rotor.m": 10.0}
+    values |= {"rotor.Ja": axial, "rotor.Jt": 0.15, "start.r_c.x": 0.0, "solver.relative_tolerance": TOLERANCE}
+    return values | {f"start.{name}": value for name, value in start.items()}
+
+
+PAIRS = {
+    "linear": turbo(
+        "bearing",
+        BEARINGS,
+        "xyz",
+        exact=own_bearings,
+        advised={f"port[{n}].{key}": value for n, of in enumerate(BEARINGS, 1) for key, value in of.items()},
+    ),
+    "journal": turbo(
+        "journal",
+        ({}, {}),
+        "yz",
+        others=(("rotor.omega_phi", "w"),),
+        of_rotor={"start.omega.x": 600.0, "start.r_c.y": 5e-6, "start.r_c.z": -10e-6},
+        exact=finely("journal"),
+    ),
+    "pedestal": turbo("pedestal", ({}, {}), "yz", exact=finely("pedestal")),
+    "magnetic": turbo(
+        "magnetic",
+        ({}, {}),
+        "yz",
+        of_rotor={"start.omega.x": 600.0, "start.r_c.z": -50e-6},
+        exact=finely("magnetic"),
+        means=False,
+    ),
+    "motor": Pair(
+        {"rotor": ("rotor", in_line(0.08, **{"omega.x": 0.0})), "motor": ("motor", {})},
+        (("rotor.drive.phi", "motor.phi"), ("rotor.drive.w", "motor.w"), ("motor.tau", "rotor.drive.tau")),
+        ("rotor.drive.w",),
+        0.2,
+        integrated(motor_rates, (0.0, 0.0, 0.0, 0.0), (1,), 0.2),
+        advised={"drive.k": 2e4, "drive.d": 2.0, "drive.ahead": 1.0},
+    ),
+    "two_rotors": Pair(
+        {
+            "rotor": ("rotor", in_line(0.08, phi=1e-3, **{"omega.x": 100.0})),
+            "other": ("rotor", in_line(0.05, phi=-1.6e-3, **{"omega.x": 100.0})),
+            "spring": ("torsion", {"k": 2e4, "d": 1.0}),
+        },
+        tuple(
+            link
+            for n, name in enumerate(("rotor", "other"), 1)
+            for link in (
+                (f"{name}.drive.phi", f"spring.phi{n}"),
+                (f"{name}.drive.w", f"spring.w{n}"),
+                (f"spring.tau{n}", f"{name}.drive.tau"),
+            )
+        ),
+        ("rotor.drive.w",),
+        0.05,
+        integrated(two_rates, (1e-3, 100.0, -1.6e-3, 100.0), (1,), 0.05),
+        advised={"effects.extrapolation": True, "extrapolation.order": 1},
+    ),
+}
