@@ -1,36 +1,28 @@
 """Six pairs of a rotor and models of another tool, and what is right of each: by the FMU's own bearings, by equations, or by a master of our
 own with much shorter steps."""
 
+import sys
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from masters import by_fmpy
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from coupled import PLACES, ROTOR, coefficients  # noqa: E402
+
 TOLERANCE = 1e-9
 PROBE = ("rotor.probe[1].r.y", "rotor.probe[1].r.z")
-TURBO = {
-    "effects.support": False,
-    "effects.unbalance[1]": True,
-    "effects.probe[1]": True,
-    "rotor.m": 12.0,
-    "rotor.Ja": 0.04,
-    "rotor.Jt": 0.12,
-    "rotor.l": 0.0,
-    "start.omega.x": 1500.0,
-    "unbalance[1].mass": 1e-3,
-    "unbalance[1].radius": 0.04,
-    "unbalance[1].position": 0.03,
-    "probe[1].position": 0.12,
-    "solver.relative_tolerance": TOLERANCE,
-}
-PLACES = (-0.12, 0.12)  # [m]
+TURBO = {"effects.support": False, "effects.unbalance[1]": True, "effects.probe[1]": True} | ROTOR
 # Axial positions are counted from the first bearing: a master that sends 0 to a bearing before it has read anything stretches no spring.
 PORTS = {"start.r_c.x": -PLACES[0]} | {
     name: value
     for n, place in enumerate(PLACES, 1)
     for name, value in ((f"effects.port[{n}]", True), (f"port[{n}].position", place))
 }
-BEARING = {"kyy": 2e7, "kzz": 1.5e7, "cyy": 2000.0, "czz": 2000.0}
-BEARINGS = (BEARING | {"kxx": 1e6, "cxx": 500.0}, BEARING)
+BEARINGS = [
+    {name.split(".")[1]: value for name, value in coefficients("bearing").items() if name.startswith(f"bearing[{n}]")}
+    for n in (1, 2)
+]
 LATE = {"effects.extrapolation": True, "extrapolation.lag": 1.0}
 
 
@@ -56,14 +48,14 @@ class Pair:
     """Whether a partner that holds its inputs takes the mean of a step, in a master that iterates; else what is there at its start."""
 
 
-def turbo(partner, values, axes, others=(), of_rotor=(), **more):
-    """The turbo rotor on two partners of this kind, which answer along these axes; `others` are links to both, such as the speed."""
+def turbo(partner, values, axes, motions="rv", others=(), of_rotor=(), **more):
+    """The turbo rotor on two partners of this kind. They are shown these motions, position and velocity, along these axes, and answer along
+    these; `others` are links to both, such as the speed."""
     names = ("first", "second")
     links = [
         (f"rotor.port[{n}].{of}.{axis}", f"{name}.{of}{axis}")
         for n, name in enumerate(names, 1)
-        for of in "rv"
-        if f"{of}y" in SHOWN[partner]
+        for of in motions
         for axis in axes
     ]
     links += [(source, f"{name}.{sink}") for name in names for source, sink in others]
@@ -76,20 +68,14 @@ def turbo(partner, values, axes, others=(), of_rotor=(), **more):
     return Pair(models, tuple(links), PROBE, 0.05, held=held, **more)
 
 
-SHOWN = {"bearing": {"ry", "vy"}, "journal": {"ry", "vy"}, "pedestal": {"ry", "vy"}, "magnetic": {"ry"}}
-
-
 def own_bearings(paths, step, _):
     """The turbo rotor in bearings of its own."""
     values = TURBO | {
         name: value
-        for n, (place, bearing) in enumerate(zip(PLACES, BEARINGS), 1)
-        for name, value in (
-            (f"effects.bearing[{n}]", True),
-            (f"bearing[{n}].position", place),
-            *((f"bearing[{n}].{key}", value) for key, value in bearing.items()),
-        )
+        for n, place in enumerate(PLACES, 1)
+        for name, value in ((f"effects.bearing[{n}]", True), (f"bearing[{n}].position", place))
     }
+    values |= coefficients("bearing")
     return by_fmpy.plain({"rotor": (paths["rotor"], values)}, (), PROBE, step, round(0.05 / step))
 
 
@@ -159,7 +145,7 @@ PAIRS = {
         BEARINGS,
         "xyz",
         exact=own_bearings,
-        advised={f"port[{n}].{key}": value for n, of in enumerate(BEARINGS, 1) for key, value in of.items()},
+        advised=coefficients("port"),
     ),
     "journal": turbo(
         "journal",
@@ -174,6 +160,7 @@ PAIRS = {
         "magnetic",
         ({}, {}),
         "yz",
+        motions="r",
         of_rotor={"start.omega.x": 600.0, "start.r_c.z": -50e-6},
         exact=finely("magnetic"),
         means=False,

@@ -80,7 +80,7 @@ class System:
         self.watched = [name.split(".", 1) for name in watched]
 
     def run(self, step, count, one_step):
-        """Calls `one_step` so often; the watched values after each."""
+        """Calls `one_step` `count` times; returns the watched values after each."""
         seen = []
         try:
             for n in range(count):
@@ -146,7 +146,7 @@ def gauss_seidel(models, links, watched, step, count):
 
 
 def iterated(models, links, watched, step, count, means=True):
-    """Each step is taken back and done again until the answers at its end fit the motion: loads go on by a line to them. Partners that hold
+    """Rolls each step back and repeats it until the answers at its end fit the motion: loads go on by a line to them. Partners that hold
     their inputs over a step get the mean of its ends, or with `means` false what they have at its start."""
     system = System(models, links, watched)
     for link in system.shows + system.answers:
