@@ -54,8 +54,8 @@ def ways(pair, master):
     """Values of the rotor, by the heads of the columns."""
     advised = pair.advised | (LATE if pair.advised and master not in ARE_FRESH else {})
     if master == "gauss_seidel":
-        # What is shown is ahead of the partner there, which has its step still before it.
-        advised = {name: value for name, value in advised.items() if not name.endswith(".ahead")}
+        # The partner has the step still before it at whose end the angle is shown.
+        advised = {name: -value if name.endswith(".ahead") else value for name, value in advised.items()}
     return {"held": pair.held, "nothing set": {}} | ({"advised": advised} if advised else {})
 
 

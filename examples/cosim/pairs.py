@@ -171,7 +171,7 @@ PAIRS = {
         ("rotor.drive.w",),
         0.2,
         integrated(motor_rates, (0.0, 0.0, 0.0, 0.0), (1,), 0.2),
-        advised={"drive.k": 2e4, "drive.d": 2.0, "drive.ahead": 1.0},
+        advised={"drive.k": 2e4, "drive.d": 2.0, "drive.ahead": 0.5},
     ),
     "two_rotors": Pair(
         {
@@ -191,6 +191,6 @@ PAIRS = {
         ("rotor.drive.w",),
         0.05,
         integrated(two_rates, (1e-3, 100.0, -1.6e-3, 100.0), (1,), 0.05),
-        advised={"effects.extrapolation": True, "extrapolation.order": 1},
+        advised={"effects.extrapolation": True, "extrapolation.order": 1, "drive.k": 2e4, "drive.d": 1.0},
     ),
 }

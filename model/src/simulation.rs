@@ -50,7 +50,7 @@ use crate::variables::{Instant, Parameters, Reading, Start};
 use integration::Integration;
 use largest::Looks;
 use nominals::Nominals;
-use partners::Partner;
+use partners::{Partner, Told};
 use start::{BESIDE, Motion};
 
 /// Who integrates a motion.
@@ -354,19 +354,16 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let Ok(&Instant { reading, .. }) = self.instant() else { return };
         // The communication point moves on: the reading would be stale.
         self.instant = None;
-        // Where inputs are extrapolated, somebody has decided how loads go on.
-        let may_learn = self.parameters.effects.order() == 0;
-        let (lag, partners) = (self.parameters.effects.lag(), &mut self.partners);
+        let (told, partners) = (Told::by(&self.parameters.effects), &mut self.partners);
         let (mut answers, mut changes) = (false, false);
         self.parameters.effects.for_each_partner(|number, block| {
             if !(block.is_active() && block.is_answered(t)) {
                 return;
             }
             let (partner, own) = (&mut partners[number], []);
-            if let Some(mut exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
-                exchange.learns &= may_learn;
+            if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
                 let before = *partner.law();
-                partner.add(t, &exchange, lag);
+                partner.add(t, &exchange, &told);
                 (answers, changes) = (true, changes || !partner.law().is_like(&before));
             }
         });
@@ -392,10 +389,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     fn look_at_coupling(&mut self, motion: &Kinematics<f64>, step: f64) {
         let Some(Run::Method(integration)) = &self.run else { return };
         let (effects, partners) = (&self.parameters.effects, &self.partners);
-        let lag = effects.lag();
+        let told = Told::by(effects);
         let answers = |number: usize, block: &dyn Block| {
             let exchange = block.exchange(&Seen::new(motion, &[])).filter(|_| block.is_active());
-            exchange.and_then(|exchange| partners[number].answers(&exchange, lag))
+            exchange.and_then(|exchange| partners[number].answers(&exchange, &told))
         };
         let (frame, t, state) = integration.reached();
         let found = Coupling::of(&frame.under(effects), t, state, answers, step);

@@ -38,13 +38,15 @@ impl Drive {
         if S::SERIES || !self.law.is_on {
             return tau;
         }
-        let Law { slopes, shown, since, at, .. } = &self.law;
+        let Law { slopes, shown, rest: [value, rate, bend], since, at, .. } = &self.law;
         let (speed, span) = (motion.omega_phi(), motion.t() - S::constant(*since));
         // Within a step the speed changes steadily, so that nothing hangs on φ: φ_n + ½ (ω_n + ω_φ)(t − t_n)
         let turned = (S::constant(at[LOADS]) + speed) * span * S::constant(0.5) + S::constant(at[0] - shown[0]);
-        // eq. 124: τ = τ_s − k (φ − φ_s) − d (ω_φ − ω_s)
+        let rest = S::constant(value[0]) + (S::constant(rate[0]) + S::constant(bend[0]) * span) * span;
+        // eq. 124: τ = τ_s − k (φ − φ_s) − d (ω_φ − ω_s) + g(s)
         tau + turned * S::constant(slopes[(0, 0)])
             + (speed - S::constant(shown[LOADS])) * S::constant(slopes[(0, LOADS)])
+            + rest
     }
 
     /// The angle that is shown \[rad].
@@ -90,7 +92,7 @@ impl Effect for Drive {
             ahead,
             &ONE,
             Some(0.0),
-            Bound::Within(0.0, 2.0),
+            Bound::Within(-1.0, 2.0),
             "phi is shown ahead by this part of the last communication step, for a partner that holds it"
         ),
     ];
@@ -129,7 +131,7 @@ impl Effect for Drive {
         (slopes[(0, 0)], slopes[(0, LOADS)]) = (-self.k, -self.d);
         let [yielding, gyration] = motion.yielding(0.0);
         let given = self.is_known().then_some(slopes);
-        Some(Exchange { at, loads, given, has_states: true, learns: false, ahead: self.ahead, yielding, gyration })
+        Some(Exchange { at, loads, given, turns_along: true, learns: false, ahead: self.ahead, yielding, gyration })
     }
 
     fn law_mut(&mut self) -> Option<&mut Law> {

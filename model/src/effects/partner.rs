@@ -19,6 +19,9 @@ pub type Shown<S = f64> = SVector<S, SHOWN>;
 /// How the loads change with what is shown.
 pub type Slopes = SMatrix<f64, LOADS, SHOWN>;
 
+/// Loads go on as polynomials of degree 2.
+pub const POWERS: usize = 3;
+
 /// The loads of a partner beside its last answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Law {
@@ -30,6 +33,8 @@ pub struct Law {
     pub slopes: Slopes,
     /// What was shown, to which the loads that were set last are the answer.
     pub shown: Shown,
+    /// How what is left of the loads, which no motion of the place changes, goes on: by powers 0 to 2 of the time since.
+    pub rest: [Loads; POWERS],
     /// When it came into force \[s], and what place and motion were then.
     pub since: f64,
     /// See `since`.
@@ -40,7 +45,7 @@ pub struct Law {
     pub error: f64,
 }
 
-stored!(Law { is_on, turns, slopes, shown, since, at, ahead, error });
+stored!(Law { is_on, turns, slopes, shown, rest, since, at, ahead, error });
 
 impl Law {
     /// Whether it makes the same loads as another one.
@@ -57,12 +62,14 @@ impl Law {
         shown
     }
 
-    /// By how much the loads differ from the last answer where this is shown. Written out: where a law may be called, what is summed up so far
-    /// goes through memory in every evaluation.
+    /// By how much the loads differ from the last answer at time `t` \[s] where this is shown. Written out: where a law may be called, what is
+    /// summed up so far goes through memory in every evaluation.
     #[inline(always)]
-    pub fn change<S: Scalar>(&self, shown: Shown<S>) -> Loads<S> {
-        // eq. 124: J (x − x_s)
-        self.slopes.map(S::constant) * (shown - self.shown.map(S::constant))
+    pub fn change<S: Scalar>(&self, t: S, shown: Shown<S>) -> Loads<S> {
+        let s = t - S::constant(self.since);
+        let [value, rate, bend] = self.rest.map(|rest| rest.map(S::constant));
+        // eq. 124: J (x − x_s) + Σ g_n s^n
+        self.slopes.map(S::constant) * (shown - self.shown.map(S::constant)) + value + (rate + bend * s) * s
     }
 }
 
@@ -75,8 +82,8 @@ pub struct Exchange {
     pub loads: Loads,
     /// The slopes of the partner, where they are known.
     pub given: Option<Slopes>,
-    /// Whether the partner has states of its own, so that how late its answers are cannot be seen in them.
-    pub has_states: bool,
+    /// Whether the partner turns along with the rotor, so that how late its answers are cannot be seen in them.
+    pub turns_along: bool,
     /// Whether they may be learnt.
     pub learns: bool,
     /// By what part of the last communication step things are to be shown ahead \[1].

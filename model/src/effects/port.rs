@@ -1,7 +1,7 @@
 //! `port`: force and moment from outside at a station, and the motion that goes with them.
 
 use super::partner::{LOADS, Loads, Shown, Slopes};
-use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
+use super::{Act, Change, Effect, Exchange, Law, MOST_LOADS, Motion, Pose, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
@@ -55,8 +55,8 @@ impl Port {
         if S::SERIES || !self.law.is_on {
             return [force, moment];
         }
-        // eq. 124: f = f_s + J (x − x_s)
-        let change = self.law.change(self.shown(motion, self.law.turns));
+        // eq. 124: f = f_s + J (x − x_s) + g(s)
+        let change = self.law.change(motion.t(), self.shown(motion, self.law.turns));
         let about = Vector3::new(S::zero(), change[3], change[4]);
         [force + Vector3::new(change[0], change[1], change[2]), moment + about]
     }
@@ -176,6 +176,13 @@ impl Effect for Port {
         }
     }
 
+    const LOADS: usize = 1;
+
+    #[inline(always)]
+    fn load_changes(&self, _at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
+        [change.station_velocity(self.position).norm_squared(), 0.0]
+    }
+
     const HAS_PARTNER: bool = true;
 
     fn is_answered(&self, t: f64) -> bool {
@@ -192,7 +199,7 @@ impl Effect for Port {
             at: self.shown(motion, true),
             loads,
             given: self.slopes(),
-            has_states: false,
+            turns_along: false,
             learns: self.learn,
             ahead: 0.0,
             yielding,

@@ -6,8 +6,9 @@
 
 mod work;
 
-use crate::effects::partner::{LOADS, Loads, SHOWN, Shown, Slopes};
-use crate::effects::{Exchange, Law};
+use crate::effects::extrapolation::goes_on;
+use crate::effects::partner::{LOADS, Loads, POWERS, SHOWN, Shown, Slopes};
+use crate::effects::{Effects, Exchange, Law};
 use crate::stored::{Damaged, Stored, Walk, stored};
 use nalgebra::{SMatrix, SVector};
 use std::ops::Range;
@@ -134,8 +135,8 @@ impl Partner {
         self.law.is_on && !self.is_given
     }
 
-    /// Adds what was exchanged at the communication point `t` \[s]; `lag` in communication steps, where that is given \[1].
-    pub fn add(&mut self, t: f64, exchange: &Exchange, lag: Option<f64>) {
+    /// Adds what was exchanged at the communication point `t` \[s].
+    pub fn add(&mut self, t: f64, exchange: &Exchange, told: &Told) {
         let step = t - self.exchanges.t[0];
         if self.exchanges.known > 0 && step <= 0.0 {
             // A step that is done again begins where it began.
@@ -154,33 +155,32 @@ impl Partner {
             let points = (degree + 1).min(known - 1);
             *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
         }
-        let lag = in_steps(lag);
-        let lags = lags(lag, exchange);
+        let lags = told.lags(exchange);
         let given = exchange.given.map(|slopes| measures.measured(&slopes));
         for lag in lags.clone().filter(|_| known > 1) {
             self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
         }
         let mut error = self.law.error;
-        // Of states of its own nobody here knows the work.
-        if known > 1 && !exchange.has_states {
+        // Of what a drive does nobody here knows the work.
+        if known > 1 && !exchange.turns_along {
             // A law is the answer to what its own lag says.
             let of_law = || self.best(lags.clone()).map(|(lag, _)| lag).filter(|_| self.law.is_on);
-            let lag = lag.or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
+            let lag = told.lag.or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
             error += self.work.count(&self.exchanges, &self.law, &measures.loads, lag);
         }
         let ahead = if known > 1 { exchange.ahead * step } else { 0.0 };
-        let law = self.chosen(lag, lags, exchange, &measures, step).unwrap_or_default();
+        let law = self.chosen(told, exchange, &measures).unwrap_or_default();
         if law.is_on {
             self.work.follow_law();
         }
-        self.law = if law.is_on || ahead > 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
+        self.law = if law.is_on || ahead != 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
         self.law.error = error;
         self.is_given = given.is_some();
         self.work.begin([exchange.loads, Loads::zeros(), Loads::zeros()]);
     }
 
     /// What the inputs are from `t` \[s] on, where they are extrapolated, as coefficients of the powers of the time.
-    pub fn begin(&mut self, t: f64, acting: impl FnOnce() -> [Loads; work::POWERS]) {
+    pub fn begin(&mut self, t: f64, acting: impl FnOnce() -> [Loads; POWERS]) {
         if self.exchanges.known > 0 && self.exchanges.t[0] == t {
             self.work.begin(acting());
         }
@@ -207,8 +207,8 @@ impl Partner {
     }
 
     /// Its answers as they look; None where a law is in force, or where they were not predicted well.
-    pub fn answers(&self, exchange: &Exchange, lag: Option<f64>) -> Option<Answers> {
-        let (lag, fit) = self.best(lags(in_steps(lag), exchange))?;
+    pub fn answers(&self, exchange: &Exchange, told: &Told) -> Option<Answers> {
+        let (lag, fit) = self.best(told.lags(exchange))?;
         let [held, ..] = self.polynomials;
         let counts = !self.law.is_on && fit.missed < TRUSTED * TRUSTED * held;
         let slopes = Measures::of(exchange).in_units(&fit.slopes);
@@ -229,43 +229,66 @@ impl Partner {
         lags.min_by(|one, other| missed(one).total_cmp(&missed(other)))
     }
 
-    /// The law to go on with after a communication step of this length \[s]; None where none is to be trusted.
-    fn chosen(
-        &self,
-        lag: Option<usize>,
-        lags: Range<usize>,
-        exchange: &Exchange,
-        measures: &Measures,
-        step: f64,
-    ) -> Option<Law> {
-        let best = self.best(lags);
+    /// The law to go on with; None where none is to be trusted.
+    fn chosen(&self, told: &Told, exchange: &Exchange, measures: &Measures) -> Option<Law> {
+        let step = self.exchanges.t[0] - self.exchanges.t[1];
+        let best = self.best(told.lags(exchange));
         let trusted = |fit: &&Fit| {
             let is_best = self.polynomials.iter().all(|missed| fit.missed < TRUSTED * TRUSTED * missed);
+            // Where inputs are extrapolated, somebody has decided how loads go on.
             exchange.learns
+                && told.order == 0
                 && self.exchanges.known >= ENOUGH
                 && is_best
                 && drives(&fit.slopes, step) * exchange.yielding <= DRIVES
         };
-        let lag = lag.or(best.map(|(lag, _)| lag))?;
+        let lag = told.lag.or(best.map(|(lag, _)| lag))?;
         let learnt = || best.map(|(_, fit)| fit).filter(trusted).map(|fit| measures.in_units(&fit.slopes));
         let slopes = exchange.given.or_else(learnt)?;
         let leans = TURNS.iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
         let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
-        Some(Law { is_on: true, turns, slopes, shown: self.exchanges.shown[lag], ..Law::default() })
+        let shown = self.exchanges.shown[lag];
+        // A partner that holds what it is shown has states of its own, and answers with those of now.
+        let late = if exchange.ahead == 0.0 { lag } else { 0 };
+        let rest = match told.order.min((self.exchanges.known - 1).saturating_sub(late)).min(POINTS - 1 - lag) {
+            0 if exchange.turns_along => {
+                // g = −J v_s s
+                let rate = -slopes.fixed_columns::<LOADS>(0) * shown.fixed_rows::<LOADS>(LOADS);
+                [rate * (self.exchanges.t[0] - self.exchanges.t[late]), rate, Loads::zeros()]
+            }
+            0 => Default::default(),
+            degree => self.exchanges.rest(degree, late, |n| {
+                // g = f_s − J x_s
+                self.exchanges.loads[n].component_div(&measures.loads) - slopes * self.exchanges.shown[n + lag]
+            }),
+        };
+        Some(Law { is_on: true, turns, slopes, shown, rest, ..Law::default() })
     }
 }
 
-/// A lag that is given, in whole communication steps, of which no more are remembered.
-fn in_steps(lag: Option<f64>) -> Option<usize> {
-    lag.map(|lag| (lag.round() as usize).min(POINTS - 1))
+/// What is said of all inputs.
+pub(super) struct Told {
+    /// By how many communication steps they are late, where that is given.
+    lag: Option<usize>,
+    /// As polynomials of which degree they go on.
+    order: usize,
 }
 
-/// By how many steps answers may be late, where `lag` is given or not; none that is fitted where it is later.
-fn lags(lag: Option<usize>, exchange: &Exchange) -> Range<usize> {
-    match lag {
-        None if exchange.has_states => 0..1,
-        None => 0..LAGS,
-        Some(lag) => lag..LAGS.min(lag + 1),
+impl Told {
+    /// By these effects.
+    pub fn by(effects: &impl Effects) -> Self {
+        // No more steps are remembered.
+        let lag = effects.lag().map(|lag| (lag.round() as usize).min(POINTS - 1));
+        Self { lag, order: effects.order() }
+    }
+
+    /// By how many steps answers may be late; none that is fitted where it is later.
+    fn lags(&self, exchange: &Exchange) -> Range<usize> {
+        match self.lag {
+            None if exchange.turns_along => 0..1,
+            None => 0..LAGS,
+            Some(lag) => lag..LAGS.min(lag + 1),
+        }
     }
 }
 
@@ -301,6 +324,20 @@ impl Exchanges {
     /// The way to this one from the one before.
     fn path(&self, to: usize) -> Path {
         Path { from: self.shown[to + 1], to: self.shown[to], step: self.t[to] - self.t[to + 1] }
+    }
+
+    /// How what a law leaves of the loads goes on, which is so much at the last exchanges, late by so many communication steps: by powers of the
+    /// time from the last exchange on.
+    fn rest(&self, degree: usize, late: usize, left: impl Fn(usize) -> Loads) -> [Loads; POWERS] {
+        let back = |n: usize| n.min(degree);
+        let times = [0, 1, 2].map(|n| self.t[back(n) + late]);
+        let left = [0, 1, 2].map(|n| left(back(n)));
+        let mut rest = [Loads::zeros(); POWERS];
+        for load in 0..LOADS {
+            let powers = goes_on(self.t[0], times, left.map(|left| left[load]), degree);
+            rest.iter_mut().zip(powers).for_each(|(rest, power)| rest[load] = power);
+        }
+        rest
     }
 
     /// How far the last loads are off the polynomial through so many before, squared \[N²].

@@ -2,7 +2,7 @@
 
 use super::{Exchanges, POINTS};
 use crate::effects::Law;
-use crate::effects::partner::{LOADS, Loads, Shown};
+use crate::effects::partner::{LOADS, Loads, POWERS, Shown};
 use crate::stored::stored;
 use nalgebra::SVector;
 
@@ -23,9 +23,6 @@ pub(super) struct Work {
 }
 
 stored!(Work { acting, done, excess, exchanged, steps, has_law });
-
-/// Inputs are polynomials of degree 2.
-pub(super) const POWERS: usize = 3;
 
 /// A step counts by this part of the one after it \[1].
 const FADES: f64 = 0.99;
@@ -69,7 +66,7 @@ impl Work {
             let s = part * path.step;
             let mut force = self.acting[0] + (self.acting[1] + self.acting[2] * s) * s;
             if law.is_on {
-                force += law.change(path.at(part));
+                force += law.change(law.since + s, path.at(part));
             }
             force.dot(&path.velocity(part))
         };
