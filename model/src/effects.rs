@@ -61,6 +61,9 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// How many of its outputs are loads whose errors count, each a vector, at most [`MOST_LOADS`].
     const LOADS: usize = 0;
 
+    /// Whether its outputs are the velocity of a station.
+    const SHOWS_VELOCITY: bool = false;
+
     /// How many [indicators](Effect::indicator) it has; one that has any keeps its branch in its [memory](Effect::memory).
     const INDICATORS: usize = 0;
 

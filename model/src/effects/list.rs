@@ -34,6 +34,8 @@ pub struct Facts {
     pub own: usize,
     /// How many of their outputs are loads whose errors count.
     pub loads: usize,
+    /// Whether any of them can show the velocity of a station.
+    pub shows_velocity: bool,
     /// How many indicators of events they have.
     pub indicators: usize,
     /// Whether any of them has a switch.
@@ -78,6 +80,9 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// By how much their loads change with a small change of the motion, squared, or with `SIZES` how large they are after an excursion;
     /// those of effects that are switched off are left as they are.
     fn loads<const SIZES: bool>(&self, at: &Pose, change: &Change, squares: &mut [f64]);
+
+    /// Whether any of them shows the velocity of a station.
+    fn shows_velocity(&self) -> bool;
 
     /// The ω_φ that one of them imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²].
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
@@ -361,6 +366,7 @@ impl Effects for () {
         count: 0,
         own: 0,
         loads: 0,
+        shows_velocity: false,
         indicators: 0,
         switched: false,
         could_work: false,
@@ -392,6 +398,11 @@ impl Effects for () {
 
     #[inline(always)]
     fn loads<const SIZES: bool>(&self, _at: &Pose, _change: &Change, _squares: &mut [f64]) {}
+
+    #[inline(always)]
+    fn shows_velocity(&self) -> bool {
+        false
+    }
 
     #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
@@ -435,6 +446,7 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             count: 1 + rest.count,
             own: H::Effect::OWN + rest.own,
             loads: H::Effect::LOADS + rest.loads,
+            shows_velocity: H::Effect::SHOWS_VELOCITY || rest.shows_velocity,
             indicators: H::Effect::INDICATORS + rest.indicators,
             switched: H::SWITCHED || rest.switched,
             could_work: H::Effect::COULD_WORK || rest.could_work,
@@ -509,6 +521,11 @@ impl<H: Member, T: Effects> Effects for (H, T) {
             to.copy_from_slice(&loads[..H::Effect::LOADS]);
         }
         self.1.loads::<SIZES>(at, change, others);
+    }
+
+    #[inline(always)]
+    fn shows_velocity(&self) -> bool {
+        (H::Effect::SHOWS_VELOCITY && self.0.active().is_some()) || self.1.shows_velocity()
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! `port`: force and moment from outside at a station, and the motion that goes with them.
 
 use super::partner::{LOADS, Loads, Shown, Slopes};
-use super::{Act, Change, Effect, Exchange, Law, MOST_LOADS, Motion, Pose, Row, Terminal, Wrench};
+use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
@@ -176,12 +176,7 @@ impl Effect for Port {
         }
     }
 
-    const LOADS: usize = 1;
-
-    #[inline(always)]
-    fn load_changes(&self, _at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
-        [change.station_velocity(self.position).norm_squared(), 0.0]
-    }
+    const SHOWS_VELOCITY: bool = true;
 
     const HAS_PARTNER: bool = true;
 

@@ -1,6 +1,6 @@
 //! `probe`: what sensors at a station see; they do nothing to the rotor.
 
-use super::{Change, Effect, MOST_LOADS, Pose, Row};
+use super::{Effect, Row};
 use crate::variable::units::{METRE, METRE_PER_SECOND, RADIAN};
 use crate::variable::{Bound, output, parameter};
 
@@ -31,13 +31,7 @@ impl Effect for Probe {
         output!("v.z", &METRE_PER_SECOND, "velocity of the station, z", |p, m| m.station_velocity(p.position).z),
     ];
 
-    const LOADS: usize = 1;
-
-    /// A small nutation is nothing beside the way of an axis that drifts, and all of its velocity.
-    #[inline(always)]
-    fn load_changes(&self, _at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
-        [change.station_velocity(self.position).norm_squared(), 0.0]
-    }
+    const SHOWS_VELOCITY: bool = true;
 
     const PUSHES: bool = false;
 

@@ -7,7 +7,7 @@ use crate::stored::stored;
 use std::ops::Range;
 
 /// A system has at most so many groups.
-pub const MOST_GROUPS: usize = 28;
+pub const MOST_GROUPS: usize = 24;
 
 /// The square of each group's norm, in the square of its unit: the first [`System::GROUPS`] count.
 pub type Squares = [f64; MOST_GROUPS];

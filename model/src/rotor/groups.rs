@@ -90,11 +90,15 @@ impl<E: Effects> Rotor<'_, E> {
         // eq. 84: |K·δK|/|K| and |K×δK|/|K|
         let [along, across] =
             if square > 0.0 { [dot * dot / square, cross / square] } else { [0.0, by.k.norm_squared()] };
+        let gamma = by.gamma.norm_squared();
+        // eq. 121: Jt d(dt/dt) = dK×t + K×dt
+        let across =
+            if E::FACTS.shows_velocity && self.effects.shows_velocity() { across + square * gamma } else { across };
         // As a quadrature it has no part in the error.
         let phi = if System::<N>::depended_on(self) == own(N) + COORDINATES { by.phi * by.phi } else { 0.0 };
         let [supplied, dissipated] = work(change);
         let work = supplied * supplied + dissipated * dissipated;
-        squares(change, [x, r, vx, v, along, across, by.gamma.norm_squared(), phi, work])
+        squares(change, [x, r, vx, v, along, across, gamma, phi, work])
     }
 
     /// [`System::roundings`]: a velocity is known no better than the place over the step allows,

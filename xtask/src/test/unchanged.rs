@@ -37,7 +37,7 @@ pub fn file(job: &str) -> PathBuf {
 
 impl Basis<'_> {
     /// Of the names and contents of all files, and of the compiler.
-    fn digest(&self) -> Result<String> {
+    pub fn digest(&self) -> Result<String> {
         let root = paths::root();
         let mut git = Command::new("git");
         let listed =

@@ -32,11 +32,11 @@ const OF_A_SEED: u64 = 250;
 
 /// What the scenes of a day found: speeds that fall through nodes of a table at once, an input that makes a shaft slide on its ring while
 /// `stiff` follows it, friction that turns within nanoseconds, long series of a rotor that wobbles, a jump past a contact, an end before
-/// a spring gives way, a shaft that sticks to its ring.
-const FOUND: [u64; 8] = [505_566, 507_845, 501_449, 20_782_623, 502_827, 507_266, 20_784_466, 20_786_799];
+/// a spring gives way, a shaft that sticks to its ring, a small nutation of an axis that drifts, which a probe sees.
+const FOUND: [u64; 9] = [505_566, 507_845, 501_449, 20_782_623, 502_827, 507_266, 20_784_466, 20_786_799, 20_787_157];
 
 /// Scenes that are drawn in the long test, and how long it goes on to draw where a machine is slow.
-const OF_A_DAY: u64 = 1000;
+const OF_A_DRAW: u64 = 500;
 const DRAWN_FOR: Duration = Duration::from_secs(150);
 
 /// A scene is drawn anew so often until one is fit.
@@ -146,12 +146,13 @@ fn exact_taylor_keeps_its_tolerance() {
 
 #[test]
 #[ignore = "long"]
-fn exact_auto_keeps_its_tolerance_in_the_scenes_of_the_day() {
+fn exact_auto_keeps_its_tolerance_in_scenes_drawn_anew() {
+    // CI names a seed for each commit; by hand each day has its own.
     let day = || SystemTime::UNIX_EPOCH.elapsed().expect("a date").as_secs() / 86_400;
     let seed = asked("SPLIT_ROTOR_SEED").unwrap_or_else(day);
     println!("SPLIT_ROTOR_SEED={seed}");
     let began = Instant::now();
-    judge((0..OF_A_DAY).map(|n| number(seed, n)).take_while(|_| began.elapsed() < DRAWN_FOR), Method::Auto);
+    judge((0..OF_A_DRAW).map(|n| number(seed, n)).take_while(|_| began.elapsed() < DRAWN_FOR), Method::Auto);
 }
 
 /// Scenes whose cost is measured.
