@@ -44,6 +44,23 @@ impl Stored for Source {
     }
 }
 
+/// A parabola goes through so many values.
+pub const NODES: usize = 3;
+
+/// The polynomial of degree 0, 1 or 2 through these values at these times \[s], the latest first: by how much it is at `t` \[s] more than the latest
+/// value, and its coefficients of powers 1 and 2 of the time from there on.
+pub fn goes_on(t: f64, [t0, t1, t2]: [f64; NODES], values: [f64; NODES], degree: usize) -> [f64; NODES] {
+    let ahead = t - t0;
+    // Before the first point nothing is known of an input but its value.
+    let over = |rise: f64, run: f64| if run > 0.0 { rise / run } else { 0.0 };
+    let slope = |n: usize, from: f64, to: f64| over(values[n] - values[n + 1], to - from);
+    // eq. 67: P(t) = u₀ + [u₀u₁](t − t₀) + [u₀u₁u₂](t − t₀)(t − t₁)
+    let first = if degree > 0 { slope(0, t1, t0) } else { 0.0 };
+    let second = if degree > 1 { over(first - slope(1, t2, t1), t0 - t2) } else { 0.0 };
+    let last_step = if degree > 1 { t0 - t1 } else { 0.0 };
+    [ahead * (first + second * (ahead + last_step)), first + second * (2.0 * ahead + last_step), second]
+}
+
 /// The highest derivative of an input that a host may send.
 pub const HIGHEST_DERIVATIVE: u32 = 2;
 

@@ -71,7 +71,8 @@ fn build(scene: &str, cargo_fuzz: &Path, folder: &Path) -> Result<PathBuf> {
 /// Starts a run; its log and its process.
 fn start(scene: &str, target: &Path, seconds: Option<u32>, folder: &Path) -> Result<(PathBuf, Child)> {
     let (log, sequences) = (folder.join(format!("{scene}.log")), SEQUENCES / SCENES.len());
-    eprintln!("{sequences} random sequences of calls with {scene}, log in {}", log.display());
+    let within = seconds.map_or(String::new(), |seconds| format!(", as many as {seconds} s hold"));
+    eprintln!("{sequences} random sequences of calls with {scene}{within}, log in {}", log.display());
     let child = Command::new(target)
         .args(seconds.map(|seconds| format!("-max_total_time={seconds}")))
         .args([format!("-runs={sequences}"), "-seed=1".into()])

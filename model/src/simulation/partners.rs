@@ -6,9 +6,9 @@
 
 mod work;
 
-use crate::effects::extrapolation::goes_on;
 use crate::effects::partner::{LOADS, Loads, POWERS, SHOWN, Shown, Slopes};
 use crate::effects::{Effects, Exchange, Law};
+use crate::signal::goes_on;
 use crate::stored::{Damaged, Stored, Walk, stored};
 use nalgebra::{SMatrix, SVector};
 use std::ops::Range;
