@@ -13,7 +13,9 @@ fn main() {
     }
     match std::env::var("SPLIT_ROTOR_LIST") {
         Ok(list) => {
-            let file = std::env::var_os("SPLIT_ROTOR_SECTION").expect("SPLIT_ROTOR_SECTION names a file");
+            let file =
+                PathBuf::from(std::env::var_os("SPLIT_ROTOR_SECTION").expect("SPLIT_ROTOR_SECTION names a file"));
+            println!("cargo::rerun-if-changed={}", file.display());
             write(&list, &std::fs::read(file).expect("SPLIT_ROTOR_SECTION can be read"));
         }
         #[cfg(feature = "scene")]

@@ -12,6 +12,7 @@ use split_rotor_model::scene::Scene;
 use split_rotor_model::{section, xml};
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -45,7 +46,7 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
     let look = || {
         let debug = objcopy.is_some().then(|| debug::beside(&kept));
         let is_here = debug.as_ref().is_none_or(|debug| debug.is_file());
-        let library = fs::read(&kept).ok().filter(|_| is_here && is_fresh(&stamp, toolchain))?;
+        let library = fs::read(&kept).ok().filter(|library| is_here && is_fresh(library, &stamp, toolchain))?;
         Some(Kept { library, debug })
     };
     let (of_scene, platform) = (&scene.name, toolchain.platform.name);
@@ -80,8 +81,9 @@ fn make(
         });
     }
     let built = build(toolchain, objcopy, paths::root(), scene, builder)?;
-    let library = objcopy.map_or_else(|| Ok(fs::read(&built)?), |objcopy| objcopy.split(&built))?;
+    let mut library = objcopy.map_or_else(|| Ok(fs::read(&built)?), |objcopy| objcopy.split(&built))?;
     toolchain.check(&library)?;
+    section_of(&mut library, scene)?;
     // Without its stamp a library is not taken, so one that is cut is none.
     let _ = fs::remove_file(stamp);
     fs::write(kept, &library)?;
@@ -93,17 +95,21 @@ fn make(
     }
     let sources = sources(&fs::read_to_string(built.with_extension("d"))?);
     if sources.iter().all(|file| is_older(file, began)) {
-        fs::write(stamp, format!("{}\n{}", fingerprint(&sources, toolchain)?, sources.join("\n")))?;
+        fs::write(stamp, format!("{}\n{}", fingerprint(&library, &sources, toolchain)?, sources.join("\n")))?;
     }
     Ok(Kept { library, debug })
 }
 
 /// This library with the values of a scene of its list.
 pub fn filled(mut library: Vec<u8>, scene: &Scene) -> Result<Vec<u8>> {
-    let section = section::find(&mut library, &scene.list(), scene.room());
-    let section = section.map_err(|wrong| anyhow!("the library for {}: {wrong}", scene.file.display()))?;
-    section::fill(section, &xml::guid(scene), &scene.starts);
+    section::fill(section_of(&mut library, scene)?, &xml::guid(scene), &scene.starts);
     Ok(library)
+}
+
+/// The section of this library for the values of a scene.
+fn section_of<'l>(library: &'l mut [u8], scene: &Scene) -> Result<&'l mut [u8]> {
+    section::find(library, &scene.list(), scene.room())
+        .map_err(|wrong| anyhow!("the library for {}: {wrong}", scene.file.display()))
 }
 
 /// On macOS a library is signed when it is linked, and one that was changed since is not loaded unless it is signed anew.
@@ -121,7 +127,11 @@ pub fn signed(library: Vec<u8>) -> Result<Vec<u8>> {
 pub fn of_list<'c>(command: &'c mut Command, scene: &Scene, folder: &Path) -> Result<&'c mut Command> {
     fs::create_dir_all(folder)?;
     let (list, file) = (scene.list(), folder.join("section"));
-    fs::write(&file, section::blank(&list, scene.room()))?;
+    let blank = section::blank(&list, scene.room());
+    // What is written anew is compiled in anew.
+    if fs::read(&file).ok().as_ref() != Some(&blank) {
+        fs::write(&file, blank)?;
+    }
     Ok(command.env("SPLIT_ROTOR_LIST", list).env("SPLIT_ROTOR_SECTION", file).arg("--no-default-features"))
 }
 
@@ -187,24 +197,21 @@ fn is_older(file: &str, time: SystemTime) -> bool {
     fs::metadata(file).and_then(|metadata| metadata.modified()).is_ok_and(|changed| changed < time)
 }
 
-/// Whether nothing has changed of what the library with this stamp was made of.
-fn is_fresh(stamp: &Path, toolchain: &Toolchain) -> bool {
+/// Whether nothing has changed of the library with this stamp, and of what it was made of.
+fn is_fresh(library: &[u8], stamp: &Path, toolchain: &Toolchain) -> bool {
     let stamp = fs::read_to_string(stamp).unwrap_or_default();
     let Some((then, sources)) = stamp.split_once('\n') else { return false };
     let sources: Vec<_> = sources.lines().map(str::to_owned).collect();
-    fingerprint(&sources, toolchain).is_ok_and(|now| now == then)
+    fingerprint(library, &sources, toolchain).is_ok_and(|now| now == then)
 }
 
-/// Of the compiler, its flags, the settings of cargo in the environment, and of what these files hold, and which files a folder.
-fn fingerprint(sources: &[String], toolchain: &Toolchain) -> Result<String> {
+/// Of a library, of the compiler, its flags, the settings of cargo in the environment, and of what these files hold, and which files a folder.
+fn fingerprint(library: &[u8], sources: &[String], toolchain: &Toolchain) -> Result<String> {
     let mut all = DefaultHasher::new();
+    library.hash(&mut all);
     toolchain.compiler()?.hash(&mut all);
     flags(paths::root())?.hash(&mut all);
-    let is_setting =
-        |name: &str| ["CARGO_BUILD_", "CARGO_PROFILE_", "RUSTC"].iter().any(|begin| name.starts_with(begin));
-    let mut settings: Vec<_> = std::env::vars_os().filter(|(name, _)| is_setting(&name.to_string_lossy())).collect();
-    settings.sort();
-    settings.hash(&mut all);
+    settings().hash(&mut all);
     for source in sources {
         let path = Path::new(source);
         if path.is_dir() {
@@ -216,6 +223,15 @@ fn fingerprint(sources: &[String], toolchain: &Toolchain) -> Result<String> {
         }
     }
     Ok(format!("{:016x}", all.finish()))
+}
+
+/// The settings of cargo and its compiler in the environment.
+pub fn settings() -> Vec<(OsString, OsString)> {
+    let is_setting =
+        |name: &str| ["CARGO_BUILD_", "CARGO_ENCODED_", "CARGO_PROFILE_", "RUSTC", "RUSTFLAGS"].iter().any(|begin| name.starts_with(begin));
+    let mut settings: Vec<_> = std::env::vars_os().filter(|(name, _)| is_setting(&name.to_string_lossy())).collect();
+    settings.sort();
+    settings
 }
 
 #[cfg(test)]
@@ -251,8 +267,11 @@ mod tests {
     fn a_kept_library_is_stale_where_any_source_changes_comes_or_goes() {
         let (folder, sources) = made("stamp");
         let (stamp, own) = (folder.join("stamp"), Toolchain::own().unwrap());
-        assert!(!is_fresh(&stamp, &own), "none was written");
-        fs::write(&stamp, format!("{}\n{}", fingerprint(&sources, &own).unwrap(), sources.join("\n"))).unwrap();
+        let is_fresh = |library: &[u8]| is_fresh(library, &stamp, &own);
+        assert!(!is_fresh(b"library"), "none was written");
+        let found = fingerprint(b"library", &sources, &own).unwrap();
+        fs::write(&stamp, format!("{found}\n{}", sources.join("\n"))).unwrap();
+        assert!(!is_fresh(b"librarx"), "another library");
         let changes: [(&str, Option<&str>); 4] = [
             ("lib.rs", Some("One")),
             ("effects/drag.rs", Some("")),
@@ -260,19 +279,19 @@ mod tests {
             ("effects/drag.rs", None),
         ];
         for (file, text) in changes {
-            assert!(is_fresh(&stamp, &own), "before {file} changes");
+            assert!(is_fresh(b"library"), "before {file} changes");
             let (file, before) = (folder.join(file), fs::read(folder.join(file)));
             match text {
                 Some(text) => fs::write(&file, text).unwrap(),
                 None => fs::remove_file(&file).unwrap(),
             }
-            assert!(!is_fresh(&stamp, &own), "{} is {text:?}", file.display());
+            assert!(!is_fresh(b"library"), "{} is {text:?}", file.display());
             match before {
                 Ok(before) => fs::write(&file, before).unwrap(),
                 Err(_) => fs::remove_file(&file).unwrap(),
             }
         }
-        assert!(is_fresh(&stamp, &own), "all is as it was");
+        assert!(is_fresh(b"library"), "all is as it was");
     }
 
     #[test]

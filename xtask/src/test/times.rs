@@ -1,4 +1,4 @@
-//! What each job took: `target/test/times.csv`, one row a job, the dearest first.
+//! What each job took: `target/test/times.csv`, one row a job that did not fail, the dearest first.
 
 use crate::alone::alone;
 use crate::paths;
@@ -68,7 +68,8 @@ fn file() -> PathBuf {
 /// Puts a row into the file, in place of an earlier one of this job; one process at a time.
 fn put(file: &Path, row: Row) -> Result<()> {
     let _alone = alone(&file.with_extension("lock"), || ())?;
-    let mut all = rows(&fs::read_to_string(file).unwrap_or_default())?;
+    // Of a file that is damaged nothing is kept.
+    let mut all = rows(&fs::read_to_string(file).unwrap_or_default()).unwrap_or_default();
     all.retain(|other| other.job != row.job);
     all.push(row);
     all.sort_by(|a, b| b.cost().total_cmp(&a.cost()));
@@ -76,7 +77,9 @@ fn put(file: &Path, row: Row) -> Result<()> {
     for Row { job, wall, cpu } in all {
         writeln!(text, "{job},{wall:.1},{}", cpu.map_or_else(String::new, |cpu| format!("{cpu:.1}")))?;
     }
-    Ok(fs::write(file, text)?)
+    let whole = file.with_extension("new");
+    fs::write(&whole, text)?;
+    Ok(fs::rename(whole, file)?)
 }
 
 impl Row {
@@ -129,6 +132,8 @@ mod tests {
             put(&file, row).unwrap();
         }
         let text = fs::read_to_string(&file).unwrap();
+        fs::write(file.with_file_name("damaged.csv"), "garbage\ngarbage").unwrap();
+        put(&file.with_file_name("damaged.csv"), row("fuzz", 2.0, None)).unwrap();
         assert_eq!(text, "job,wall_s,cpu_s\nfuzz,2.0,9.5\ndocs, code,4.0,\n");
         assert_eq!(rows(&text).unwrap(), [row("fuzz", 2.0, Some(9.5)), row("docs, code", 4.0, None)]);
         assert!(rows("job\nfuzz,2.0").is_err());

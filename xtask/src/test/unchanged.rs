@@ -1,9 +1,9 @@
 //! Jobs that run others' programs for minutes, and are left out where nothing has changed of what they test: tests/golden/jobs holds what
 //! each found when it last ran, and the digest of what it ran on.
 
-use crate::paths;
 use crate::run::output;
-use anyhow::{Context, Result};
+use crate::{library, paths};
+use anyhow::{Context, Result, ensure};
 use sha1_smol::Sha1;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,6 +15,8 @@ pub struct Basis<'b> {
     pub tracked: &'b [&'b str],
     /// Files that were made anew for this run.
     pub made: &'b [PathBuf],
+    /// Programs that it runs beside the compiler, by their versions.
+    pub programs: &'b [&'b str],
 }
 
 /// Prints the output in this file where it is that of the same basis, and else runs the job, prints what it found, and stores that; with
@@ -25,7 +27,10 @@ pub fn unless_unchanged(file: &Path, basis: &Basis, all: bool, run: impl FnOnce(
         println!("unchanged since {}:\n{found}", since(file)?);
         return Ok(());
     }
+    // A run that fails leaves none.
+    let _ = fs::remove_file(file);
     let found = run()?;
+    ensure!(!found.trim().is_empty(), "the job found nothing");
     println!("{found}");
     store(file, &digest, &found)
 }
@@ -36,16 +41,29 @@ pub fn file(job: &str) -> PathBuf {
 }
 
 impl Basis<'_> {
-    /// Of the names and contents of all files, and of the compiler.
+    /// Of the names and contents of all files, those that git does not know yet too, of the compiler and its settings, and of the programs.
     pub fn digest(&self) -> Result<String> {
         let root = paths::root();
         let mut git = Command::new("git");
-        let listed =
-            output(git.current_dir(root).args(["ls-files", "--cached", "--deduplicate", "--"]).args(self.tracked))?;
-        let tracked = listed.lines().map(|name| (name.to_owned(), root.join(name)));
+        git.current_dir(root).args([
+            "ls-files",
+            "-z",
+            "--cached",
+            "--others",
+            "--exclude-standard",
+            "--deduplicate",
+            "--",
+        ]);
+        let listed = output(git.args(self.tracked))?;
+        let tracked = listed.split_terminator('\0').map(|name| (name.to_owned(), root.join(name)));
         let made =
             self.made.iter().map(|file| (file.file_name().unwrap_or_default().display().to_string(), file.clone()));
         let mut digest = Sha1::from(output(Command::new("rustc").arg("-vV"))?);
+        digest.update(format!("{:?}", library::settings()).as_bytes());
+        for program in self.programs {
+            // One that is not here makes the job fail, or makes another run than before.
+            digest.update(output(Command::new(program).arg("--version")).unwrap_or_default().as_bytes());
+        }
         // What was removed here is still in git's list.
         for (name, file) in tracked.filter(|(_, file)| file.is_file()).chain(made) {
             let bytes = fs::read(&file).with_context(|| file.display().to_string())?;
@@ -76,9 +94,13 @@ fn store(file: &Path, basis: &str, found: &str) -> Result<()> {
 
 /// The commit with which this output was stored.
 fn since(file: &Path) -> Result<String> {
-    let mut git = Command::new("git");
-    let commit = output(git.current_dir(paths::root()).args(["log", "-1", "--format=%h", "--"]).arg(file))?;
-    Ok(if commit.is_empty() { "the last run here, whose output is not committed".into() } else { commit.trim().into() })
+    let git = |arguments: &[&str]| output(Command::new("git").current_dir(paths::root()).args(arguments).arg(file));
+    let (commit, changed) = (git(&["log", "-1", "--format=%h", "--"])?, git(&["status", "--porcelain", "--"])?);
+    Ok(if commit.is_empty() || !changed.is_empty() {
+        "the last run here, whose output is not committed".into()
+    } else {
+        commit.trim().into()
+    })
 }
 
 #[cfg(test)]
@@ -94,7 +116,7 @@ mod tests {
         let (made, runs) = (folder.join("made.txt"), Cell::new(0));
         let run = |tracked: &[&str], all| {
             let before = runs.get();
-            let basis = Basis { tracked, made: std::slice::from_ref(&made) };
+            let basis = Basis { tracked, made: std::slice::from_ref(&made), programs: &[] };
             unless_unchanged(&record, &basis, all, || {
                 runs.set(before + 1);
                 Ok("7 of 7\n".into())
