@@ -227,8 +227,8 @@ fn fingerprint(library: &[u8], sources: &[String], toolchain: &Toolchain) -> Res
 
 /// The settings of cargo and its compiler in the environment.
 pub fn settings() -> Vec<(OsString, OsString)> {
-    let is_setting =
-        |name: &str| ["CARGO_BUILD_", "CARGO_ENCODED_", "CARGO_PROFILE_", "RUSTC", "RUSTFLAGS"].iter().any(|begin| name.starts_with(begin));
+    let begins = ["CARGO_BUILD_", "CARGO_ENCODED_", "CARGO_PROFILE_", "RUSTC", "RUSTFLAGS"];
+    let is_setting = |name: &str| begins.iter().any(|begin| name.starts_with(begin));
     let mut settings: Vec<_> = std::env::vars_os().filter(|(name, _)| is_setting(&name.to_string_lossy())).collect();
     settings.sort();
     settings
