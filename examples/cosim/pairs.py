@@ -24,6 +24,7 @@ BEARINGS = [
     for n in (1, 2)
 ]
 LATE = {"effects.extrapolation": True, "extrapolation.lag": 1.0}
+ORDER_1 = {"effects.extrapolation": True, "extrapolation.order": 1}
 
 
 @dataclass(frozen=True)
@@ -171,7 +172,7 @@ PAIRS = {
         ("rotor.drive.w",),
         0.2,
         integrated(motor_rates, (0.0, 0.0, 0.0, 0.0), (1,), 0.2),
-        advised={"drive.k": 2e4, "drive.d": 2.0, "drive.ahead": 0.5},
+        advised=ORDER_1 | {"drive.k": 2e4, "drive.d": 2.0, "drive.ahead": 0.5},
     ),
     "two_rotors": Pair(
         {
@@ -191,6 +192,6 @@ PAIRS = {
         ("rotor.drive.w",),
         0.05,
         integrated(two_rates, (1e-3, 100.0, -1.6e-3, 100.0), (1,), 0.05),
-        advised={"effects.extrapolation": True, "extrapolation.order": 1, "drive.k": 2e4, "drive.d": 1.0},
+        advised=ORDER_1 | {"drive.k": 2e4, "drive.d": 1.0},
     ),
 }
