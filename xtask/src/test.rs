@@ -204,7 +204,7 @@ const SEED_DIGITS: usize = 6;
 /// The Rust tests of the model that take long.
 fn long_runs() -> Result<()> {
     // Other sources draw other scenes; the same ones draw the same, here and elsewhere.
-    let drawn = Basis { tracked: &["model", "oracles"], made: &[], programs: &[] }.digest()?;
+    let drawn = Basis { tracked: &["model", "oracles"], made: &[], programs: &[] }.contents()?;
     let seed = u64::from_str_radix(&drawn[..SEED_DIGITS], 16)?;
     // What costs are is measured, not tested: docs/accuracy.md has the command.
     // Of all members, as their tests were built: alone, the model would be built anew.

@@ -146,6 +146,11 @@ impl Run {
         &self.farthest
     }
 
+    /// How fast the mass centre was across e at the ends of all steps so far, beside its start [m/s].
+    pub fn fastest(&self) -> f64 {
+        self.sizes[at::V + 1]
+    }
+
     /// Moves the communication point to time `until` \[s]; false where the motion has no bounds or costs too much.
     pub fn advance(&mut self, until: f64) -> bool {
         self.inputs.step_from(self.t);

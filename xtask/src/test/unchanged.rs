@@ -41,8 +41,20 @@ pub fn file(job: &str) -> PathBuf {
 }
 
 impl Basis<'_> {
-    /// Of the names and contents of all files, those that git does not know yet too, of the compiler and its settings, and of the programs.
-    pub fn digest(&self) -> Result<String> {
+    /// Of the names and contents of all files, of the compiler and its settings, and of the programs.
+    fn digest(&self) -> Result<String> {
+        let mut digest = Sha1::from(output(Command::new("rustc").arg("-vV"))?);
+        digest.update(format!("{:?}", library::settings()).as_bytes());
+        for program in self.programs {
+            // One that is not here makes the job fail, or makes another run than before.
+            digest.update(output(Command::new(program).arg("--version")).unwrap_or_default().as_bytes());
+        }
+        digest.update(self.contents()?.as_bytes());
+        Ok(digest.digest().to_string())
+    }
+
+    /// Of the names and contents of all files, those that git does not know yet too.
+    pub fn contents(&self) -> Result<String> {
         let root = paths::root();
         let mut git = Command::new("git");
         git.current_dir(root).args([
@@ -58,12 +70,7 @@ impl Basis<'_> {
         let tracked = listed.split_terminator('\0').map(|name| (name.to_owned(), root.join(name)));
         let made =
             self.made.iter().map(|file| (file.file_name().unwrap_or_default().display().to_string(), file.clone()));
-        let mut digest = Sha1::from(output(Command::new("rustc").arg("-vV"))?);
-        digest.update(format!("{:?}", library::settings()).as_bytes());
-        for program in self.programs {
-            // One that is not here makes the job fail, or makes another run than before.
-            digest.update(output(Command::new(program).arg("--version")).unwrap_or_default().as_bytes());
-        }
+        let mut digest = Sha1::new();
         // What was removed here is still in git's list.
         for (name, file) in tracked.filter(|(_, file)| file.is_file()).chain(made) {
             let bytes = fs::read(&file).with_context(|| file.display().to_string())?;

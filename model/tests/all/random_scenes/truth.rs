@@ -45,6 +45,10 @@ pub struct Output {
 /// Of what hardly changes, errors count beside this part of its value [1]: rounding is no error.
 const LEAST: f64 = 1e-6;
 
+/// A motion that has decayed to this part of what it was is followed no further (eq. 80), so velocities count beside this part of the fastest ever,
+/// which may lie between two points \[1].
+const FOLLOWED: f64 = 1e-3;
+
 /// A bearing's force counts beside that of an axial way of this part of its position [1]: along t that is a number with the rounding of
 /// the position, and the whole motion may be less than that.
 const OF_LEVER: f64 = 1e-8;
@@ -124,7 +128,7 @@ impl Truth {
             return Err(Unfit::Grows(growth));
         }
         let own_error = over(differences(&in_long_steps, &shown, judged), sizes);
-        let outputs = outputs(trial, [&in_long_steps, &shown, &shifted], off_by, fine.farthest());
+        let outputs = outputs(trial, [&in_long_steps, &shown, &shifted], off_by, &fine);
         let own = largest(own_error);
         if own.is_nan() || own > SURE * growth.max(1.0) {
             return Err(Unfit::Unsure(own));
@@ -165,7 +169,8 @@ fn across(v: &Vector3<f64>) -> f64 {
 }
 
 /// All outputs, their sizes and the reference's own errors.
-fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by: f64, farthest: &[f64]) -> Vec<Output> {
+fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by: f64, fine: &Run) -> Vec<Output> {
+    let farthest = fine.farthest();
     let (judged, names) = (trial.judged(), trial.machine.outputs(&trial.probes));
     let from = if judged == 1 { &shown[0] } else { &shown[judged] };
     let value = |n: usize| largest(shown[judged..].iter().map(|now| now.outputs[n].norm()));
@@ -186,7 +191,11 @@ fn outputs(trial: &Trial, [in_long_steps, shown, shifted]: [&[Seen]; 3], off_by:
                 excursion(n).max(farthest[n]).max(LEAST * value(n)).max(lever)
             }
             // A velocity of the axis is known to the last digits of that of the mass centre.
-            Beside::Excursion => excursion(n).max(LEAST * value(n)).max(LEAST * trial.machine.eccentricity() * turning),
+            Beside::Excursion => {
+                let decayed = if name == "v_c" || name.ends_with(".v") { FOLLOWED * fine.fastest() } else { 0.0 };
+                let least = LEAST * value(n).max(trial.machine.eccentricity() * turning);
+                excursion(n).max(least).max(decayed)
+            }
             Beside::Size => value(n),
             Beside::Energy => value(potential - 1) + excursion(potential),
         };
