@@ -54,7 +54,7 @@ impl Basis<'_> {
     }
 
     /// Of the names and contents of all files, those that git does not know yet too.
-    pub fn contents(&self) -> Result<String> {
+    fn contents(&self) -> Result<String> {
         let root = paths::root();
         let mut git = Command::new("git");
         git.current_dir(root).args([

@@ -148,7 +148,6 @@ fn exact_taylor_keeps_its_tolerance() {
 #[test]
 #[ignore = "long"]
 fn exact_auto_keeps_its_tolerance_in_scenes_drawn_anew() {
-    // CI names a seed for each commit; by hand each day has its own.
     let day = || SystemTime::UNIX_EPOCH.elapsed().expect("a date").as_secs() / 86_400;
     let seed = asked("SPLIT_ROTOR_SEED").unwrap_or_else(day);
     println!("SPLIT_ROTOR_SEED={seed}");
