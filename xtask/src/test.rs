@@ -198,8 +198,8 @@ fn clients() -> Result<()> {
     run(&mut pytest(&["--long", "-m", "long", "tests/fmu", "tests/clients"])?)
 }
 
-/// The Rust tests of the model that take long; random scenes that nobody has seen only where all is asked for, for one in some hundreds is found
-/// wrong whatever was changed.
+/// Runs the Rust tests of the model that take long. It draws new random scenes only with `--all`: one in some hundreds is wrong, whatever was
+/// changed.
 fn long_runs(length: Length) -> Result<()> {
     // What costs are is measured, not tested: docs/accuracy.md has the command.
     // Of all members, as their tests were built: alone, the model would be built anew.
@@ -211,33 +211,28 @@ fn long_runs(length: Length) -> Result<()> {
     run(&mut tests)
 }
 
-/// What is no part of an FMU, and makes none.
-const NO_PART: &[&str] = &[
-    ".ci",
-    "docs",
-    "examples",
-    "findings",
-    "fuzz",
-    "model/examples",
-    "model/tests",
-    "oracles",
-    "python",
-    "tests/clients",
-    "tests/fmu",
-    "tests/golden/jobs",
-    "tests/interface",
-    "*.md",
+/// All files but those that are no part of an FMU and make none, as git's pathspecs.
+const OF_FMUS: &[&str] = &[
+    ".",
+    ":!.ci",
+    ":!docs",
+    ":!examples",
+    ":!findings",
+    ":!fuzz",
+    ":!model/examples",
+    ":!model/tests",
+    ":!oracles",
+    ":!python",
+    ":!tests/clients",
+    ":!tests/fmu",
+    ":!tests/golden/jobs",
+    ":!tests/interface",
+    ":!*.md",
 ];
-
-/// All files but these, as git's pathspecs.
-fn all_but(apart: &[&str]) -> Vec<String> {
-    [".".to_owned()].into_iter().chain(apart.iter().map(|path| format!(":!{path}"))).collect()
-}
 
 /// The golden bits on every platform, where anything has changed that is part of an FMU or makes one.
 fn bits_of_every_platform(length: Length) -> Result<()> {
-    let tracked = all_but(&[NO_PART, &["benches"]].concat());
-    let tracked: Vec<_> = tracked.iter().map(String::as_str).collect();
+    let tracked = [OF_FMUS, &[":!benches"]].concat();
     // Where rustup has no standard library for a platform, Debian's compiler stands in.
     let programs = ["/usr/bin/rustc", "x86_64-w64-mingw32-gcc", "wine", "qemu-aarch64"];
     let basis = Basis { tracked: &tracked, made: &[], programs: &programs };
@@ -252,9 +247,7 @@ fn bits_of_every_platform(length: Length) -> Result<()> {
 /// What a user would pick instead of us still runs, all of it, where anything has changed of that, or of what asks it. What it takes is
 /// measured by `cargo xtask accuracy --peers`.
 fn peers(length: Length) -> Result<()> {
-    let tracked = all_but(NO_PART);
-    let tracked: Vec<_> = tracked.iter().map(String::as_str).collect();
-    let basis = Basis { tracked: &tracked, made: &[], programs: &[] };
+    let basis = Basis { tracked: OF_FMUS, made: &[], programs: &[] };
     unless_unchanged(&unchanged::file("peers"), &basis, length == Length::All, || {
         let left_out = accuracy::accuracy("paper", Peers::Tried, Some(&paths::target().join("test/peers")))?;
         ensure!(left_out.is_empty(), "{}", left_out.join(" "));
