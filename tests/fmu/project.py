@@ -21,7 +21,7 @@ GENTLE = [
     scene for scene in SCENES if not any(word in (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8") for word in UNLIKE)
 ]
 GENERAL = [scene for scene in SCENES if "\ngeneral = true" in "\n" + (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
-PACKAGES = ROOT / "target" / "fmu"
+PACKAGES = Path(os.environ.get("SPLIT_ROTOR_FMUS", ROOT / "target" / "fmu"))
 BUILDERS = ROOT / "target" / "package"
 KEPT = BUILDERS / "lists"
 

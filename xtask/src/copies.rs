@@ -49,7 +49,7 @@ fn text(library: &[u8]) -> Result<Vec<u8>> {
 pub fn absence_is_free() -> Result<()> {
     let _alone = alone()?;
     let (scene, own) = (scenes::find("paper")?, Toolchain::own()?);
-    let all = text(&library::of(&scene, &own, 0, &Progress::of(1))?.library)?;
+    let all = text(&library::of(&scene, &own, &Progress::of(1))?.library)?;
     let copy = copied("absence")?;
     let effects = copy.join("model/src/effects");
     let catalogue = effects.with_extension("rs");
@@ -76,7 +76,7 @@ pub fn place_leaves_no_trace() -> Result<()> {
     let parent = if paths::root() < Path::new("/usr") { "/var/tmp" } else { "/tmp" };
     let copy = copied_to(Path::new(parent).join(format!("split-rotor elsewhere {}", std::process::id())))?;
     for toolchain in Toolchain::named(&[LINUX64.name, WIN64.name])? {
-        let here = library::of(&scene, &toolchain, 0, &Progress::of(1))?.library;
+        let here = library::of(&scene, &toolchain, &Progress::of(1))?.library;
         let objcopy = Objcopy::of(&toolchain).context("debug information is kept apart by LLVM's objcopy")?;
         let built = library::build(&toolchain, Some(&objcopy), &copy, &scene, &copy.join("target"))?;
         let there = objcopy.split(&built)?;

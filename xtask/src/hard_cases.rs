@@ -24,12 +24,13 @@ mod whirling;
 
 use crate::progress::Progress;
 use crate::run::side_by_side;
-use crate::{known, package};
+use crate::{known, package, paths};
 use anyhow::{Result, bail, ensure};
 use bench::{Bench, Stages};
 use case::Case;
 use cpu_time::ThreadTime;
 use row::{Outcome, Row};
+use std::path::Path;
 use std::sync::Mutex;
 
 /// Which cases, how long the long ones are, and whether the mutants run too.
@@ -49,7 +50,7 @@ pub struct Extent {
 pub fn hard_cases(extent: &Extent) -> Result<()> {
     chosen(extent)?;
     package::package(&scenes().map(str::to_owned), None)?;
-    run(extent)
+    run(extent, &paths::fmus())
 }
 
 /// The scenes whose FMUs the cases run in: no effects, gravity and support, those with a drive, asymmetry, unbalance at an
@@ -58,10 +59,10 @@ pub fn scenes() -> [&'static str; 7] {
     ["free_top", "paper", "driven", "dzhanibekov", "jeffcott", "unstable_whirl", "rotor"]
 }
 
-/// Runs the gallery with the FMUs that were packaged last; an error where a bound is broken.
-pub fn run(extent: &Extent) -> Result<()> {
+/// Runs the gallery with the FMUs in this folder; an error where a bound is broken.
+pub fn run(extent: &Extent, fmus: &Path) -> Result<()> {
     let cases = chosen(extent)?;
-    let stages = Stages::load(&scenes())?;
+    let stages = Stages::load(&scenes(), fmus)?;
     let rows = measure(&stages, &cases, extent.mutants)?;
     files::write(&rows, extent)?;
     let broken: Vec<_> = rows.iter().filter_map(Row::complaint).collect();

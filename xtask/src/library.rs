@@ -1,7 +1,7 @@
 //! The library of a list of effects: built where what it is made of has changed, kept for all scenes of that list, and a copy of it with
 //! the values of a scene.
 
-use crate::alone::{alone, once};
+use crate::alone::{first_free, once};
 use crate::debug::{self, Objcopy};
 use crate::paths;
 use crate::platforms::Toolchain;
@@ -34,10 +34,9 @@ pub struct Kept {
     pub debug: Option<PathBuf>,
 }
 
-/// The library of the scene's list for a platform: as it was kept, or built by this builder.
-pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progress) -> Result<Kept> {
-    let folder = paths::target().join("package");
-    let (list, builder) = (scene.list(), folder.join(toolchain.folder(builder)));
+/// The library of the scene's list for a platform: as it was kept, or built.
+pub fn of(scene: &Scene, toolchain: &Toolchain, progress: &Progress) -> Result<Kept> {
+    let (list, folder) = (scene.list(), paths::target().join("package"));
     let mut name = DefaultHasher::new();
     (&list, scene.room(), toolchain.key()).hash(&mut name);
     let kept = folder.join("lists").join(format!("{:016x}{}", name.finish(), toolchain.platform.suffix));
@@ -51,10 +50,12 @@ pub fn of(scene: &Scene, toolchain: &Toolchain, builder: usize, progress: &Progr
     };
     let (of_scene, platform) = (&scene.name, toolchain.platform.name);
     let waits = || progress.tell(&format!("waiting for another build, before {of_scene}, {platform}"));
-    // First the list's lock: another xtask may be compiling it. Then that of the builder, whose folder other lists need too.
+    // First the list's lock: another xtask may be compiling it. Then that of a builder, whose folder other lists need too.
     once(&kept.with_extension("lock"), look, waits, || {
-        let _builder = alone(&builder.join("lock"), waits)?;
-        make(scene, toolchain, objcopy.as_ref(), &builder, (&kept, &stamp), progress)
+        let builders: Vec<_> = toolchain.builders()?.iter().map(|name| folder.join(name)).collect();
+        let locks: Vec<_> = builders.iter().map(|builder| builder.join("lock")).collect();
+        let (which, _alone) = first_free(&locks, waits)?;
+        make(scene, toolchain, objcopy.as_ref(), &builders[which], (&kept, &stamp), progress)
     })
 }
 

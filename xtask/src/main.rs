@@ -335,7 +335,7 @@ fn dispatch(command: Command) -> Result<()> {
         }
         Command::HardCases { part, short, mutants, packaged } => {
             let extent = Extent { part, whole: !short, mutants, ..Extent::default() };
-            if packaged { hard_cases::run(&extent) } else { hard_cases::hard_cases(&extent) }
+            if packaged { hard_cases::run(&extent, &paths::fmus()) } else { hard_cases::hard_cases(&extent) }
         }
         Command::Bench { part, seed } => bench::bench(&part, seed),
         Command::Campbell { scene, speeds, steps, orders, out } => {

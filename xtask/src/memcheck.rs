@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use split_rotor_model::scene::Scene;
 use split_rotor_tools::general::GENERAL;
 
-/// Runs a shorter C host under memcheck on one scene's FMU of every library, as it was packaged last, one that does model exchange where there
+/// Runs a shorter C host under memcheck on one scene's FMU of every library, as the tests packaged it last, one that does model exchange where there
 /// is one: what the same library runs is the same machine code. Errors and leaks fail.
 pub fn valgrind() -> Result<()> {
     let host = c_host::compile("host", &[])?;
@@ -23,7 +23,7 @@ pub fn valgrind() -> Result<()> {
         let mut command = c::tool("valgrind", "valgrind")?;
         command.args(["--quiet", "--error-exitcode=99", "--leak-check=full", "--trace-children=yes"]).arg(&host);
         let shorter = ["--cycles", "20", "--steps", "100", "--no-memory"];
-        let fmu = unpack(&paths::fmu(&scene.name))?;
+        let fmu = unpack(&paths::fmu_in(&paths::tested_fmus(), &scene.name))?;
         // A caught panic with a backtrace keeps symbols in memory, which looks like a leak.
         run(c_host::arguments(&mut command, &fmu)?.args(shorter).env("RUST_BACKTRACE", "0"))
     })

@@ -26,7 +26,7 @@ pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> 
         bail!("{} and {} would both become {}.fmu", first.file.display(), second.file.display(), first.name);
     }
     let toolchains = &Toolchain::named(platforms)?;
-    let out = out.map_or_else(|| paths::target().join("fmu"), Path::to_owned);
+    let out = out.map_or_else(paths::fmus, Path::to_owned);
     fs::create_dir_all(&out).with_context(|| format!("cannot make the folder {}", out.display()))?;
     let origin = licences::of("split-rotor", toolchains)?;
     let lists = library::by_list(&scenes);
@@ -35,14 +35,14 @@ pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> 
     let progress = Progress::of(libraries.len());
     progress.set_message("packaging");
     // A library is compiled and linked by one thread.
-    side_by_side(&libraries, |builder, (scene, toolchain)| {
-        library::of(scene, toolchain, builder, &progress)?;
+    side_by_side(&libraries, |_, (scene, toolchain)| {
+        library::of(scene, toolchain, &progress)?;
         progress.inc(1);
         Ok(())
     })?;
-    let fmu = |scene: &Scene| out.join(format!("{}.fmu", scene.name));
+    let fmu = |scene: &Scene| paths::fmu_in(&out, &scene.name);
     for scenes in lists {
-        let kept = |toolchain| library::of(scenes[0], toolchain, 0, &progress);
+        let kept = |toolchain| library::of(scenes[0], toolchain, &progress);
         let kept = toolchains.iter().map(|toolchain| Ok((toolchain, kept(toolchain)?)));
         let kept = kept.collect::<Result<Vec<_>>>()?;
         for scene in scenes {
@@ -68,13 +68,13 @@ pub fn package_for(names: &[String], platforms: &[&str], out: Option<&Path>) -> 
     Ok(scenes.iter().map(fmu).collect())
 }
 
-/// Makes the FMUs of these scenes for this machine, into target/fmu, over the library of every effect: none is compiled for them.
-pub fn over_general(names: &[String]) -> Result<Vec<PathBuf>> {
+/// Makes the FMUs of these scenes for this machine, into `out`, over the library of every effect: none is compiled for them.
+pub fn over_general(names: &[String], out: &Path) -> Result<Vec<PathBuf>> {
     let (general, own) = (scenes::find(GENERAL)?, Toolchain::own()?);
-    let library = library::of(&general, &own, 0, &Progress::of(1))?.library;
+    let library = library::of(&general, &own, &Progress::of(1))?.library;
     let origin = licences::of("split-rotor", std::slice::from_ref(&own))?;
     let write = |name: &String| {
-        let fmu = paths::fmu(name);
+        let fmu = paths::fmu_in(out, name);
         let (scene, library) = general::over(&general, library.clone(), scenes::find(name)?)?;
         archive(&fmu, |add| fill(&scene, &[(own.platform, library)], &origin, add))?;
         println!("{}, over the library of every effect", fmu.display());

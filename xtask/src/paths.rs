@@ -17,7 +17,17 @@ pub fn target() -> PathBuf {
     root().join("target")
 }
 
-/// A scene's FMU as it was packaged last.
-pub fn fmu(scene: &str) -> PathBuf {
-    target().join("fmu").join(format!("{scene}.fmu"))
+/// Where FMUs are packaged.
+pub fn fmus() -> PathBuf {
+    target().join("fmu")
+}
+
+/// Where the tests have theirs, some over the library of every effect.
+pub fn tested_fmus() -> PathBuf {
+    target().join("test/fmu")
+}
+
+/// A scene's FMU in a folder.
+pub fn fmu_in(folder: &Path, scene: &str) -> PathBuf {
+    folder.join(format!("{scene}.fmu"))
 }

@@ -9,6 +9,7 @@ use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::thread;
 
 /// What can be asked for: this machine and its like, which is the quickest, or any machine of a platform.
 pub const NAMES: [&str; 4] = [HERE, LINUX64.name, WIN64.name, AARCH64_LINUX.name];
@@ -143,9 +144,14 @@ impl Toolchain {
         from_source && !self.built(folder).exists()
     }
 
-    /// In which folder a builder compiles: one a platform, where the standard library may have to be compiled first.
-    pub fn folder(&self, builder: usize) -> String {
-        if self.portable.is_some() { self.platform.name.into() } else { builder.to_string() }
+    /// The folders in which its libraries are compiled, one at a time in each: one a processor, or one a platform, where the standard library
+    /// may have to be compiled first.
+    pub fn builders(&self) -> Result<Vec<String>> {
+        let own = 0..thread::available_parallelism()?.get();
+        Ok(self
+            .portable
+            .as_ref()
+            .map_or_else(|| own.map(|n| n.to_string()).collect(), |_| vec![self.platform.name.into()]))
     }
 
     /// What is in its libraries beside crates.

@@ -164,10 +164,11 @@ fn plain_wide_build() -> Result<()> {
 fn packaged_fmus(length: Length) -> Result<()> {
     let scenes = if length == Length::Short { first() } else { Scene::names(&paths::scenes()) };
     let (compiled, others) = by_library(scenes)?;
-    c_host::plain(&[package::package(&compiled, None)?, package::over_general(&others)?].concat())?;
+    let fmus = paths::tested_fmus();
+    c_host::plain(&[package::package(&compiled, Some(&fmus))?, package::over_general(&others, &fmus)?].concat())?;
     let names = [("SPLIT_ROTOR_PACKAGED", compiled), ("SPLIT_ROTOR_OVER_GENERAL", others)];
     run(pytest(&["tests/fmu", "tests/clients"])?.envs(names.map(|(variable, names)| (variable, names.join(" ")))))?;
-    hard_cases::run(&Extent { mutants: true, ..Extent::default() })
+    hard_cases::run(&Extent { mutants: true, ..Extent::default() }, &fmus)
 }
 
 /// The scenes of the hard cases, one through all charts, and that of the README.
@@ -189,7 +190,7 @@ pub fn by_library(scenes: Vec<String>) -> Result<(Vec<String>, Vec<String>)> {
 
 /// The hard cases that were shortened, in full.
 fn whole_gallery() -> Result<()> {
-    hard_cases::run(&Extent { whole: true, longer: true, ..Extent::default() })
+    hard_cases::run(&Extent { whole: true, longer: true, ..Extent::default() }, &paths::tested_fmus())
 }
 
 /// The packaged FMUs under third-party clients, and pytest's other long tests.
@@ -261,11 +262,15 @@ fn against_ross(length: Length) -> Result<()> {
     unless_unchanged(&unchanged::file("against_ROSS"), &basis, length == Length::All, ross::theirs)
 }
 
+/// Names the folder of the FMUs to the tests in Python.
+pub const FMUS: &str = "SPLIT_ROTOR_FMUS";
+
 /// A command that runs these tests, as many files at a time as there are processors.
 fn pytest(arguments: &[&str]) -> Result<Command> {
     let workers = thread::available_parallelism()?.to_string();
     let mut pytest = python::python_with_all()?;
     pytest.args(python::PYTEST).args(["--dist", "loadfile", "-n", &workers]).args(arguments);
+    pytest.env(FMUS, paths::tested_fmus());
     Ok(pytest)
 }
 

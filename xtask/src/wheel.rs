@@ -3,6 +3,7 @@
 use crate::platforms::Toolchain;
 use crate::progress::Progress;
 use crate::run::run;
+use crate::test::FMUS;
 use crate::{library, licences, package, paths, python, scenes};
 use anyhow::{Context, Result, ensure};
 use split_rotor_model::scene::Scene;
@@ -17,17 +18,22 @@ use std::path::{Path, PathBuf};
 /// What the wheel runs on, with glibc 2.17 and later (manylinux2014).
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 
-/// Their FMUs are compared with what the package makes of the same scenes.
-const COMPARED: [&str; 4] = ["coupled", "paper", "rubbing", "run_up"];
+/// The FMU of this scene is compared with what the package makes of it.
+const COMPARED: &str = "paper";
+
+/// And of these those over the library of every effect: the same bits as their own, and no library is compiled for them.
+const OVER_GENERAL: [&str; 3] = ["coupled", "rubbing", "run_up"];
 
 /// Builds the wheel into target/wheel and tries it; its path.
 pub fn wheel() -> Result<PathBuf> {
     ensure!(cfg!(all(target_os = "linux", target_arch = "x86_64")), "the wheel is built on Linux, x86-64");
-    package::package(&COMPARED.map(str::to_owned), None)?;
+    let fmus = paths::target().join("test/wheel");
+    package::package(&[COMPARED.to_owned()], Some(&fmus))?;
+    package::over_general(&OVER_GENERAL.map(str::to_owned), &fmus)?;
     let wheel = build()?;
     let mut python = python::of_wheel(&wheel)?;
     // Pytest's folder is no part of the package's path: what is imported is what was installed.
-    run(python.args(python::PYTEST).arg("python/tests").env("PATH", without_rust()?))?;
+    run(python.args(python::PYTEST).arg("python/tests").env(FMUS, fmus).env("PATH", without_rust()?))?;
     println!("{}", wheel.display());
     Ok(wheel)
 }
@@ -57,7 +63,7 @@ fn fill(data: &Path) -> Result<()> {
         fs::copy(paths::scenes().join(&file), data.join("scenes").join(&file))?;
     }
     let toolchains = Toolchain::named(&[LINUX64.name])?;
-    let library = library::of(&scenes::find(GENERAL)?, &toolchains[0], 0, &Progress::of(1))?.library;
+    let library = library::of(&scenes::find(GENERAL)?, &toolchains[0], &Progress::of(1))?.library;
     fs::write(data.join(format!("{DLL_PREFIX}split_rotor{DLL_SUFFIX}")), library)?;
     let origin = licences::of("split-rotor", &toolchains)?;
     fs::write(data.join("third-party.txt"), origin.licences)?;

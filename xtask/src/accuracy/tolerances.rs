@@ -71,7 +71,7 @@ pub fn tolerances(packaged: bool) -> Result<()> {
 
 fn measure(name: &str) -> Result<Measured> {
     let scene = scenes::find(name)?;
-    let unpacked = unpack(&paths::fmu(name))?;
+    let unpacked = unpack(&paths::fmu_in(&paths::fmus(), name))?;
     let mut subject = Subject::load(&scene, &unpacked.library)?;
     span::shorten(&mut subject);
     let reference = Reference::of(&subject)?;

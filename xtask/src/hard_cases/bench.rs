@@ -12,6 +12,7 @@ use split_rotor_tools::accuracy::run::{OUTPUTS, point};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 
 /// The loaded FMU of a scene.
 pub struct Stage {
@@ -25,9 +26,9 @@ pub struct Stage {
 pub struct Stages(BTreeMap<&'static str, Stage>);
 
 impl Stages {
-    /// The FMUs of these scenes as they were packaged last.
-    pub fn load(names: &[&'static str]) -> Result<Self> {
-        let stages = names.iter().map(|name| Ok((*name, Stage::load(name)?)));
+    /// The FMUs of these scenes, in this folder.
+    pub fn load(names: &[&'static str], folder: &Path) -> Result<Self> {
+        let stages = names.iter().map(|name| Ok((*name, Stage::load(name, &paths::fmu_in(folder, name))?)));
         Ok(Self(stages.collect::<Result<_>>()?))
     }
 
@@ -38,10 +39,9 @@ impl Stages {
 }
 
 impl Stage {
-    fn load(name: &str) -> Result<Self> {
+    fn load(name: &str, fmu: &Path) -> Result<Self> {
         let scene = scenes::find(name)?;
-        let fmu = paths::fmu(name);
-        let unpacked = unpack(&fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
+        let unpacked = unpack(fmu).with_context(|| format!("cannot open {}", fmu.display()))?;
         // One over the library of every effect has more states than its scene, and a GUID of its own.
         let sheet = fs::read_to_string(&unpacked.sheet)?;
         let guid = sheet.lines().find_map(|line| line.strip_prefix("attribute fmiModelDescription.guid "));
