@@ -5,7 +5,7 @@
     python examples/cosim/cosim.py target/fmu/rotor.fmu linear libcosim 1e-3 2e-4 1e-4
 
 The pair is one of linear, journal, pedestal, magnetic, motor, two_rotors (pairs.py); the master plain, fresh, gauss_seidel, iterated, ssp,
-libcosim, or ecos (masters/); then come communication steps [s]. Printed for each: the largest error of what is watched over the last tenth
+libcosim, osp, or ecos (masters/); then come communication steps [s]. Printed for each: the largest error of what is watched over the last tenth
 of the run, relative to the largest motion, where the rotor holds its inputs, where nothing is set, and with what docs/cosimulation.md advises for
 the pair.
 """
@@ -29,6 +29,7 @@ MASTERS = {
     "iterated": "by_fmpy",
     "ssp": "by_ssp",
     "libcosim": "by_libcosim",
+    "osp": "by_osp",
     "ecos": "by_ecos",
 }
 ARE_FRESH = {"fresh", "gauss_seidel", "iterated"}

@@ -36,9 +36,9 @@ def cosim(python_of, tmp_path_factory):
     environment = os.environ | {"TMPDIR": str(folder)}
     program = project.ROOT / "examples" / "cosim" / "cosim.py"
 
-    def run(pair, master, step):
+    def run(pair, master, step, fmu=None):
         out = folder / f"{pair}-{master}-{step}.csv"
-        command = [python_of("libcosimpy"), program, project.packaged("rotor"), pair, master, str(step), "--fine", str(FINE), "--out", out]
+        command = [python_of("libcosimpy"), program, fmu or project.packaged("rotor"), pair, master, str(step), "--fine", str(FINE), "--out", out]
         done = subprocess.run(command, capture_output=True, encoding="utf-8", env=environment, cwd=folder)
         assert done.returncode == 0, done.stdout + done.stderr
         with open(out, encoding="utf-8") as file:
@@ -78,3 +78,11 @@ def test_exact_masters_of_the_same_order_agree(cosim):
         largest = max(map(abs, ways[0][head]))
         for other in ways[1:]:
             assert max(abs(a - b) for a, b in zip(ways[0][head], other[head], strict=True)) <= 1e-9 * largest, head
+
+
+@pytest.mark.parametrize("pair", ["linear", "two_rotors"])
+def test_exact_groups_of_the_open_simulation_platform_are_what_single_connections_are(cosim, pair, tmp_path):
+    command = [project.build_xtask(), "package", "rotor", "--platforms", "here", "--osp", "--out", tmp_path]
+    subprocess.run(command, check=True, cwd=project.ROOT)
+    fmu = tmp_path / "rotor.fmu"
+    assert cosim(pair, "osp", 1e-4, fmu)[1] == cosim(pair, "libcosim", 1e-4, fmu)[1]

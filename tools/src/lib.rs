@@ -9,6 +9,7 @@ pub mod doubts;
 pub mod fmu;
 pub mod general;
 pub mod numbers;
+pub mod osp;
 pub mod page;
 pub mod peaks;
 pub mod platform;

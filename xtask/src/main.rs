@@ -23,6 +23,7 @@ mod library;
 mod licences;
 mod linear_fmu;
 mod memcheck;
+mod osp;
 mod package;
 mod paths;
 mod platforms;
@@ -94,6 +95,10 @@ enum Command {
         /// for which nothing must be fetched
         #[arg(long, value_delimiter = ',', value_name = "PLATFORM", value_parser = platforms::NAMES)]
         platforms: Vec<String>,
+        /// Beside each FMU also SCENE_OspModelDescription.xml: its ports and drives as groups that tools of the Open Simulation Platform
+        /// connect
+        #[arg(long)]
+        osp: bool,
     },
     /// Simulate a scene without packaging it, in a moment: a summary, a report with pictures, and every output as CSV in target/run/SCENE
     Run {
@@ -323,9 +328,10 @@ fn dispatch(command: Command) -> Result<()> {
             };
             test::test(&part, length)
         }
-        Command::Package { scenes, out, platforms } => {
+        Command::Package { scenes, out, platforms, osp } => {
             let platforms: Vec<_> = platforms.iter().map(String::as_str).collect();
-            package::package_for(&scenes, &platforms, out.as_deref()).map(drop)
+            package::package_for(&scenes, &platforms, out.as_deref())?;
+            if osp { osp::write(&scenes, out.as_deref()) } else { Ok(()) }
         }
         Command::Run { scene, no_report, out } => simulate::simulate(&scene, !no_report, out.as_deref()),
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),

@@ -16,24 +16,32 @@ NANOSECONDS = 1e9  # [1/s], the unit of libcosim's clock
 def libcosim(models, links, watched, step, count):
     log_output_level(CosimLogLevel.WARNING)
     execution = CosimExecution.from_step_size(round(step * NANOSECONDS))
-    observer = CosimObserver.create_last_value()
-    execution.add_observer(observer)
-    slaves, references = {}, {}
-    for name, (path, values) in models.items():
-        slaves[name] = execution.add_local_slave(CosimLocalSlave(str(path), name))
-        variables = execution.slave_variables(slaves[name])
-        references[name] = {variable.name.decode(): variable.reference for variable in variables}
+    slaves = {name: execution.add_local_slave(CosimLocalSlave(str(path), name)) for name, (path, _) in models.items()}
+    of = references(execution, slaves)
+    for name, (_, values) in models.items():
         for variable, value in values.items():
             give = {bool: execution.boolean_initial_value, int: execution.integer_initial_value}
-            if not give.get(type(value), execution.real_initial_value)(slaves[name], references[name][variable], value):
+            if not give.get(type(value), execution.real_initial_value)(*of(f"{name}.{variable}"), value):
                 sys.exit(f"libcosim does not set {variable} of {name}")
-
-    def of(end):
-        name, variable = end.split(".", 1)
-        return slaves[name], references[name][variable]
-
     for source, sink in links:
         execution.connect_real_variables(*of(source), *of(sink))
+    return stepped(execution, slaves, watched, count)
+
+
+def references(execution, slaves):
+    """What libcosim calls a "model.variable"."""
+    known = {
+        f"{name}.{variable.name.decode()}": (slave, variable.reference)
+        for name, slave in slaves.items()
+        for variable in execution.slave_variables(slave)
+    }
+    return known.__getitem__
+
+
+def stepped(execution, slaves, watched, count):
+    """What is watched after each step."""
+    observer, of = CosimObserver.create_last_value(), references(execution, slaves)
+    execution.add_observer(observer)
     seen = []
     for _ in range(count):
         if not execution.step():
