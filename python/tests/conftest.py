@@ -22,7 +22,7 @@ def built():
     def find(name):
         path = folder / f"{name}.fmu"
         if not path.is_file():
-            pytest.fail(f"not packaged: run `cargo xtask package {name}`", pytrace=False)
+            pytest.fail(f"{path} is not there: run `cargo xtask package {name}`", pytrace=False)
         return path
 
     return find

@@ -21,18 +21,21 @@ GENTLE = [
     scene for scene in SCENES if not any(word in (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8") for word in UNLIKE)
 ]
 GENERAL = [scene for scene in SCENES if "\ngeneral = true" in "\n" + (ROOT / "scenes" / f"{scene}.toml").read_text("utf-8")]
-PACKAGES = Path(os.environ.get("SPLIT_ROTOR_FMUS", ROOT / "target" / "fmu"))
+# The jobs of `cargo xtask test` have a folder of their own.
+OF_TESTS = os.environ.get("SPLIT_ROTOR_FMUS")
+PACKAGES = Path(OF_TESTS or ROOT / "target" / "fmu")
 BUILDERS = ROOT / "target" / "package"
 KEPT = BUILDERS / "lists"
 
 
 def packaged(scene):
-    """A scene's FMU as it was packaged. The test is skipped where other scenes are tested, and fails where it is not there."""
+    """A scene's FMU as it was packaged last. The test is skipped where other scenes are tested, and fails where it is not there."""
     if scene not in PACKAGED + OVER_GENERAL:
         pytest.skip(f"{scene}.fmu: `cargo xtask test packaged --long` tests it")
     path = PACKAGES / f"{scene}.fmu"
     if not path.is_file():
-        pytest.fail(f"not packaged: run `cargo xtask package {scene}`", pytrace=False)
+        remedy = "test packaged --long" if OF_TESTS else f"package {scene}"
+        pytest.fail(f"{path} is not there: run `cargo xtask {remedy}`", pytrace=False)
     return path
 
 

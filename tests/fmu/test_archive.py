@@ -53,16 +53,18 @@ def test_exact_entries_tell_nothing_of_their_making(entries):
 def test_exact_packaging_again_gives_the_same_bytes(paper, xtask, tmp_path):
     """The library is built anew: what was kept of it is forgotten, and what cargo knows of it."""
     fcntl = pytest.importorskip("fcntl", reason="a builder's lock is taken")
-    paper.kept.with_suffix(".stamp").unlink(missing_ok=True)
-    for builder in project.BUILDERS.glob("[0-9]"):  # not those of other platforms, nor one at work
-        with (builder / "lock").open("wb") as lock:
-            fcntl.flock(lock, fcntl.LOCK_EX)
-            for known in builder.glob("fmu/.fingerprint/split-rotor-*"):
-                shutil.rmtree(known)
+    with paper.kept.with_suffix(".lock").open("wb") as of_list:
+        fcntl.flock(of_list, fcntl.LOCK_EX)
+        paper.kept.with_suffix(".stamp").unlink(missing_ok=True)
+        for builder in project.BUILDERS.glob("[0-9]"):  # not those of other platforms, nor one at work
+            with (builder / "lock").open("wb") as lock:
+                fcntl.flock(lock, fcntl.LOCK_EX)
+                for known in builder.glob("fmu/.fingerprint/split-rotor-*"):
+                    shutil.rmtree(known)
     done = xtask("package", "paper", "--platforms", "here", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
     again = (tmp_path / "paper.fmu").read_bytes()
-    assert again == paper.path.read_bytes(), "or target/fmu is out of date: run `cargo xtask package paper`"
+    assert again == paper.path.read_bytes(), f"or {paper.path} is out of date"
 
 
 def test_exact_the_licence_of_each_linked_crate_is_there(fmu):

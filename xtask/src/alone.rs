@@ -3,6 +3,11 @@
 use anyhow::{Context, Result};
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::Duration;
+
+/// How often one looks which of several locks is free.
+const LOOK_AGAIN: Duration = Duration::from_millis(100);
 
 /// Until it is dropped nobody else holds this lock; `waits` is called where somebody does now.
 pub fn alone(lock: &Path, waits: impl FnOnce()) -> Result<File> {
@@ -18,17 +23,21 @@ pub fn alone(lock: &Path, waits: impl FnOnce()) -> Result<File> {
     Ok(lock)
 }
 
-/// Which of these locks is free, and that one, held; where none is, the first, for which one waits.
+/// Which of these locks is free first, and that one, held; `waits` is called where none is now.
 pub fn first_free(locks: &[PathBuf], waits: impl FnOnce()) -> Result<(usize, File)> {
-    for (which, lock) in locks.iter().enumerate() {
-        fs::create_dir_all(lock.parent().context("a lock lies in a folder")?)?;
-        let file = File::create(lock)?;
-        match file.try_lock() {
-            Err(TryLockError::WouldBlock) => (),
-            tried => return Ok((which, tried.map(|()| file)?)),
+    let mut waits = Some(waits);
+    loop {
+        for (which, lock) in locks.iter().enumerate() {
+            fs::create_dir_all(lock.parent().context("a lock lies in a folder")?)?;
+            let file = File::create(lock)?;
+            match file.try_lock() {
+                Err(TryLockError::WouldBlock) => (),
+                tried => return Ok((which, tried.map(|()| file)?)),
+            }
         }
+        waits.take().into_iter().for_each(|waits| waits());
+        thread::sleep(LOOK_AGAIN);
     }
-    Ok((0, alone(locks.first().context("there is a lock")?, waits)?))
 }
 
 /// What is there already, or else is made by one alone: who waited for the lock looks again.
@@ -47,29 +56,30 @@ pub fn once<T>(
 
 #[cfg(test)]
 mod tests {
-    use super::{Result, first_free, fs, once};
+    use super::{Duration, Result, first_free, fs, once, thread};
     use crate::paths;
     use std::sync::atomic::{AtomicUsize, Ordering};
-    use std::thread;
-    use std::time::Duration;
 
     #[test]
-    fn the_first_lock_that_is_free_is_taken_and_none_is_waited_for_meanwhile() {
-        let locks = [0, 1].map(|which| paths::target().join(format!("tests/first_free/{which}/lock")));
+    fn the_lock_that_is_free_first_is_taken() {
+        let folder = paths::target().join(format!("tests/first_free-{}", std::process::id()));
+        let locks = [0, 1].map(|which| folder.join(format!("{which}/lock")));
         let take = || first_free(&locks, || panic!("one is free")).unwrap();
         let [first, second] = [(); 2].map(|()| take());
         assert_eq!([first.0, second.0], [0, 1]);
         drop(second);
         assert_eq!(take().0, 1);
-        let (_second, waited) = (take(), AtomicUsize::new(0));
+        let (second, waited) = (take(), AtomicUsize::new(0));
         thread::scope(|scope| {
             let third = scope.spawn(|| first_free(&locks, || _ = waited.fetch_add(1, Ordering::SeqCst)).unwrap().0);
             while waited.load(Ordering::SeqCst) == 0 {
                 thread::sleep(Duration::from_millis(1));
             }
-            drop(first);
-            assert_eq!(third.join().unwrap(), 0);
+            drop(second);
+            assert_eq!(third.join().unwrap(), 1, "the other is held");
         });
+        assert_eq!(waited.into_inner(), 1);
+        fs::remove_dir_all(folder).unwrap();
     }
 
     #[test]

@@ -226,10 +226,11 @@ fn fingerprint(library: &[u8], sources: &[String], toolchain: &Toolchain) -> Res
     Ok(format!("{:016x}", all.finish()))
 }
 
-/// The settings of cargo and its compiler in the environment.
+/// The settings of cargo and its compiler in the environment, but those of the commands' own profile.
 pub fn settings() -> Vec<(OsString, OsString)> {
     let begins = ["CARGO_BUILD_", "CARGO_ENCODED_", "CARGO_PROFILE_", "RUSTC", "RUSTFLAGS"];
-    let is_setting = |name: &str| begins.iter().any(|begin| name.starts_with(begin));
+    let is_setting =
+        |name: &str| begins.iter().any(|begin| name.starts_with(begin)) && !name.starts_with("CARGO_PROFILE_DEV_");
     let mut settings: Vec<_> = std::env::vars_os().filter(|(name, _)| is_setting(&name.to_string_lossy())).collect();
     settings.sort();
     settings

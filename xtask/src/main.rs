@@ -123,7 +123,7 @@ enum Command {
         /// Instead the error over the tolerance of all scenes, into docs/accuracy.md and docs/accuracy/tolerances.csv
         #[arg(long, conflicts_with_all = ["scene", "peers", "out"])]
         tolerances: bool,
-        /// With the FMUs as they were packaged last
+        /// With the FMUs in target/fmu, as they were packaged last
         #[arg(long, requires = "tolerances")]
         packaged: bool,
         /// Into this folder
@@ -140,7 +140,7 @@ enum Command {
         /// Each row once more with a wrong constant or sign, which must make it fail
         #[arg(long)]
         mutants: bool,
-        /// With the FMUs as they were packaged last
+        /// With the FMUs in target/fmu, as they were packaged last
         #[arg(long)]
         packaged: bool,
     },

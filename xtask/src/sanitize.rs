@@ -15,7 +15,7 @@ use std::process::Command;
 const FLAGS: [&str; 3] = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-fno-omit-frame-pointer"];
 
 /// What is tried with sanitizers; a list of effects takes half a minute to build: one that no explicit method can follow, and every effect
-/// there is. Fuzzing has a body alone and one with an input, and memcheck runs on all that is packaged.
+/// there is. Fuzzing has a body alone and one with an input, and memcheck runs on an FMU of each library.
 const SCENES: [&str; 2] = ["high_spin", "rotor"];
 
 /// Runs the C host on the FMUs of these scenes, both with sanitizers.

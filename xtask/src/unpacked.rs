@@ -38,7 +38,13 @@ pub fn unpack(fmu: &Path) -> Result<Unpacked> {
 /// The same with the library of this platform.
 pub fn unpack_for(fmu: &Path, platform: Platform) -> Result<Unpacked> {
     let name = fmu.file_stem().context("an FMU has a name")?.to_string_lossy().into_owned();
-    let mut zip = ZipArchive::new(File::open(fmu)?)?;
+    let file = File::open(fmu).with_context(|| {
+        format!(
+            "{} is not there: `cargo xtask package`, or for the tests `cargo xtask test packaged --long`, makes it",
+            fmu.display()
+        )
+    })?;
+    let mut zip = ZipArchive::new(file)?;
     let mut read = |path: &str| -> Result<Vec<u8>> {
         let mut bytes = Vec::new();
         zip.by_name(path).with_context(|| path.to_owned())?.read_to_end(&mut bytes)?;
