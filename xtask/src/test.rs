@@ -68,7 +68,7 @@ const LONG: [Job; 16] = [
     ("absence is free", &["copies/absence", "copies/code"], |_| copies::absence_is_free()),
     ("bytes elsewhere", &[], |_| copies::place_leaves_no_trace()),
     ("peers", &["peers"], peers),
-    ("against ROSS", &[], against_ross),
+    ("against ROSS", &["venv-peers/ross"], against_ross),
 ];
 
 /// Runs the short jobs, and after them the long ones where they are asked for, those whose names hold `part`; says what each took

@@ -1,5 +1,5 @@
-//! What `cargo xtask` starts. It builds the commands, which takes three minutes at first, and runs them. cargo says nothing while it compiles
-//! one crate, for two minutes at worst: here a line now and then says that work goes on.
+//! What `cargo xtask` starts. It builds the commands, which takes two minutes at first, and runs them. cargo says nothing while it compiles
+//! one crate, for a minute: here a line now and then says that work goes on.
 
 use std::env;
 use std::io;
