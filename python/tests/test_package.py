@@ -17,7 +17,7 @@ def names(path, of=None):
     return {variable.name for variable in variables if of is None or variable.causality == of}
 
 
-@pytest.mark.parametrize("name", ["paper", "rubbing", "turbo"])
+@pytest.mark.parametrize("name", ["paper", "rubbing", "run_up"])
 def test_it_shows_what_the_scene_calls_for(name, built, tmp_path):
     path = sr.package(sr.Scene.named(name), tmp_path / f"{name}.fmu")
     assert validate_fmu(str(path)) == []
@@ -27,7 +27,7 @@ def test_it_shows_what_the_scene_calls_for(name, built, tmp_path):
     assert names(built(name)) <= names(path) and all("state." in other for other in besides), besides
 
 
-@pytest.mark.parametrize("name", ["rubbing", "turbo"])
+@pytest.mark.parametrize("name", ["rubbing", "run_up"])
 def test_a_host_may_integrate(name, built, tmp_path):
     path = sr.package(sr.Scene.named(name), tmp_path / f"{name}.fmu")
     options = {"fmi_type": "ModelExchange", "stop_time": 0.2, "output_interval": 0.01, "output": ["r_c.y", "omega_phi"]}

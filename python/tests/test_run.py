@@ -11,7 +11,7 @@ import pytest
 import split_rotor as sr
 
 
-@pytest.mark.parametrize("name", ["paper", "rubbing", "turbo"])
+@pytest.mark.parametrize("name", ["paper", "rubbing", "run_up"])
 def test_exact_bits_of_the_packaged_fmu(name, built, tmp_path):
     scene = sr.Scene.named(name)
     result = sr.run(scene)
