@@ -5,9 +5,9 @@
     python examples/cosim/cosim.py target/fmu/rotor.fmu linear libcosim 1e-3 2e-4 1e-4
 
 The pair is one of linear, journal, pedestal, magnetic, motor, two_rotors (pairs.py); the master plain, fresh, gauss_seidel, iterated, ssp,
-libcosim, osp, or ecos (masters/); then come communication steps [s]. Printed for each: the largest error of what is watched over the last tenth
-of the run, relative to the largest motion, where the rotor holds its inputs, where nothing is set, and with what docs/cosimulation.md advises for
-the pair.
+libcosim, osp, ecos, cofmupy, or cofmupy_seidel (masters/; by_cofmupy.py says how to install those two); then come communication steps [s].
+Printed for each: the largest error of what is watched over the last tenth of the run, relative to the largest motion, where the rotor holds its
+inputs, where nothing is set, and with what docs/cosimulation.md advises for the pair.
 """
 
 import argparse
@@ -31,8 +31,11 @@ MASTERS = {
     "libcosim": "by_libcosim",
     "osp": "by_osp",
     "ecos": "by_ecos",
+    "cofmupy": "by_cofmupy",
+    "cofmupy_seidel": "by_cofmupy",
 }
-ARE_FRESH = {"fresh", "gauss_seidel", "iterated"}
+ARE_SEIDEL = {"gauss_seidel", "cofmupy_seidel"}
+ARE_FRESH = {"fresh", "iterated"} | ARE_SEIDEL
 
 
 def built(kind, folder):
@@ -54,7 +57,7 @@ def error(found, exact):
 def ways(pair, master):
     """Values of the rotor, by the heads of the columns."""
     advised = pair.advised | (LATE if pair.advised and master not in ARE_FRESH else {})
-    if master == "gauss_seidel":
+    if master in ARE_SEIDEL:
         # The partner has the step still before it at whose end the angle is shown.
         advised = {name: -value if name.endswith(".ahead") else value for name, value in advised.items()}
     return {"held": pair.held, "nothing set": {}} | ({"advised": advised} if advised else {})

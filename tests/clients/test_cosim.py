@@ -18,6 +18,7 @@ PAIRS = [
     ("motor", "libcosim", 1e-4, 0.2, math.inf, 2e-3),  # 0.43, 0.43, 1.3e-3
     ("motor", "fresh", 1e-4, 0.2, math.inf, 2e-3),  # 0.45, 0.45, 1.3e-3
     ("motor", "gauss_seidel", 1e-4, 0.2, math.inf, 1e-3),  # 0.43, 0.43, 3.0e-4
+    ("motor", "cofmupy_seidel", 1e-4, 0.2, math.inf, 1e-3),  # 0.43, 0.43, 3.0e-4
     ("two_rotors", "ssp", 1e-4, 1e-2, 0.05, 1e-3),  # 3.5e-2, 3.5e-2, 2.8e-4
     ("journal", "fresh", 1e-4, 5e-3, 3e-2, None),  # 1.0e-2, 6.9e-3
     ("pedestal", "fresh", 1e-4, 0.2, 0.15, None),  # 0.37, 0.088
@@ -36,9 +37,10 @@ def cosim(python_of, tmp_path_factory):
     environment = os.environ | {"TMPDIR": str(folder)}
     program = project.ROOT / "examples" / "cosim" / "cosim.py"
 
-    def run(pair, master, step, fmu=None):
+    def run(pair, master, step, *options, fmu=None):
         out = folder / f"{pair}-{master}-{step}.csv"
-        command = [python_of("libcosimpy"), program, fmu or project.packaged("rotor"), pair, master, str(step), "--fine", str(FINE), "--out", out]
+        command = [python_of("libcosimpy"), program, fmu or project.packaged("rotor"), pair, master, str(step), *options]
+        command += ["--fine", str(FINE), "--out", out]
         done = subprocess.run(command, capture_output=True, encoding="utf-8", env=environment, cwd=folder)
         assert done.returncode == 0, done.stdout + done.stderr
         with open(out, encoding="utf-8") as file:
@@ -80,9 +82,14 @@ def test_exact_masters_of_the_same_order_agree(cosim):
             assert max(abs(a - b) for a, b in zip(ways[0][head], other[head], strict=True)) <= 1e-9 * largest, head
 
 
+def test_exact_a_packaged_scene_in_cofmupy_moves_as_the_general_rotor_in_fmpy_s_ssp(cosim):
+    """Both masters send 0 in the first step; one rotor has its values from the start, the other from its host."""
+    assert cosim("two_rotors", "cofmupy", 1e-4)[1] == cosim("two_rotors", "ssp", 1e-4)[1]
+
+
 @pytest.mark.parametrize("pair", ["linear", "two_rotors"])
 def test_exact_groups_of_the_open_simulation_platform_are_what_single_connections_are(cosim, pair, tmp_path):
     command = [project.build_xtask(), "package", "rotor", "--platforms", "here", "--osp", "--out", tmp_path]
     subprocess.run(command, check=True, cwd=project.ROOT)
     fmu = tmp_path / "rotor.fmu"
-    assert cosim(pair, "osp", 1e-4, fmu)[1] == cosim(pair, "libcosim", 1e-4, fmu)[1]
+    assert cosim(pair, "osp", 1e-4, fmu=fmu)[1] == cosim(pair, "libcosim", 1e-4, fmu=fmu)[1]
