@@ -1,6 +1,6 @@
 """A rotor and models of another tool, coupled by a master.
 
-    pip install pythonfmu==0.7.0 fmpy numpy     # and for their masters: libcosimpy==0.0.6 ecospy==0.7.2
+    pip install pythonfmu==0.7.0 fmpy numpy     # and for their masters: libcosimpy==0.0.6 ecospy==0.7.2; matplotlib for pictures
     cargo xtask package rotor
     python examples/cosim/cosim.py target/fmu/rotor.fmu linear libcosim 1e-3 2e-4 1e-4
 
@@ -79,6 +79,7 @@ def main():
     parser.add_argument("steps", nargs="+", type=float, help="communication steps [s]")
     parser.add_argument("--fine", type=float, default=1e-6, help="step of the reference [s] where none is exact (%(default)s)")
     parser.add_argument("--out", help="a CSV of all that is watched, at the last of the steps")
+    parser.add_argument("--picture", help="an SVG, PNG or PDF of the same (needs matplotlib)")
     asked = parser.parse_args()
     pair = PAIRS[asked.pair]
     run = getattr(import_module(f"masters.{MASTERS[asked.master]}"), asked.master)
@@ -98,8 +99,13 @@ def main():
                     print(f"{head}: {failed}", file=sys.stderr)
                     found[head] = None
             print(f"{step:9.0e}" + "".join(f"{error(found[head], exact):>13}" for head in columns), flush=True)
+        times = step * np.arange(1, count + 1)
         if asked.out:
-            write(asked.out, step * np.arange(1, count + 1), pair.watched, found)
+            write(asked.out, times, pair.watched, found)
+        if asked.picture:
+            # Imported here, since nothing else needs matplotlib.
+            title = f"{asked.pair} in {asked.master}, steps of {step:g} s"
+            import_module("picture").draw(asked.picture, title, times, pair.watched[0], found)
 
 
 if __name__ == "__main__":

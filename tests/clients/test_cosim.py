@@ -87,6 +87,13 @@ def test_exact_a_packaged_scene_in_cofmupy_moves_as_the_general_rotor_in_fmpy_s_
     assert cosim("two_rotors", "cofmupy", 1e-4)[1] == cosim("two_rotors", "ssp", 1e-4)[1]
 
 
+def test_regress_a_picture_shows_each_way(cosim, tmp_path):
+    picture = tmp_path / "linear.svg"
+    cosim("linear", "plain", 1e-3, "--picture", picture)
+    text = picture.read_text(encoding="utf-8")
+    assert all(f"<!-- {head} -->" in text for head in ("exact", "held", "nothing set", "advised", "time [ms]"))
+
+
 @pytest.mark.parametrize("pair", ["linear", "two_rotors"])
 def test_exact_groups_of_the_open_simulation_platform_are_what_single_connections_are(cosim, pair, tmp_path):
     command = [project.build_xtask(), "package", "rotor", "--platforms", "here", "--osp", "--out", tmp_path]
