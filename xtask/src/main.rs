@@ -38,6 +38,7 @@ mod scenes;
 mod sheet;
 mod sheets;
 mod simulate;
+mod ssp;
 mod ssv;
 mod stability;
 mod state_space;
@@ -99,6 +100,17 @@ enum Command {
         /// connect
         #[arg(long)]
         osp: bool,
+        /// Beside each FMU also SCENE.ssp, a system of SSP 1.0: the FMU, its parameter set, its inputs and outputs with units, its partners
+        #[arg(long)]
+        ssp: bool,
+        /// With --ssp, connect an FMU to a port or drive of the scene, by the names of their variables: --partner "port[1]=bearing.fmu".
+        /// Repeat it for each partner
+        #[arg(long = "partner", value_name = "TERMINAL=FMU", requires = "ssp")]
+        partners: Vec<ssp::Partner>,
+        /// With --ssp, also connectors at the boundary of the system for what is free. libcosim 0.0.6 and ecos 0.7.2 open no such system;
+        /// without it free inputs keep their start values
+        #[arg(long, requires = "ssp")]
+        boundary: bool,
     },
     /// Simulate a scene without packaging it, in a moment: a summary, a report with pictures, and every output as CSV in target/run/SCENE
     Run {
@@ -328,10 +340,15 @@ fn dispatch(command: Command) -> Result<()> {
             };
             test::test(&part, length)
         }
-        Command::Package { scenes, out, platforms, osp } => {
+        Command::Package { scenes, out, platforms, osp, ssp, partners, boundary } => {
             let platforms: Vec<_> = platforms.iter().map(String::as_str).collect();
+            // A wrong partner should not cost the time of building.
+            let packages = if ssp { ssp::plan(&scenes, &partners, boundary)? } else { Vec::new() };
             package::package_for(&scenes, &platforms, out.as_deref())?;
-            if osp { osp::write(&scenes, out.as_deref()) } else { Ok(()) }
+            if osp {
+                osp::write(&scenes, out.as_deref())?;
+            }
+            ssp::write(&packages, out.as_deref())
         }
         Command::Run { scene, no_report, out } => simulate::simulate(&scene, !no_report, out.as_deref()),
         Command::Accuracy { tolerances: true, packaged, .. } => accuracy::tolerances(packaged),

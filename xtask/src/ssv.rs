@@ -4,7 +4,7 @@ use crate::{paths, scenes};
 use anyhow::{Context, Result};
 use minijinja::{Value, context};
 use split_rotor_model::scene::Scene;
-use split_rotor_model::variable::{Enumeration, Kind};
+use split_rotor_model::variable::{Kind, Role};
 use split_rotor_model::variables::Variable;
 use split_rotor_tools::general::{GENERAL, values};
 use split_rotor_tools::templates;
@@ -22,36 +22,39 @@ pub fn ssv(scene: &str, out: Option<&Path>) -> Result<()> {
     Ok(())
 }
 
+/// The parameter set of a scene for its own FMU: parameters and start values of inputs, with these switches on.
+pub fn own(scene: &Scene, on: &[String]) -> Result<String> {
+    let value = scenes::values(scene);
+    let is_set = |variable: &&Variable| matches!(variable.meta.role, Role::Parameter { .. } | Role::Input { .. });
+    let values = scene.variables.iter().filter(is_set).map(|variable| {
+        let value = if on.contains(&variable.name) { Some(1.0) } else { value(&variable.name) };
+        Ok((variable, value.with_context(|| format!("{} has no value", variable.name))?))
+    });
+    render(scene, &values.collect::<Result<Vec<_>>>()?)
+}
+
+/// The method by its name and by its number. The number is written: ecos 0.7.2 refuses an Enumeration.
+const METHOD: &str = "solver.method";
+const METHOD_NUMBER: &str = "solver.method_number";
+
 fn render(scene: &Scene, values: &[(&Variable, f64)]) -> Result<String> {
+    let method = values.iter().find(|(variable, _)| variable.name == METHOD).map_or(0.0, |(_, value)| *value);
+    let values = values.iter().filter(|(variable, _)| variable.name != METHOD);
     let parameter = |(variable, value): &(&Variable, f64)| {
-        let mut of = None;
+        let value = if variable.name == METHOD_NUMBER && *value == 0.0 { method } else { *value };
         let (kind, value) = match variable.meta.kind {
             Kind::Real => ("Real", format!("{value:?}")),
-            Kind::Boolean => ("Boolean", (*value != 0.0).to_string()),
-            Kind::Integer => ("Integer", value.to_string()),
-            Kind::Enumeration(enumeration) => {
-                of = Some(enumeration.name);
-                let item = enumeration.items.iter().find(|item| f64::from(item.0) == *value);
-                ("Enumeration", item.map_or_else(String::new, |item| item.1.to_owned()))
-            }
+            Kind::Boolean => ("Boolean", (value != 0.0).to_string()),
+            Kind::Integer | Kind::Enumeration(_) => ("Integer", value.to_string()),
         };
-        context! { name => &variable.name, kind, value, unit => variable.meta.unit.name, of }
-    };
-    let enumerations = values.iter().filter_map(|(variable, _)| match variable.meta.kind {
-        Kind::Enumeration(of) => Some(of),
-        _ => None,
-    });
-    let enumeration = |of: &Enumeration| {
-        let items: Vec<_> = of.items.iter().map(|&(value, name, _)| context! { name, value }).collect();
-        context! { name => of.name, items }
+        context! { name => &variable.name, kind, value, unit => variable.meta.unit.name }
     };
     let context = context! {
         name => &scene.name,
         title => &scene.title,
         version => env!("CARGO_PKG_VERSION"),
-        parameters => values.iter().map(parameter).collect::<Value>(),
-        enumerations => enumerations.map(enumeration).collect::<Value>(),
-        units => templates::units(values.iter().map(|(variable, _)| variable.meta.unit)),
+        parameters => values.clone().map(parameter).collect::<Value>(),
+        units => templates::units(values.map(|(variable, _)| variable.meta.unit)),
     };
     templates::render("ssv/parameters.xml", context)
 }
