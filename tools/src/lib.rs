@@ -4,6 +4,7 @@
 pub mod accuracy;
 pub mod archive;
 pub mod campbell;
+pub mod coupling;
 pub mod course;
 pub mod doubts;
 pub mod fmu;

@@ -1,6 +1,6 @@
 //! `response --from --to`: how an output of a machine answers an input that swings, against the frequency, at one spin.
 
-mod axis;
+pub mod axis;
 mod picture;
 mod sweep;
 mod table;

@@ -9,6 +9,7 @@ mod c_host;
 mod campbell;
 mod chart;
 mod copies;
+mod coupling;
 mod debug;
 mod demo;
 mod describe;
@@ -222,6 +223,22 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         out: Option<PathBuf>,
     },
+    /// Measure the error versus the communication step where the bearings of a machine are other models, for each setting of its ports, and end
+    /// with a recipe of what to set in which master: table, SVG, CSV and JSON in target/coupling/SCENE
+    Coupling {
+        /// The scene; its bearings, or its support where it has none, become partners at ports
+        #[arg(default_value = "turbo")]
+        scene: String,
+        /// The spin at the start, in rad/s or with a unit: "3000 rpm"; else that of the scene, or the fastest that it comes to from rest
+        #[arg(long, value_name = "W", allow_hyphen_values = true)]
+        speed: Option<String>,
+        /// The communication steps, in s or with a unit: 1e-4 "0.2 ms"; else some that suit the fastest mode
+        #[arg(long, num_args = 1.., value_name = "H", allow_negative_numbers = true)]
+        steps: Vec<String>,
+        /// Into this folder
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
     /// Write a scene about its steady state as matrices A, B, C and D with names and units, drives off, the spin held: JSON, MATLAB's .mat
     /// and an FMU, SCENE_linear.fmu, in target/state-space/SCENE
     StateSpace {
@@ -380,6 +397,9 @@ fn dispatch(command: Command) -> Result<()> {
             let against: Vec<_> = pairs.map(|(name, values)| stability::Against { name, values, count }).collect();
             let speeds = pair("--speeds", speeds.as_deref())?;
             stability::stability(&scene, &against, speeds, steps, out.as_deref())
+        }
+        Command::Coupling { scene, speed, steps, out } => {
+            coupling::coupling(&scene, one("--speed", speed)?, &steps, out.as_deref())
         }
         Command::StateSpace { scene, speed, out } => {
             state_space::state_space(&scene, one("--speed", speed)?, out.as_deref())

@@ -21,8 +21,8 @@ const PLAIN: Range<f64> = 1e-3..1e5;
 /// From one positive number to another, logarithmic.
 pub fn decades(range: Range<f64>) -> Numbered<LogCoord<f64>> {
     let [from, to] = [range.start, range.end].map(|end| libm::floor(libm::log10(end) + 1e-9) as i32);
-    // Within two decades some between, where there are many not each.
-    let parts: &[f64] = if to - from <= 1 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    // Within three decades some between, where there are many not each.
+    let parts: &[f64] = if to - from <= 2 { &[1.0, 2.0, 5.0] } else { &[1.0] };
     let step = 1 + (to - from) / POWERS;
     let all = (from..=to).step_by(step as usize).flat_map(|power| parts.iter().map(move |part| number(*part, power)));
     let is_seen = |number: &f64| (range.start * (1.0 - 1e-9)..=range.end * (1.0 + 1e-9)).contains(number);
