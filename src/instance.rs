@@ -308,7 +308,7 @@ impl Instance {
         self.report_learnt();
     }
 
-    /// Logs once for each port that it goes on by what it learnt of its partner.
+    /// Logs once for each port that it goes on by what it learnt of the values that were set.
     fn report_learnt(&mut self) {
         let (learnt, known) = (self.memory.simulation.learnt(), self.memory.learnt);
         self.memory.learnt |= learnt;
@@ -321,8 +321,8 @@ impl Instance {
             let (port, learn) = (kind.block_name(), kind.full_name("learn"));
             self.tell(Category::Events, || {
                 format!(
-                    "{port}: its partner answers the motion; between communication points its load follows what was learnt of that \
-                     (to hold loads instead, set {learn} = false)"
+                    "{port}: between communication points its load goes on by what was learnt of the values that were set (to hold these \
+                     instead, set {learn} = false)"
                 )
             });
         }

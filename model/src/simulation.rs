@@ -296,7 +296,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     fn advance_seen<L: Looks>(&mut self, t: f64, looks: &mut L) -> Result<(), Fault> {
         self.instant = None;
         let is_set = E::FACTS.partners > 0 && std::mem::take(&mut self.is_set);
-        if is_set {
+        if is_set || self.partners.iter().any(Partner::follows_polynomial) {
             self.update_partners(t);
         }
         if self.parameters.effects.extrapolates() {
@@ -348,32 +348,30 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// Adds what was exchanged at the communication point to what is known of the partners, and goes on by their laws to time `to` \[s].
     fn update_partners(&mut self, to: f64) {
         let t = self.time().unwrap_or_default();
-        if !self.parameters.effects.active().any(|block| block.is_answered(t)) {
+        let is_answered = self.parameters.effects.active().any(|block| block.is_answered(t));
+        if !is_answered && !self.partners.iter().any(Partner::follows_polynomial) {
             return;
         }
         let Ok(&Instant { reading, .. }) = self.instant() else { return };
         // The communication point moves on: the reading would be stale.
         self.instant = None;
-        let (told, partners) = (Told::by(&self.parameters.effects), &mut self.partners);
-        let (mut answers, mut changes) = (false, false);
+        let (told, partners) = (Told::by(&self.parameters.effects, to - t), &mut self.partners);
+        let mut changes = false;
         self.parameters.effects.for_each_partner(|number, block| {
-            if !(block.is_active() && block.is_answered(t)) {
-                return;
-            }
             let (partner, own) = (&mut partners[number], []);
-            if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
-                let before = *partner.law();
+            let before = *partner.law();
+            if !(block.is_active() && block.is_answered(t)) {
+                partner.go_unanswered(t);
+            } else if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
                 partner.add(t, &exchange, &told);
-                (answers, changes) = (true, changes || !partner.law().is_like(&before));
             }
+            changes |= !partner.law().is_like(&before);
         });
         if changes {
             self.hold();
         }
-        if answers {
-            let partners = &self.partners;
-            self.parameters.effects.set_laws(|number| partners[number].law());
-        }
+        let partners = &self.partners;
+        self.parameters.effects.set_laws(|number| partners[number].law());
         if self.coupling.is_none() && self.partners.iter().any(Partner::is_doubted) {
             self.look_at_coupling(&reading.motion, to - t);
         }
@@ -389,7 +387,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     fn look_at_coupling(&mut self, motion: &Kinematics<f64>, step: f64) {
         let Some(Run::Method(integration)) = &self.run else { return };
         let (effects, partners) = (&self.parameters.effects, &self.partners);
-        let told = Told::by(effects);
+        let told = Told::by(effects, step);
         let answers = |number: usize, block: &dyn Block| {
             let exchange = block.exchange(&Seen::new(motion, &[])).filter(|_| block.is_active());
             exchange.and_then(|exchange| partners[number].answers(&exchange, &told))

@@ -7,7 +7,8 @@ use nalgebra::{SMatrix, SVector};
 /// What a partner answers with has so many components: a force, x to z \[N], and a moment, y and z [N·m].
 pub const LOADS: usize = 5;
 
-/// What it is shown: place, x to z \[m], and lean, y and z \[rad]; then velocity [m/s] and angular velocity [rad/s], the same components.
+/// What it is shown: place, x to z \[m], and lean, y and z \[rad]; then velocity [m/s] and how fast the axis turns, t×dt/dt [rad/s],
+/// the same components.
 pub const SHOWN: usize = 2 * LOADS;
 
 /// Force and moment of a partner.
@@ -51,6 +52,11 @@ impl Law {
     /// Whether it makes the same loads as another one.
     pub fn is_like(&self, other: &Self) -> bool {
         Self { error: 0.0, ..*self } == Self { error: 0.0, ..*other }
+    }
+
+    /// Whether loads go on by time alone.
+    pub fn has_no_slopes(&self) -> bool {
+        self.slopes == Slopes::zeros()
     }
 
     /// What is shown of this place and motion: the place ahead, as it goes on.

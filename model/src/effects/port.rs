@@ -9,7 +9,7 @@ use crate::variable::units::{
     NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE, RADIAN, RADIAN_PER_SECOND,
 };
 use crate::variable::{Access, Bound, Kind, Meta, Role, input, output, parameter};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 
 /// A station to which another model is coupled.
 #[derive(Clone, Debug)]
@@ -65,8 +65,12 @@ impl Port {
     #[inline(always)]
     fn shown<S: Scalar>(&self, motion: &Motion<S>, turns: bool) -> Shown<S> {
         let (r, v) = (motion.station(self.position), motion.station_velocity(self.position));
-        let (lean, omega) = if turns { (motion.lean(), motion.omega()) } else { (Vector2::zeros(), Vector3::zeros()) };
-        Shown::from([r.x, r.y, r.z, lean.x, lean.y, v.x, v.y, v.z, omega.y, omega.z])
+        if !turns {
+            return Shown::from([r.x, r.y, r.z, S::zero(), S::zero(), v.x, v.y, v.z, S::zero(), S::zero()]);
+        }
+        // t×dt/dt
+        let (lean, turn) = (motion.lean(), motion.axis().cross(&motion.axis_rate()));
+        Shown::from([r.x, r.y, r.z, lean.x, lean.y, v.x, v.y, v.z, turn.y, turn.z])
     }
 
     /// Slopes of the loads that the coefficients of the partner make.
@@ -155,7 +159,7 @@ impl Effect for Port {
         output!(
             "energy_error",
             &JOULE,
-            "energy that the exchange brought in so far: work of the loads beyond that of the partner's answers, joined by lines",
+            "energy that the exchange brought in so far: work of the loads beyond that of the partner's answers, which lines or a law join",
             |p, _| Scalar::constant(p.law.error)
         ),
     ];

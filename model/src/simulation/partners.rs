@@ -2,7 +2,7 @@
 //!
 //! A master holds the load of a port over a communication step, and many deliver it a step late. With a partner that answers the motion, as a
 //! bearing does, that feeds a whirl. So each port keeps what it showed and what was answered, fits the slopes of the loads to that, and goes
-//! on by them where they predicted the last answers better than anything else.
+//! on by them where they predicted the last answers better than anything else, or by the polynomial through the last loads where that did.
 
 mod work;
 
@@ -106,6 +106,13 @@ const TRUSTED: f64 = 0.3;
 /// Fits that missed less than this part of that are alike \[1].
 const ALIKE: f64 = 1e-6;
 
+/// A polynomial is not trusted over a step that is so much longer than the last one \[1].
+const LONGER: f64 = 1.5;
+
+/// Answers that are later than a fit takes them for look as if something drove the place: by its velocity times the delay and the stiffness. This
+/// part of a step is enough to say so \[1].
+const TOO_EARLY: f64 = 0.3;
+
 /// So many exchanges must be known before a fit is trusted.
 const ENOUGH: usize = 6;
 
@@ -133,6 +140,19 @@ impl Partner {
     /// Whether it is one that was learnt.
     pub fn has_learnt(&self) -> bool {
         self.law.is_on && !self.is_given
+    }
+
+    /// Whether it is a polynomial that was learnt: loads go on whatever the place does.
+    pub fn follows_polynomial(&self) -> bool {
+        self.has_learnt() && self.law.has_no_slopes()
+    }
+
+    /// Hears that nothing was answered at the communication point `t` \[s]: loads no longer go on as a polynomial.
+    pub fn go_unanswered(&mut self, t: f64) {
+        if self.follows_polynomial() && t > self.law.since {
+            self.law = Law { error: self.law.error, ..Law::default() };
+            self.exchanges.known = 1;
+        }
     }
 
     /// Adds what was exchanged at the communication point `t` \[s].
@@ -164,13 +184,13 @@ impl Partner {
         // Of what a drive does nobody here knows the work.
         if known > 1 && !exchange.turns_along {
             // A law is the answer to what its own lag says.
-            let of_law = || self.best(lags.clone()).map(|(lag, _)| lag).filter(|_| self.law.is_on);
+            let of_law = || self.best(lags.clone(), |_| true).map(|(lag, _)| lag).filter(|_| self.law.is_on);
             let lag = told.lag.or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
             error += self.work.count(&self.exchanges, &self.law, &measures.loads, lag);
         }
         let ahead = if known > 1 { exchange.ahead * step } else { 0.0 };
         let law = self.chosen(told, exchange, &measures).unwrap_or_default();
-        if law.is_on {
+        if law.is_on && !law.has_no_slopes() {
             self.work.follow_law();
         }
         self.law = if law.is_on || ahead != 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
@@ -199,7 +219,7 @@ impl Partner {
     /// Whether that alone says that the coupling is wrong.
     pub fn is_wrong(&self) -> bool {
         let beyond_doubt = match self {
-            _ if self.has_learnt() => BEYOND_DOUBT_LEARNT,
+            _ if self.has_learnt() && !self.follows_polynomial() => BEYOND_DOUBT_LEARNT,
             _ if self.answered >= STEADY => BEYOND_DOUBT_STEADILY,
             _ => BEYOND_DOUBT,
         };
@@ -208,16 +228,36 @@ impl Partner {
 
     /// Its answers as they look; None where a law is in force, or where they were not predicted well.
     pub fn answers(&self, exchange: &Exchange, told: &Told) -> Option<Answers> {
-        let (lag, fit) = self.best(told.lags(exchange))?;
+        let (lag, fit) = self.best(told.lags(exchange), |_| true)?;
         let [held, ..] = self.polynomials;
         let counts = !self.law.is_on && fit.missed < TRUSTED * TRUSTED * held;
         let slopes = Measures::of(exchange).in_units(&fit.slopes);
         counts.then_some(Answers { slopes, lag, shown: exchange.at })
     }
 
-    /// What predicted the last answers best, and by which lag.
-    fn best(&self, lags: Range<usize>) -> Option<(usize, &Fit)> {
-        let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit)));
+    /// What was learnt: how many steps answers are late, slopes, and as a polynomial of which degree what these leave goes on.
+    fn learnt(&self, told: &Told, exchange: &Exchange, measures: &Measures) -> Option<(usize, Slopes, usize)> {
+        // Where inputs are extrapolated, somebody has decided how loads go on.
+        if !exchange.learns || told.order > 0 || self.exchanges.known < ENOUGH {
+            return None;
+        }
+        let step = self.exchanges.t[0] - self.exchanges.t[1];
+        let best = self.best(told.lags(exchange), |fit| {
+            let is_best = self.polynomials.iter().all(|missed| fit.missed < TRUSTED * TRUSTED * missed);
+            is_best && drives(&fit.slopes, step) * exchange.yielding <= DRIVES && !looks_too_early(&fit.slopes, step)
+        });
+        if let Some((lag, fit)) = best {
+            return Some((lag, measures.in_units(&fit.slopes), 0));
+        }
+        let [held, line, parabola] = self.polynomials;
+        let degree = if parabola < TRUSTED * TRUSTED * line { 2 } else { 1 };
+        let is_trusted = line.min(parabola) < TRUSTED * TRUSTED * held && told.step <= LONGER * step;
+        is_trusted.then(|| (told.lag.unwrap_or_default(), Slopes::zeros(), degree))
+    }
+
+    /// Of the fits that count, the one that predicted the last answers best, and its lag.
+    fn best(&self, lags: Range<usize>, counts: impl Fn(&Fit) -> bool) -> Option<(usize, &Fit)> {
+        let fits = lags.flat_map(|lag| self.fits[lag].iter().map(move |fit| (lag, fit))).filter(|(_, fit)| counts(fit));
         fits.min_by(|(_, one), (_, other)| one.missed.total_cmp(&other.missed))
     }
 
@@ -231,26 +271,19 @@ impl Partner {
 
     /// The law to go on with; None where none is to be trusted.
     fn chosen(&self, told: &Told, exchange: &Exchange, measures: &Measures) -> Option<Law> {
-        let step = self.exchanges.t[0] - self.exchanges.t[1];
-        let best = self.best(told.lags(exchange));
-        let trusted = |fit: &&Fit| {
-            let is_best = self.polynomials.iter().all(|missed| fit.missed < TRUSTED * TRUSTED * missed);
-            // Where inputs are extrapolated, somebody has decided how loads go on.
-            exchange.learns
-                && told.order == 0
-                && self.exchanges.known >= ENOUGH
-                && is_best
-                && drives(&fit.slopes, step) * exchange.yielding <= DRIVES
+        let (lag, slopes, order) = match exchange.given {
+            None => self.learnt(told, exchange, measures)?,
+            Some(slopes) => {
+                let best = self.best(told.lags(exchange), |_| true).map(|(lag, _)| lag);
+                (told.lag.or(best)?, slopes, told.order)
+            }
         };
-        let lag = told.lag.or(best.map(|(lag, _)| lag))?;
-        let learnt = || best.map(|(_, fit)| fit).filter(trusted).map(|fit| measures.in_units(&fit.slopes));
-        let slopes = exchange.given.or_else(learnt)?;
         let leans = TURNS.iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
         let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
         let shown = self.exchanges.shown[lag];
         // A partner that holds what it is shown has states of its own, and answers with those of now.
         let late = if exchange.ahead == 0.0 { lag } else { 0 };
-        let rest = match told.order.min((self.exchanges.known - 1).saturating_sub(late)).min(POINTS - 1 - lag) {
+        let rest = match order.min((self.exchanges.known - 1).saturating_sub(late)).min(POINTS - 1 - lag) {
             0 if exchange.turns_along => {
                 // g = −J v_s s
                 let rate = -slopes.fixed_columns::<LOADS>(0) * shown.fixed_rows::<LOADS>(LOADS);
@@ -272,14 +305,16 @@ pub(super) struct Told {
     lag: Option<usize>,
     /// As polynomials of which degree they go on.
     order: usize,
+    /// The communication step that begins \[s].
+    step: f64,
 }
 
 impl Told {
-    /// By these effects.
-    pub fn by(effects: &impl Effects) -> Self {
+    /// By these effects, at the start of this communication step \[s].
+    pub fn by(effects: &impl Effects, step: f64) -> Self {
         // No more steps are remembered.
         let lag = effects.lag().map(|lag| (lag.round() as usize).min(POINTS - 1));
-        Self { lag, order: effects.order() }
+        Self { lag, order: effects.order(), step }
     }
 
     /// By how many steps answers may be late; none that is fitted where it is later.
@@ -437,6 +472,13 @@ impl Measures {
     fn in_units(&self, slopes: &Slopes) -> Slopes {
         Slopes::from_fn(|load, n| slopes[(load, n)] * self.shown[n] / self.loads[load])
     }
+}
+
+/// Whether a fit of measured slopes looks as if answers were later, by a good part of this step \[s].
+fn looks_too_early(slopes: &Slopes, step: f64) -> bool {
+    let drives = (0..LOADS).map(|n| slopes[(n, LOADS + n)]).fold(f64::NEG_INFINITY, f64::max) * TIME;
+    let stiffness = slopes.fixed_columns::<LOADS>(0).norm();
+    drives > TOO_EARLY * stiffness * step
 }
 
 /// How strongly a law drives the place in this step \[s], at most, by measured slopes \[kg].

@@ -78,8 +78,13 @@ impl Work {
             return 0.0;
         }
         let [to, from] = [exchanges.loads[0], exchanges.loads[1]];
-        let answered =
-            |part: f64, path: &Path| (from + (to - from) * part).component_div(loads).dot(&path.velocity(part));
+        let answered = |part: f64, path: &Path| {
+            let mut force = (from + (to - from) * part).component_div(loads);
+            if law.is_on {
+                force += law.slopes * (path.at(part) - path.from - (path.to - path.from) * part);
+            }
+            force.dot(&path.velocity(part))
+        };
         // eq. 126: ΔW = ∫ (f − a)·v dt
         let excess = self.done[lag] - over(lag, &answered);
         let exchanged = over(lag, &|part, path| answered(part, path).abs());
