@@ -155,8 +155,25 @@ PAIRS = {
         others=(("rotor.omega_phi", "w"),),
         of_rotor={"start.omega.x": 600.0, "start.r_c.y": 5e-6, "start.r_c.z": -10e-6},
         exact=finely("journal"),
+        # Of the film at the centre: c = pi viscosity R L^3 / (2 clearance^3), and c times half the speed across.
+        advised={
+            f"port[{n}].{name}": value
+            for n in (1, 2)
+            for name, value in {"cyy": 5e4, "czz": 5e4, "kyz": 1.5e7, "kzy": -1.5e7}.items()
+        },
     ),
-    "pedestal": turbo("pedestal", ({}, {}), "yz", exact=finely("pedestal")),
+    "pedestal": turbo(
+        "pedestal",
+        ({}, {}),
+        "yz",
+        exact=finely("pedestal"),
+        # Of the bearing between rotor and pedestal.
+        advised=ORDER_1 | {
+            f"port[{n}].{name}": value
+            for n in (1, 2)
+            for name, value in {"kyy": 1e7, "kzz": 1e7, "cyy": 1e3, "czz": 1e3, "ahead": 0.5}.items()
+        },
+    ),
     "magnetic": turbo(
         "magnetic",
         ({}, {}),

@@ -13,17 +13,19 @@ pytestmark = pytest.mark.long
 
 # Pair, master, communication step [s]; errors at least where loads are held, at most with nothing set, and with what is advised.
 PAIRS = [
-    ("linear", "libcosim", 2e-4, 1.0, 1e-3, 1e-8),  # 1.7e6, 2.7e-4, 1.7e-10
-    ("linear", "ecos", 1e-4, 1.0, 1e-4, 1e-8),  # 34, 2.0e-5, 1.6e-10
+    ("linear", "libcosim", 2e-4, 1.0, 2e-4, 1e-8),  # 1.7e6, 4.4e-5, 2.0e-10
+    ("linear", "ecos", 1e-4, 1.0, 1e-4, 1e-8),  # 34, 1.5e-5, 2.0e-10
     ("motor", "libcosim", 1e-4, 0.2, math.inf, 2e-3),  # 0.43, 0.43, 1.3e-3
     ("motor", "fresh", 1e-4, 0.2, math.inf, 2e-3),  # 0.45, 0.45, 1.3e-3
     ("motor", "gauss_seidel", 1e-4, 0.2, math.inf, 1e-3),  # 0.43, 0.43, 3.0e-4
     ("motor", "cofmupy_seidel", 1e-4, 0.2, math.inf, 1e-3),  # 0.43, 0.43, 3.0e-4
     ("two_rotors", "ssp", 1e-4, 1e-2, 0.05, 1e-3),  # 3.5e-2, 3.5e-2, 2.8e-4
-    ("journal", "fresh", 1e-4, 5e-3, 3e-2, None),  # 1.0e-2, 6.9e-3
-    ("pedestal", "fresh", 1e-4, 0.2, 0.15, None),  # 0.37, 0.088
-    ("pedestal", "iterated", 1e-4, 0.0, 0.02, None),  # 7.9e-3
-    ("magnetic", "libcosim", 1e-4, 0.0, 0.02, None),  # 7.9e-3, 6.7e-3
+    ("journal", "fresh", 1e-4, 5e-3, 3e-2, 3e-2),  # 1.0e-2, 6.3e-3, 7.2e-3
+    ("journal", "libcosim", 1e-4, math.inf, math.inf, 3e-2),  # fails, fails, 2.1e-2
+    ("pedestal", "fresh", 1e-4, 0.2, 0.1, 0.05),  # 0.38, 0.060, 0.019
+    ("pedestal", "libcosim", 1e-4, 1.0, 0.1, 0.05),  # 2.6, 0.049, 0.019
+    ("pedestal", "iterated", 1e-4, 0.0, 0.02, None),  # 7.7e-3
+    ("magnetic", "libcosim", 1e-4, 0.0, 0.01, None),  # 7.9e-3, 2.5e-3
 ]
 # Steps of the references that are no exact ones [s].
 FINE = 5e-6
@@ -55,7 +57,8 @@ def errors(printed, step):
     lines = [line for line in printed.splitlines() if line.startswith((" step [s]", f"{step:9.0e}"))]
     heads, row = (line[9:] for line in lines)
     columns = [heads[n : n + 13].strip() for n in range(0, len(heads), 13)]
-    return {column: float(row[13 * n : 13 * (n + 1)]) for n, column in enumerate(columns)}
+    found = {column: row[13 * n : 13 * (n + 1)].strip() for n, column in enumerate(columns)}
+    return {column: math.inf if error == "fails" else float(error) for column, error in found.items()}
 
 
 @pytest.mark.parametrize("pair,master,step,held,unset,advised", PAIRS, ids=[f"{pair}-{master}" for pair, master, *_ in PAIRS])

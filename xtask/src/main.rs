@@ -104,9 +104,13 @@ enum Command {
         /// Beside each FMU also SCENE.ssp, a system of SSP 1.0: the FMU, its parameter set, its inputs and outputs with units, its partners
         #[arg(long)]
         ssp: bool,
-        /// With --ssp, connect an FMU to a port or drive of the scene, by the names of their variables: --partner "port[1]=bearing.fmu".
-        /// Repeat it for each partner
-        #[arg(long = "partner", value_name = "TERMINAL=FMU", requires = "ssp")]
+        #[arg(
+            long = "partner",
+            help = "With --ssp, connect an FMU to a port or drive of the scene, by the names of their variables: --partner \"port[1]=bearing.fmu\". \
+                    Repeat it for each partner",
+            value_name = "TERMINAL=FMU",
+            requires = "ssp"
+        )]
         partners: Vec<ssp::Partner>,
         /// With --ssp, also connectors at the boundary of the system for what is free. libcosim 0.0.6 and ecos 0.7.2 open no such system;
         /// without it free inputs keep their start values

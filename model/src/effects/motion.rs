@@ -174,6 +174,12 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.series().map_or_else(|| self.kinematics.axis_rate(), |series| series.now.axis_rate.map(S::of_power))
     }
 
+    /// How fast the axis turns, t×dt/dt [rad/s].
+    #[inline(always)]
+    pub fn turn(&self) -> Vector3<S> {
+        self.axis().cross(&self.axis_rate())
+    }
+
     /// How far the axis leans: the Euler vector that turns e to t the shortest way, f e×t with f = θ/sinθ, y and z \[rad].
     #[inline(always)]
     pub fn lean(&self) -> Vector2<S> {

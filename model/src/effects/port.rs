@@ -26,6 +26,8 @@ pub struct Port {
     pub k: [f64; 6],
     /// Its damping, alike [N·s/m], [N·m·s/rad].
     pub c: [f64; 6],
+    /// By what part of the last communication step place and angles are shown ahead \[1].
+    pub ahead: f64,
     /// The law that the partner follows between communication points.
     law: Law,
 }
@@ -39,6 +41,7 @@ impl Default for Port {
             learn: true,
             k: [0.0; 6],
             c: [0.0; 6],
+            ahead: 0.0,
             law: Law::default(),
         }
     }
@@ -61,15 +64,26 @@ impl Port {
         [force + Vector3::new(change[0], change[1], change[2]), moment + about]
     }
 
-    /// What a partner is shown; where it says nothing of moments and leans, these are left out.
+    /// A place or an angle as it is shown, which changes at this rate.
+    #[inline(always)]
+    fn ahead<S: Scalar>(&self, now: S, rate: impl FnOnce() -> S) -> S {
+        if self.law.ahead == 0.0 { now } else { now + rate() * S::constant(self.law.ahead) }
+    }
+
+    /// Position of the station as it is shown, along one axis \[m].
+    #[inline(always)]
+    fn position_ahead<S: Scalar>(&self, motion: &Motion<S>, axis: usize) -> S {
+        self.ahead(motion.station(self.position)[axis], || motion.station_velocity(self.position)[axis])
+    }
+
+    /// Place and motion, without what is shown ahead; where it says nothing of moments and leans, these are left out.
     #[inline(always)]
     fn shown<S: Scalar>(&self, motion: &Motion<S>, turns: bool) -> Shown<S> {
         let (r, v) = (motion.station(self.position), motion.station_velocity(self.position));
         if !turns {
             return Shown::from([r.x, r.y, r.z, S::zero(), S::zero(), v.x, v.y, v.z, S::zero(), S::zero()]);
         }
-        // t×dt/dt
-        let (lean, turn) = (motion.lean(), motion.axis().cross(&motion.axis_rate()));
+        let (lean, turn) = (motion.lean(), motion.turn());
         Shown::from([r.x, r.y, r.z, lean.x, lean.y, v.x, v.y, v.z, turn.y, turn.z])
     }
 
@@ -122,15 +136,15 @@ impl Effect for Port {
         input!(m.x, &NEWTON_METRE, 0.0, "moment on the rotor, x"),
         input!(m.y, &NEWTON_METRE, 0.0, "moment on the rotor, y"),
         input!(m.z, &NEWTON_METRE, 0.0, "moment on the rotor, z"),
-        output!("r.x", &METRE, "position of the station, x", |p, m| m.station(p.position).x),
-        output!("r.y", &METRE, "position of the station, y", |p, m| m.station(p.position).y),
-        output!("r.z", &METRE, "position of the station, z", |p, m| m.station(p.position).z),
+        output!("r.x", &METRE, "position of the station, x", |p, m| p.position_ahead(m, 0)),
+        output!("r.y", &METRE, "position of the station, y", |p, m| p.position_ahead(m, 1)),
+        output!("r.z", &METRE, "position of the station, z", |p, m| p.position_ahead(m, 2)),
         output!("v.x", &METRE_PER_SECOND, "velocity of the station, x", |p, m| m.station_velocity(p.position).x),
         output!("v.y", &METRE_PER_SECOND, "velocity of the station, y", |p, m| m.station_velocity(p.position).y),
         output!("v.z", &METRE_PER_SECOND, "velocity of the station, z", |p, m| m.station_velocity(p.position).z),
-        output!("theta.x", &RADIAN, "axial angle phi", |_, m| m.phi()),
-        output!("theta.y", &RADIAN, "transverse Euler vector, y", |_, m| m.lean().x),
-        output!("theta.z", &RADIAN, "transverse Euler vector, z", |_, m| m.lean().y),
+        output!("theta.x", &RADIAN, "axial angle phi", |p, m| p.ahead(m.phi(), || m.omega_phi())),
+        output!("theta.y", &RADIAN, "transverse Euler vector, y", |p, m| p.ahead(m.lean().x, || m.turn().y)),
+        output!("theta.z", &RADIAN, "transverse Euler vector, z", |p, m| p.ahead(m.lean().y, || m.turn().z)),
         output!("omega.x", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, x", |_, m| m.omega().x),
         output!("omega.y", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, y", |_, m| m.omega().y),
         output!("omega.z", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, z", |_, m| m.omega().z),
@@ -161,6 +175,13 @@ impl Effect for Port {
             &JOULE,
             "energy that the exchange brought in so far: work of the loads beyond that of the partner's answers, which lines or a law join",
             |p, _| Scalar::constant(p.law.error)
+        ),
+        parameter!(
+            ahead,
+            &ONE,
+            Some(0.0),
+            Bound::Within(-1.0, 2.0),
+            "r and theta are shown ahead by this part of the last communication step, for a partner that holds them"
         ),
     ];
 
@@ -200,7 +221,7 @@ impl Effect for Port {
             given: self.slopes(),
             turns_along: false,
             learns: self.learn,
-            ahead: 0.0,
+            ahead: self.ahead,
             yielding,
             gyration,
         })

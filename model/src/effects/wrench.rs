@@ -85,9 +85,8 @@ impl<S: Scalar> Wrench<S> {
     /// A damper against how fast the axis turns [N·m·s/rad]: M = −d t×dt/dt.
     #[inline(always)]
     pub fn against_turn(motion: &Motion<S>, d: f64) -> Self {
-        let rate = motion.axis_rate();
         // M×t = −d dt/dt
-        let moment = if S::SERIES { rate } else { motion.axis().cross(&rate) };
+        let moment = if S::SERIES { motion.axis_rate() } else { motion.turn() };
         Self { moment: moment * S::constant(-d), ..Self::zero() }
     }
 

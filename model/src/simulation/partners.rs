@@ -150,7 +150,7 @@ impl Partner {
     /// Hears that nothing was answered at the communication point `t` \[s]: loads no longer go on as a polynomial.
     pub fn go_unanswered(&mut self, t: f64) {
         if self.follows_polynomial() && t > self.law.since {
-            self.law = Law { error: self.law.error, ..Law::default() };
+            self.law = Law { is_on: false, rest: Default::default(), ..self.law };
             self.exchanges.known = 1;
         }
     }

@@ -98,10 +98,10 @@ fn ordinary_pairs_that_are_right_are_not_warned_of() {
 }
 
 /// Of drawn pairs, held and with nothing set, so many of 120 runs are off by more than [`WRONG`] in silence, and by more than their motion.
-const DRAWN_SILENT: [u32; 2] = [18, 0];
+const DRAWN_SILENT: [u32; 2] = [15, 0];
 
 /// So many drawn pairs err by a quarter of what held loads do at most, over the last tenth of 300 steps; none errs by more than these.
-const QUARTERED: u64 = 54;
+const QUARTERED: u64 = 58;
 
 #[test]
 fn drawn_bearings_are_learnt_and_warned_of_where_they_are_wrong() {
@@ -131,7 +131,7 @@ fn drawn_bearings_are_learnt_and_warned_of_where_they_are_wrong() {
 }
 
 /// Scripts set forces that are no answers: so many of 60 are warned of.
-const SCRIPTS: u32 = 8;
+const SCRIPTS: u32 = 1;
 
 #[test]
 fn scripts_are_seldom_warned_of() {

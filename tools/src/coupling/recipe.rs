@@ -23,8 +23,8 @@ pub fn recipe(found: &Found) -> String {
              - Compare a run with one at half the step: what differs is the error. The table holds for this machine, this speed and partners \
              without states.\n\
              - A partner with a state of its own needs more. A motor or a shaft on a torsion spring: give the drive its spring, `drive.k` and \
-             `drive.d`, and let it show its angle ahead, `drive.ahead` (docs/cosimulation.md). Of a pedestal or a film a port learns only a \
-             part: take much shorter steps.\n\
+             `drive.d`, and let it show its angle ahead, `drive.ahead` (docs/cosimulation.md). A pedestal: give the port \
+             the coefficients of what lies between, `ahead` = 0.5 (-0.5 in a Gauss-Seidel master), and an order of 1.\n\
              - A partner that repeats its answers, or a force that a script sets: `learn = false`.\n";
     text
 }

@@ -53,7 +53,7 @@ fn setting_out(found: &Found) -> String {
     }
     text += "Largest error over the last tenth of a run, relative to the largest motion of the stations; in brackets the error of the energy of \
              the motion, relative to its largest. `!`: the FMU warned; fails: the solver stopped, or the error exceeded 1e4. coupling.csv has the errors over whole runs and the sums of \
-             port[i].energy_error too; where a port follows a law, that output counts too much at long steps.\n\n";
+             port[i].energy_error too.\n\n";
     text
 }
 

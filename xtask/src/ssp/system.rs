@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn what_nothing_inside_feeds_or_reads_is_at_the_boundary() {
         let scene = scenes::find("coupled").unwrap();
-        let ssd = system(&scene).structure(&scene, false).unwrap();
+        let ssd = system(&scene).structure(&scene, true).unwrap();
         let (boundary, _) = ssd.split_once("<ssd:Elements>").unwrap();
         let count = |kind: &str| boundary.matches(&format!("kind=\"{kind}\"")).count();
         // Six loads at each of two ports, one of which is fed, and the temperature.
@@ -164,9 +164,9 @@ mod tests {
     }
 
     #[test]
-    fn a_closed_system_has_no_boundary_and_no_free_inputs() {
+    fn without_a_boundary_no_free_input_has_a_connector() {
         let scene = scenes::find("coupled").unwrap();
-        let ssd = system(&scene).structure(&scene, true).unwrap();
+        let ssd = system(&scene).structure(&scene, false).unwrap();
         assert!(ssd.split_once("<ssd:Elements>").unwrap().0.lines().all(|line| !line.contains("Connector")), "{ssd}");
         assert_eq!((ssd.matches("<ssd:Connection ").count(), ssd.matches("kind=\"input\"").count()), (1, 1), "{ssd}");
     }
