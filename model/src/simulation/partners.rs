@@ -147,7 +147,7 @@ impl Partner {
         self.has_learnt() && self.law.has_no_slopes()
     }
 
-    /// Hears that nothing was answered at the communication point `t` \[s]: loads no longer go on as a polynomial.
+    /// Is called when nothing was answered at the communication point `t` \[s]: loads no longer go on as a polynomial.
     pub fn go_unanswered(&mut self, t: f64) {
         if self.follows_polynomial() && t > self.law.since {
             self.law = Law { is_on: false, rest: Default::default(), ..self.law };

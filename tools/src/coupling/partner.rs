@@ -68,7 +68,7 @@ impl Partner {
         Self { name: name.into(), position, rest: position, coefficients, table: None }
     }
 
-    /// The bearing of this number in a scene. Its axial spring has no load at the start.
+    /// The bearing with this index in a scene. At the start its axial spring carries no load.
     pub fn bearing(scene: &Scene, number: u32) -> Self {
         let (name, value) = (format!("bearing[{number}]"), scenes::values(scene));
         let named = |end: &str| value(&format!("{name}.{end}"));
