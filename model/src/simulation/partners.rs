@@ -106,7 +106,7 @@ const TRUSTED: f64 = 0.3;
 /// Fits that missed less than this part of that are alike \[1].
 const ALIKE: f64 = 1e-6;
 
-/// A polynomial is not trusted over a step that is so much longer than the last one \[1].
+/// A polynomial is not trusted over a step that is so much longer than the last one, or shorter: steps without an answer may follow \[1].
 const LONGER: f64 = 1.5;
 
 /// Answers that are later than a fit takes them for look as if something drove the place: by its velocity times the delay and the stiffness. This
@@ -151,7 +151,6 @@ impl Partner {
     pub fn go_unanswered(&mut self, t: f64) {
         if self.follows_polynomial() && t > self.law.since {
             self.law = Law { is_on: false, rest: Default::default(), ..self.law };
-            self.exchanges.known = 1;
         }
     }
 
@@ -251,7 +250,8 @@ impl Partner {
         }
         let [held, line, parabola] = self.polynomials;
         let degree = if parabola < TRUSTED * TRUSTED * line { 2 } else { 1 };
-        let is_trusted = line.min(parabola) < TRUSTED * TRUSTED * held && told.step <= LONGER * step;
+        let is_even = told.step <= LONGER * step && step <= LONGER * told.step;
+        let is_trusted = line.min(parabola) < TRUSTED * TRUSTED * held && is_even;
         is_trusted.then(|| (told.lag.unwrap_or_default(), Slopes::zeros(), degree))
     }
 
