@@ -11,6 +11,12 @@ pub fn kinetic<S: Scalar>(motion: &Kinematics<S>) -> S {
     (v.dot(v) * S::constant(motion.body.m) + omega.dot(&motion.momentum())) * S::constant(0.5)
 }
 
+/// Kinetic energy without that of the spin, of a balanced and symmetric body \[J].
+pub fn moving(motion: &Kinematics<f64>) -> f64 {
+    // ½ m |v|² + ½ Jt |dt/dt|²
+    (motion.at.v.norm_squared() * motion.body.m + motion.axis_rate().norm_squared() / motion.body.per_jt) * 0.5
+}
+
 /// What there is, what came in and what went out \[J].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger<S: Scalar> {

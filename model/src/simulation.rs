@@ -24,19 +24,21 @@ pub(crate) mod start;
 mod tangents;
 mod unheld;
 
-pub use coupling::Coupling;
+pub use coupling::{Coupled, Coupling, LEAST_GROWTH, ORDERS};
 pub use divergence::Divergence;
 use exchange::Exchange;
 pub use exchange::Settled;
 #[cfg(feature = "general")]
 pub use general::General;
-pub use growth::{Growth, Unjudged};
+pub use growth::{Growth, LINEAR, Linear, Unjudged};
 pub use largest::{Deflection, Largest};
+pub use partners::LAGS;
 pub use rattle::Rattle;
 pub use tangents::Tangents;
 pub use unheld::Unheld;
 
 use crate::effects::{Block, Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
+use crate::energy::moving;
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::taylor::Scratch;
@@ -372,7 +374,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
         let partners = &self.partners;
         self.parameters.effects.set_laws(|number| partners[number].law());
-        if self.coupling.is_none() && self.partners.iter().any(Partner::is_doubted) {
+        if self.coupling.is_none() {
             self.look_at_coupling(&reading.motion, to - t);
         }
     }
@@ -383,9 +385,14 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         self.parameters.effects.for_each_partner(|number, block| partners[number].begin(t, || block.acting(t)));
     }
 
-    /// Whether the exchange with partners is wrong, where inputs are exchanged after this step \[s].
+    /// Whether the exchange with partners is wrong, where inputs are exchanged after this step \[s]; looked at where that is due.
     fn look_at_coupling(&mut self, motion: &Kinematics<f64>, step: f64) {
-        let Some(Run::Method(integration)) = &self.run else { return };
+        let (mut is_doubted, mut is_fed) = (false, false);
+        for partner in self.partners.iter_mut().filter(|partner| partner.is_due()) {
+            is_doubted |= partner.is_doubted();
+            is_fed |= partner.feeds(moving(motion));
+        }
+        let (true, Some(Run::Method(integration))) = (is_doubted || is_fed, &self.run) else { return };
         let (effects, partners) = (&self.parameters.effects, &self.partners);
         let told = Told::by(effects, step);
         let answers = |number: usize, block: &dyn Block| {
@@ -393,7 +400,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             exchange.and_then(|exchange| partners[number].answers(&exchange, &told))
         };
         let (frame, t, state) = integration.reached();
-        let found = Coupling::of(&frame.under(effects), t, state, answers, step);
+        let found = Coupling::of(&frame.under(effects), t, state, answers, step, is_fed);
         let wrong = partners.iter().map(Partner::wrong).fold(0.0, f64::max);
         let is_wrong = found.growth > 0.0 || partners.iter().any(Partner::is_wrong);
         self.coupling = is_wrong.then_some(Coupling { wrong, ..found });

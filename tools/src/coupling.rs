@@ -14,10 +14,11 @@ use crate::speeds::HIGHEST;
 use crate::{rows, run, scenes};
 use anyhow::{Context, Result, ensure};
 use exchange::{Exact, Outcome, Scheme};
-use limit::{Linear, ORDERS};
+use limit::Linear;
 use pair::Pair;
 use serde_json::{Value, json};
 use split_rotor_model::scene::Scene;
+use split_rotor_model::simulation::ORDERS;
 
 /// A run lasts so many periods of the fastest mode, and so many of the slowest, but no more than so many of the fastest.
 const PERIODS: f64 = 20.0;

@@ -117,6 +117,9 @@ impl Package {
             system.components.push(Component { name, source, parameters, model });
         }
         system.components.iter().skip(1).for_each(|partner| eprintln!("  {}", summary(&system, partner)));
+        if !on.is_empty() {
+            eprintln!("  fmpy 0.3.32 ignores parameter sets: in it, set {} to true", on.join(", "));
+        }
         let mut texts = vec![
             ("SystemStructure.ssd".into(), system.structure(scene, has_boundary)?),
             (system.components[0].parameters.clone(), ssv::own(scene, &on)?),

@@ -61,13 +61,15 @@ impl Display for Coupling {
 
 impl Coupling {
     /// Of a rotor at time `t` \[s] and state `y`, by the answers of its partners, of each by its number, which are given after every `step`
-    /// \[s]; its growth is 0 where they do not make it grow, or are not known. What is wrong is left open.
+    /// \[s]; its growth is 0 where they do not make it grow, or are not known. Where it is known that they feed the motion, the least growth
+    /// counts. What is wrong is left open.
     pub(super) fn of<E: Effects, const N: usize>(
         rotor: &Rotor<'_, E>,
         t: f64,
         y: &[f64; N],
         answers: impl Fn(usize, &dyn Block) -> Option<Answers>,
         step: f64,
+        is_fed: bool,
     ) -> Self {
         // The balanced rotor: what an unbalance adds turns with it.
         let Frame { body, chart, turns, .. } = rotor.frame;
@@ -93,7 +95,7 @@ impl Coupling {
         let coupled = Coupled { held, answered: [fresh, late] };
         if coupled.is_finite() {
             let lag = rotor.effects.lag().unwrap_or_default();
-            found.growth = coupled.growth(step, rotor.effects.order(), lag, GROWS);
+            found.growth = coupled.growth(step, rotor.effects.order(), lag, if is_fed { LEAST_GROWTH } else { GROWS });
         }
         if found.growth > 0.0 {
             found.longest = coupled.longest(step, f64::from(found.lag));
@@ -106,7 +108,7 @@ impl Coupling {
 const FORCES: usize = 3;
 
 /// Degrees of polynomials by which inputs may go on, counted from 0.
-pub(super) const ORDERS: usize = 3;
+pub const ORDERS: usize = 3;
 
 /// The last communication points, each with a linear motion: answers are late by one at most, and a parabola goes through three.
 const POINTS: usize = LAGS - 1 + ORDERS;
@@ -114,24 +116,26 @@ const NUMBERS: usize = POINTS * LINEAR;
 
 type Map = SMatrix<f64, NUMBERS, NUMBERS>;
 
-/// The linear motion of a rotor and what its partners add, scaled.
-#[derive(Clone, Copy)]
-pub(super) struct Coupled {
+/// The linear motion of a rotor and what its partners add, scaled to numbers of one size.
+#[derive(Clone, Copy, Debug)]
+pub struct Coupled {
     /// Its equations, with inputs that are held [1/s].
     pub held: Linear,
     /// What partners add, by how many steps their answers are late [1/s].
     pub answered: [Linear; LAGS],
 }
 
-/// What grows by less than this in a step is not warned of, and what does by less than the second may be rounding or a drift \[1].
+/// What grows by less than this in a step is not warned of \[1].
 const GROWS: f64 = 2e-3;
-const ROUNDING: f64 = 1e-4;
+
+/// What grows by less than this in a step may be rounding or a drift \[1].
+pub const LEAST_GROWTH: f64 = 1e-4;
 
 /// What grows in one model by more than this part of it is no fault of the exchange \[1].
 const OWN: f64 = 0.5;
 
 /// Number of squarings after which the growth of a map is known.
-const SQUARINGS: u32 = 18;
+const SQUARINGS: u32 = 20;
 
 /// Steps are sought over this range about that of now \[1], in so many bisections.
 const RANGE: f64 = 1024.0;
@@ -148,7 +152,7 @@ impl Coupled {
 
     /// By what part small motions grow in a step \[s] of the exchange, and not in one model, where inputs go on by `order` and are taken
     /// for late by `lag` \[1]; 0 where that is less than `least`.
-    fn growth(&self, step: f64, order: usize, lag: f64, least: f64) -> f64 {
+    pub fn growth(&self, step: f64, order: usize, lag: f64, least: f64) -> f64 {
         let coupled = per_application(self.map(step, order, lag));
         let own = per_application(exponential((self.held + self.answered.iter().sum::<Linear>()) * step));
         if coupled > least && own < OWN * coupled { libm::expm1(coupled) } else { 0.0 }
@@ -160,7 +164,7 @@ impl Coupled {
             let (mut short, mut long) = (libm::log(step / RANGE), libm::log(step * RANGE));
             for _ in 0..BISECTIONS {
                 let middle = 0.5 * (short + long);
-                let grows = self.growth(libm::exp(middle), order, lag, ROUNDING) > 0.0;
+                let grows = self.growth(libm::exp(middle), order, lag, LEAST_GROWTH) > 0.0;
                 (short, long) = if grows { (short, middle) } else { (middle, long) };
             }
             libm::exp(short)

@@ -109,9 +109,10 @@ impl Seen {
 
 /// The equations without φ, the work and the own states, which hold on their own: a motor does not make a whirl grow at a
 /// steady speed.
-pub(super) const LINEAR: usize = PHI;
+pub const LINEAR: usize = PHI;
 
-pub(super) type Linear = SMatrix<f64, LINEAR, LINEAR>;
+/// Such equations.
+pub type Linear = SMatrix<f64, LINEAR, LINEAR>;
 
 /// Where the velocities begin, and the angular momentum.
 const VELOCITY: usize = 3;

@@ -28,9 +28,11 @@ pub(super) struct Partner {
     work: Work,
     /// How often it answered.
     answered: u32,
+    /// Energy of the motion without the spin, and what the exchange had brought in, when that was last looked at \[J].
+    energies: [f64; 2],
 }
 
-stored!(Partner { exchanges, fits, polynomials, law, is_given, work, answered });
+stored!(Partner { exchanges, fits, polynomials, law, is_given, work, answered, energies });
 
 /// A partner as its answers look, where no law of it is in force.
 #[derive(Clone, Copy, Debug)]
@@ -77,7 +79,7 @@ struct Fit {
 stored!(Fit { slopes, missed });
 
 /// Loads may be the answer to what is shown now, or was shown a communication step before.
-pub(super) const LAGS: usize = 2;
+pub const LAGS: usize = 2;
 
 /// So many changes are fitted at a time, and so many exchanges are kept for that.
 const CHANGES: usize = 7;
@@ -116,11 +118,15 @@ const TOO_EARLY: f64 = 0.3;
 /// So many exchanges must be known before a fit is trusted.
 const ENOUGH: usize = 6;
 
-/// Number of answers after which a coupling is checked; it is checked again whenever that number has doubled.
+/// Number of answers after which a coupling is looked at, and again whenever that number has doubled.
 const LOOKED_AT: u32 = 16;
 
 /// Error of the work at a port, relative to the work exchanged, from which on the coupling is checked \[1].
 const LARGE: f64 = 0.15;
+
+/// A motion whose energy has become larger by this factor between two looks, of which a port brought in this part, is fed by the exchange \[1].
+const GAINED: f64 = 4.0;
+const FED: f64 = 0.1;
 
 /// Error that proves a wrong coupling by itself \[1]: in a short run, after [`STEADY`] answers, and under a learnt law.
 const BEYOND_DOUBT: f64 = 0.7;
@@ -205,9 +211,21 @@ impl Partner {
         }
     }
 
-    /// Whether the coupling is to be looked at now: it does much work too much or too little.
+    /// Whether the coupling is to be looked at now.
+    pub fn is_due(&self) -> bool {
+        self.answered.is_power_of_two() && self.answered >= LOOKED_AT
+    }
+
+    /// Whether it does much work too much or too little.
     pub fn is_doubted(&self) -> bool {
-        self.answered.is_power_of_two() && self.answered >= LOOKED_AT && self.wrong() > LARGE
+        self.wrong() > LARGE
+    }
+
+    /// Whether it brought in a good part of what the motion has gained since it was last looked at: its energy without the spin is `moving` now
+    /// \[J].
+    pub fn feeds(&mut self, moving: f64) -> bool {
+        let [before, error] = std::mem::replace(&mut self.energies, [moving, self.law.error]);
+        moving > GAINED * before && self.law.error - error > FED * (moving - before)
     }
 
     /// The part by which the coupling does too much or too little work, of what goes through \[1].

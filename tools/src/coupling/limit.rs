@@ -3,20 +3,12 @@
 use super::exchange::Scheme;
 use super::pair::{Pair, switch_off};
 use super::partner::Shown;
-use nalgebra::{DMatrix, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{ComplexField, SMatrix, SVector, Vector2, Vector3};
 use split_rotor_model::effects::All;
 use split_rotor_model::linear::{Machine, Obstacle, STATES, StateSpace};
+use split_rotor_model::simulation::{Coupled, LAGS, LEAST_GROWTH, LINEAR};
 use split_rotor_model::variable::Place;
 use split_rotor_model::variables::Parameters;
-
-/// Orders of extrapolation, from 0.
-pub const ORDERS: usize = 3;
-
-/// What grows by less than this part in a step does not count as growth \[1], as in the FMU's own warning.
-const GROWS: f64 = 1e-4;
-
-/// What grows in one model by more than this part of it is no fault of the exchange \[1].
-const OWN: f64 = 0.5;
 
 /// Steps are tried from this part of the fastest period to so many of the slowest \[1], each so many times the one before.
 const SHORTEST: f64 = 1e-4;
@@ -28,13 +20,6 @@ const STILL: f64 = 1e-7;
 
 /// Number of bisections between the last step at which nothing grows and the first at which something does.
 const BISECTIONS: u32 = 12;
-
-/// Number of squarings after which the growth of a map is known.
-const SQUARINGS: u32 = 20;
-
-/// Terms of an exponential, and the size from which on its argument is halved.
-const TERMS: u32 = 14;
-const SMALL: f64 = 0.5;
 
 /// Loads and what is shown: force and moment; place, velocity, γ (y, z), ω.
 const LOADS: usize = 6;
@@ -68,13 +53,10 @@ impl Linear {
         let answered = scaled(answers(pair, &space));
         let whole = scaled(space.a);
         let modes = space.steady.modes()?;
-        let swings = |least: f64| modes.iter().map(|mode| mode.eigenvalue.im).filter(move |swing| *swing > least);
-        let most = swings(0.0).fold(0.0, f64::max);
-        let fastest = match most > 0.0 {
-            true => most,
-            false => modes.iter().map(|mode| mode.eigenvalue.re.abs()).fold(0.0, f64::max),
-        };
-        let slowest = swings(STILL * most).fold(fastest, f64::min);
+        // What is damped so much that it does not swing limits the step too.
+        let fastest = modes.iter().map(|mode| mode.eigenvalue.modulus()).fold(0.0, f64::max);
+        let swings = modes.iter().map(|mode| mode.eigenvalue.im).filter(|swing| *swing > STILL * fastest);
+        let slowest = swings.fold(fastest, f64::min);
         let period = |rate: f64| std::f64::consts::TAU / rate;
         Ok(Self { open: whole - answered, answered, fastest: period(fastest), slowest: period(slowest) })
     }
@@ -101,10 +83,10 @@ impl Linear {
     }
 
     fn grows(&self, step: f64, lag: usize, order: usize) -> bool {
-        let coupled = growth(map(&self.open, &self.answered, step, lag, order));
-        let whole = (self.open + self.answered) * step;
-        let own = growth(exponential(DMatrix::from_fn(STATES, STATES, |row, column| whole[(row, column)])));
-        coupled > GROWS && own < OWN * coupled
+        let padded = |matrix: Square| matrix.fixed_resize::<LINEAR, LINEAR>(0.0);
+        let mut answered = [SMatrix::zeros(); LAGS];
+        answered[lag] = padded(self.answered);
+        Coupled { held: padded(self.open), answered }.growth(step, order, lag as f64, LEAST_GROWTH) > 0.0
     }
 }
 
@@ -160,82 +142,4 @@ fn answers(pair: &Pair, space: &StateSpace) -> Square {
         }
     }
     sum
-}
-
-/// The states at the last communication points, after a step from those before.
-fn map(open: &Square, answered: &Square, step: f64, lag: usize, order: usize) -> DMatrix<f64> {
-    let points = lag + ORDERS;
-    let numbers = STATES * (1 + ORDERS).max(points);
-    // dx/dt = A x + u₀ + u₁ σ + u₂ σ²/2, σ in steps
-    let mut rates = DMatrix::zeros(numbers, numbers);
-    let mut put = |row: usize, column: usize, block: &Square| {
-        let mut view = rates.view_mut((row * STATES, column * STATES), (STATES, STATES));
-        view.copy_from(block);
-    };
-    put(0, 0, &(open * step));
-    put(0, 1, &(Square::identity() * step));
-    put(1, 2, &Square::identity());
-    put(2, 3, &Square::identity());
-    let mut inputs = DMatrix::zeros(numbers, numbers);
-    inputs.view_mut((0, 0), (STATES, STATES)).copy_from(&Square::identity());
-    for (power, parts) in polynomial(order, lag as f64).into_iter().enumerate() {
-        for (back, part) in parts.into_iter().enumerate().filter(|(_, part)| *part != 0.0) {
-            let mut view = inputs.view_mut(((1 + power) * STATES, (lag + back) * STATES), (STATES, STATES));
-            view.copy_from(&(answered * part));
-        }
-    }
-    let mut map = exponential(rates) * inputs;
-    for point in 1..numbers / STATES {
-        map.rows_mut(point * STATES, STATES).fill(0.0);
-        map.view_mut((point * STATES, (point - 1) * STATES), (STATES, STATES)).copy_from(&Square::identity());
-    }
-    map
-}
-
-/// Value, rate and second derivative, in steps, at the point where a step begins, of the polynomial through the last values, which are
-/// `lag` steps late: by parts of these values.
-fn polynomial(order: usize, lag: f64) -> [[f64; ORDERS]; ORDERS] {
-    match order {
-        0 => [[1.0, 0.0, 0.0], [0.0; 3], [0.0; 3]],
-        1 => [[1.0 + lag, -lag, 0.0], [1.0, -1.0, 0.0], [0.0; 3]],
-        _ => {
-            let (both, slope) = (0.5 * lag * (lag + 1.0), lag + 0.5);
-            [[1.0 + lag + both, -lag - 2.0 * both, both], [1.0 + slope, -1.0 - 2.0 * slope, slope], [1.0, -2.0, 1.0]]
-        }
-    }
-}
-
-/// e to this matrix.
-fn exponential(mut matrix: DMatrix<f64>) -> DMatrix<f64> {
-    let mut halvings = 0;
-    while matrix.norm() > SMALL {
-        matrix *= 0.5;
-        halvings += 1;
-    }
-    let mut sum = DMatrix::identity(matrix.nrows(), matrix.ncols());
-    let mut term = sum.clone();
-    for n in 1..=TERMS {
-        term = &term * &matrix / f64::from(n);
-        sum += &term;
-    }
-    (0..halvings).for_each(|_| sum = &sum * &sum);
-    sum
-}
-
-/// By what part a map makes what it is applied to grow each time, the logarithm.
-fn growth(mut map: DMatrix<f64>) -> f64 {
-    let mut grown = 0.0;
-    for squared in 0..=SQUARINGS {
-        let size = map.norm();
-        if size == 0.0 {
-            return f64::NEG_INFINITY;
-        }
-        if !size.is_finite() {
-            return f64::INFINITY;
-        }
-        grown += libm::log(size) / f64::from(1_u32 << squared);
-        map /= size;
-        map = &map * &map;
-    }
-    grown
 }

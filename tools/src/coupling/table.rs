@@ -1,11 +1,11 @@
 //! The table: errors of each scheme and setting versus the communication step, and the limits of stability.
 
 use super::exchange::Scheme;
-use super::limit::ORDERS;
 use super::{Found, SETTINGS, Tried};
 use crate::doubts::below;
 use crate::numbers::{rounded, rpm};
 use crate::scenes;
+use split_rotor_model::simulation::ORDERS;
 
 /// A number with so many digits that count.
 pub fn digits(value: f64, count: usize) -> String {
