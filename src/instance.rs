@@ -316,7 +316,7 @@ impl Instance {
             return;
         }
         let effects = &self.memory.simulation.parameters().effects;
-        let ports = effects.blocks().map(Block::kind).filter(|kind| kind.has_partner);
+        let ports = effects.blocks().map(Block::kind).filter(|kind| kind.facts.partners > 0);
         for (_, kind) in ports.enumerate().filter(|(number, _)| (learnt & !known) >> number & 1 == 1) {
             let (port, learn) = (kind.block_name(), kind.full_name("learn"));
             self.tell(Category::Events, || {
@@ -375,7 +375,8 @@ impl Instance {
     /// The switch of the effect that has this variable, where that is off.
     fn off_for(&self, place: Place) -> Option<String> {
         let (block, _) = self.memory.simulation.parameters().effects.at(place)?;
-        (place.row != Place::SWITCH && block.kind().switched && !block.is_active()).then(|| block.kind().switch_name())
+        (place.row != Place::SWITCH && block.kind().facts.switched && !block.is_active())
+            .then(|| block.kind().switch_name())
     }
 
     /// Says it of these variables, if it was not said of any.

@@ -4,7 +4,7 @@
 use nalgebra::Vector3;
 use split_rotor_model::body::Body;
 use split_rotor_model::effects;
-use split_rotor_model::effects::{Act, Called, Effect, Entry, Motion, Row, Wrench, gravity::Gravity};
+use split_rotor_model::effects::{Act, Called, Effect, Entry, Facts, Motion, Row, Wrench, gravity::Gravity};
 use split_rotor_model::scalar::Scalar;
 use split_rotor_model::simulation::Simulation;
 use split_rotor_model::variable::units::{METRE, NEWTON, NEWTON_PER_METRE};
@@ -45,7 +45,7 @@ impl Effect for Mount {
         output!("F.z", &NEWTON, "force on the rotor, z", |mount, motion| mount.force(motion).z),
     ];
 
-    const COULD_WORK: bool = false;
+    const FACTS: Facts = Facts { could_work: false, ..Facts::USUAL };
 
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
         let q = self.displacement(motion);

@@ -6,6 +6,7 @@
 
 mod act;
 mod doubt;
+mod facts;
 mod list;
 pub mod load;
 mod motion;
@@ -17,6 +18,7 @@ mod wrench;
 
 pub use act::Act;
 pub use doubt::Doubt;
+pub use facts::Facts;
 pub use list::{Block, Called, Effects, Switched, follows_all_inputs};
 pub use load::{Change, MOST_LOADS, Pose};
 pub use motion::Motion;
@@ -55,55 +57,11 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Its variables, named within its block; new ones go to the end, for a value reference is a place in this list.
     const ROWS: &'static [Row<Self>];
 
-    /// How many states of its own it has, at most [`MOST_OWN`]: numbers that are integrated with the motion.
-    const OWN: usize = 0;
-
-    /// How many of its outputs are loads whose errors count, each a vector, at most [`MOST_LOADS`].
-    const LOADS: usize = 0;
-
-    /// Whether its outputs are the velocity of a station.
-    const SHOWS_VELOCITY: bool = false;
-
-    /// How many [indicators](Effect::indicator) it has; one that has any keeps its branch in its [memory](Effect::memory).
-    const INDICATORS: usize = 0;
-
-    /// Whether it can lose energy or be supplied with it, with any parameters. To forget to deny it costs time, not
-    /// energy.
-    const COULD_WORK: bool = true;
-
-    /// Whether it can apply a load or impose a speed, with any parameters and inputs, other than a force at the mass centre that
-    /// nothing changes.
-    const PUSHES: bool = true;
-
-    /// Whether it can [shape](Effect::shape) the body. A scene without such effects is compiled for a symmetric rotor.
-    const SHAPES: bool = false;
-
-    /// Whether what it does follows φ, so that φ is no quadrature where it is at work.
-    const FOLLOWS_PHI: bool = Self::SHAPES;
-
-    /// Whether its law is analytic in everything that it depends on, so that its motion has power series in time.
-    const ANALYTIC: bool = true;
-
-    /// Whether it [extrapolates](Effect::extrapolate) inputs.
-    const EXTRAPOLATES: bool = false;
-
-    /// Whether its own inputs tell one another's rates, so that nobody need extrapolate them.
-    const TELLS_RATES: bool = false;
+    /// What it can do, and how much room it needs.
+    const FACTS: Facts = Facts::USUAL;
 
     /// The effects after it in the catalogue that cannot act beside it.
     const EXCLUDES: &'static [&'static str] = &[];
-
-    /// Whether it can [impose](Effect::imposed) a speed.
-    const IMPOSES: bool = false;
-
-    /// How many inputs it can extrapolate at most.
-    const MOST_EXTRAPOLATED: usize = usize::MAX;
-
-    /// Whether its law may be [doubtful](Effect::doubts) at some speeds.
-    const MAY_BE_DOUBTED: bool = false;
-
-    /// Whether it may have a [partner](Effect::exchange), whose law it goes on with.
-    const HAS_PARTNER: bool = false;
 
     /// Its inputs and outputs as a terminal of the FMU, where other models are connected to it.
     const TERMINAL: Option<Terminal> = None;
@@ -144,7 +102,7 @@ pub trait Effect: Clone + Default + Send + 'static {
 
     /// Whether, with its present parameters and in any branch, it has events: asked where a run starts.
     fn has_events(&self) -> bool {
-        Self::INDICATORS > 0
+        Self::FACTS.indicators > 0
     }
 
     /// An indicator, by its number: where it changes its sign, there is an event, and the law [switches](Effect::switch).
@@ -156,7 +114,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// that were. Until it is called again, the law keeps that branch, whatever the indicators say.
     fn switch(&mut self, _positive: &[bool], _motion: &Motion<f64>) {}
 
-    /// Its own states where the motion begins, which has zeros in their place; those beyond [`Effect::OWN`] do not count.
+    /// Its own states where the motion begins, which has zeros in their place; those beyond [`Facts::own`] do not count.
     fn own_at_start(&self, _start: &Motion<f64>) -> [f64; MOST_OWN] {
         [0.0; MOST_OWN]
     }
@@ -164,7 +122,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// How fast its own states die out, with its present parameters [1/s]: a composition steps backwards too, where they grow, and so takes
     /// no step that is longer than one over this.
     fn own_decay(&self) -> f64 {
-        if Self::OWN > 0 { f64::INFINITY } else { 0.0 }
+        if Self::FACTS.own > 0 { f64::INFINITY } else { 0.0 }
     }
 
     /// What its own states count with until they have been larger, in their units, > 0.
@@ -197,12 +155,12 @@ pub trait Effect: Clone + Default + Send + 'static {
         false
     }
 
-    /// What it shows its partner at the communication point, and what was set there; asked of what [has one](Effect::HAS_PARTNER).
+    /// What it shows its partner at the communication point, and what was set there; asked of what [may have one](Facts::partners).
     fn exchange(&self, _motion: &Motion<f64>) -> Option<Exchange> {
         None
     }
 
-    /// The law of its partner, which a run sets; None of what [has none](Effect::HAS_PARTNER).
+    /// The law of its partner, which a run sets; None of what [has none](Facts::partners).
     fn law_mut(&mut self) -> Option<&mut Law> {
         None
     }
@@ -243,17 +201,17 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Whether, with its present parameters, it can lose energy or be supplied with it: it is not conservative. Where no effect
     /// can, the work integrals are not solved.
     fn works(&self) -> bool {
-        Self::COULD_WORK
+        Self::FACTS.could_work
     }
 
-    /// Whether it is [analytic](Effect::ANALYTIC) with its present parameters and in its present branch.
+    /// Whether it is [analytic](Facts::analytic) with its present parameters and in its present branch.
     fn is_analytic(&self) -> bool {
-        Self::ANALYTIC
+        Self::FACTS.analytic
     }
 
     /// Whether, with its present parameters, its law is doubtful at some speeds: asked at each step, where the motion has begun.
     fn is_doubtful(&self) -> bool {
-        Self::MAY_BE_DOUBTED
+        Self::FACTS.may_be_doubted
     }
 
     /// What is doubtful of its law at ω_φ from the first to the second of these [rad/s].
@@ -321,18 +279,10 @@ pub struct Info {
     pub law: &'static str,
     /// What some of its variables are where a scene calls for it and gives none.
     pub where_empty: &'static [(&'static str, f64)],
-    /// Whether it can lose energy or be supplied with it.
-    pub could_work: bool,
-    /// Whether it can impose a speed.
-    pub imposes: bool,
-    /// How many indicators of events it has without a table.
-    pub indicators: usize,
-    /// How many with one.
-    pub indicators_with_table: usize,
-    /// Whether its law is analytic without a table.
-    pub analytic: bool,
-    /// Whether it is with one.
-    pub analytic_with_table: bool,
+    /// What it can do without a table.
+    pub facts: Facts,
+    /// What it can do with one, if it may have one.
+    pub facts_with_table: Facts,
     /// The effects after it that cannot act beside it.
     pub excludes: &'static [&'static str],
 }
@@ -402,8 +352,8 @@ macro_rules! catalogue {
             const _: () = {
                 type Largest = catalogue!(@largest $module $type $($nodes)?);
                 assert!(Largest::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
-                assert!(Largest::OWN <= MOST_OWN, "an effect has at most MOST_OWN states of its own");
-                assert!(Largest::LOADS <= MOST_LOADS, "an effect has at most MOST_LOADS loads");
+                assert!(Largest::FACTS.own <= MOST_OWN, "an effect has at most MOST_OWN states of its own");
+                assert!(Largest::FACTS.loads <= MOST_LOADS, "an effect has at most MOST_LOADS loads");
             };
         )*
 
@@ -419,12 +369,8 @@ macro_rules! catalogue {
             metas: || <catalogue!(@largest $module $type $($nodes)?)>::ROWS.iter().map(|row| row.meta).collect(),
             law: <$module::$type as Effect>::LAW,
             where_empty: <$module::$type as Effect>::WHERE_EMPTY,
-            could_work: <$module::$type as Effect>::COULD_WORK,
-            imposes: <$module::$type as Effect>::IMPOSES,
-            indicators: <$module::$type as Effect>::INDICATORS,
-            indicators_with_table: <catalogue!(@largest $module $type $($nodes)?)>::INDICATORS,
-            analytic: <$module::$type as Effect>::ANALYTIC,
-            analytic_with_table: <catalogue!(@largest $module $type $($nodes)?)>::ANALYTIC,
+            facts: <$module::$type as Effect>::FACTS,
+            facts_with_table: <catalogue!(@largest $module $type $($nodes)?)>::FACTS,
             excludes: <$module::$type as Effect>::EXCLUDES,
         }),*];
 

@@ -46,10 +46,10 @@ pub struct Frame {
 impl Frame {
     /// Of a body under effects that stay switched as they are, φ beyond these `turns`.
     pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
-        let active: usize = effects.active().map(|block| block.kind().own).sum();
+        let active: usize = effects.active().map(|block| block.kind().facts.own).sum();
         let (mut events, mut first) = (0, 0);
         for block in effects.blocks() {
-            let count = block.kind().indicators;
+            let count = block.kind().facts.indicators;
             if block.is_active() && block.has_events() {
                 events |= ((1 << count) - 1) << first;
             }

@@ -143,7 +143,7 @@ impl Scene {
         };
         let indicated = scene.effects.iter().map(|(info, index)| {
             let has_table = scene.nodes(Place::effect_block(info.number, *index)) > 0;
-            if has_table { info.indicators_with_table } else { info.indicators }
+            if has_table { info.facts_with_table.indicators } else { info.facts.indicators }
         });
         scene.indicators = ALWAYS_INDICATED + indicated.sum::<usize>();
         problems.extend(scene.broken_rules(&found.unsure).iter().map(|one| scene.problem(one)));

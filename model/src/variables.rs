@@ -481,7 +481,7 @@ impl<E: Effects> Parameters<E> {
     pub fn value<const N: usize>(&self, place: Place, t: f64, instant: Option<&Instant<N>>) -> Option<f64> {
         let Some(row) = always(place, E::FACTS.could_work) else {
             let (block, from) = self.effects.at(place)?;
-            let count = block.kind().own;
+            let count = block.kind().facts.own;
             let motion = instant.map(|now| Motion::new(&now.reading.motion, &now.own()[from..][..count]));
             let rates = instant.filter(|_| block.asks_rates(place.row)).map(|now| now.rates(&self.effects));
             let rates = rates.as_ref().map(|rates| seen(rates, from, count));
@@ -536,7 +536,7 @@ impl<E: Effects> Parameters<E> {
     pub fn tangent<const N: usize>(&self, place: Place, instant: &Instant<N, Tangent>) -> Option<Tangent> {
         let Some(row) = always(place, E::FACTS.could_work) else {
             let (block, from) = self.effects.at(place)?;
-            let count = block.kind().own;
+            let count = block.kind().facts.own;
             let rates = block.asks_rates(place.row).then(|| instant.rates(&self.effects));
             let rates = rates.as_ref().map(|rates| seen(rates, from, count));
             let motion = Motion::new(&instant.reading.motion, &instant.own()[from..][..count]);
@@ -557,7 +557,7 @@ impl<E: Effects> Parameters<E> {
     ) -> Option<Traced> {
         let Some(row) = always(place, E::FACTS.could_work) else {
             let (block, from) = self.effects.at(place)?;
-            let count = block.kind().own;
+            let count = block.kind().facts.own;
             let motion = Motion::new(&instant.reading.motion, &instant.own()[from..][..count]);
             return block.traced(place.row, &motion, &seen(rates, from, count));
         };
@@ -665,7 +665,7 @@ pub struct Variable {
 
 /// The list: all variables of a scene that calls for `effects`, each with its index from 1 among its kind; those of the solver last.
 pub fn of_scene(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
-    let could_work = effects.iter().any(|(info, _)| info.could_work);
+    let could_work = effects.iter().any(|(info, _)| info.facts.could_work);
     let mut list = Vec::new();
     let mut block = |block: u32, name: &dyn Fn(&str) -> String, metas: Vec<Meta>| {
         let placed = metas.into_iter().enumerate().map(|(row, meta)| (Place { block, row }, meta));

@@ -221,7 +221,7 @@ fn derivative_of(scene: &Scene, variable: &Variable) -> Option<usize> {
 
 /// Whether the variable is a state that changes at an event: where the chart does, or where an imposed speed jumps.
 fn is_set_anew(scene: &Scene, variable: &Variable) -> bool {
-    let jumps = || scene.effects.iter().any(|(info, _)| info.imposes);
+    let jumps = || scene.effects.iter().any(|(info, _)| info.facts.imposes);
     state_number(variable.place).is_some_and(|n| GAMMA.contains(&n) || n == PHI || (n == SUPPLIED && jumps()))
 }
 

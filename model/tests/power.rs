@@ -178,7 +178,7 @@ fn tail(effects: &mut All, ends: &[Coordinates<f64>; 2]) -> f64 {
 #[test]
 fn exact_laws_are_analytic_where_they_say_so() {
     for info in CATALOGUE {
-        for (has_table, analytic) in [(false, info.analytic), (true, info.analytic_with_table)] {
+        for (has_table, analytic) in [(false, info.facts.analytic), (true, info.facts_with_table.analytic)] {
             let mut random = Random(u64::from(info.number));
             let mut worst: f64 = 0.0;
             for _ in 0..LINES {

@@ -18,7 +18,7 @@ pub struct Act<S: Scalar> {
     pub supply: S,
     /// Power that leaves the mechanics \[W], ≥ 0.
     pub loss: S,
-    /// Rates of its own states; those beyond [`super::Effect::OWN`] do not count.
+    /// Rates of its own states; those beyond [`super::Facts::own`] do not count.
     pub own: [S; MOST_OWN],
 }
 

@@ -1,6 +1,6 @@
 //! `asymmetry`: a rotor whose transverse moments of inertia differ.
 
-use super::{Effect, Row};
+use super::{Effect, Facts, Row};
 use crate::body::Shape;
 use crate::variable::units::KILOGRAM_METRE_SQUARED;
 use crate::variable::{Bound, parameter};
@@ -25,11 +25,7 @@ impl Effect for Asymmetry {
         "moment of inertia about c and the axis that is z at phi = 0, gamma = 0; rotor.Jt is that about y"
     )];
 
-    const PUSHES: bool = false;
-
-    const COULD_WORK: bool = false;
-
-    const SHAPES: bool = true;
+    const FACTS: Facts = Facts { pushes: false, could_work: false, shapes: true, ..Facts::USUAL };
 
     fn shape(&self, body: &mut Shape) {
         body.Jt2 = Some(self.Jt2);

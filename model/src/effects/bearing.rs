@@ -1,7 +1,7 @@
 //! `bearing`: linear springs and dampers at a station, with cross coupling; against the speed where a table is given.
 
 use super::table::Table;
-use super::{Act, Change, Doubt, Effect, MOST_DOUBTS, MOST_LOADS, Motion, Pose, Row, Wrench};
+use super::{Act, Change, Doubt, Effect, Facts, MOST_DOUBTS, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{
@@ -299,13 +299,13 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
     const ROWS: &'static [Row<Self>] = Self::ALL.split_at(UNTABLED + OF_NODE * NODES).0;
 
     // A node is passed.
-    const INDICATORS: usize = (NODES > 0) as usize;
-
-    const ANALYTIC: bool = NODES == 0;
-
-    const LOADS: usize = 1;
-
-    const MAY_BE_DOUBTED: bool = true;
+    const FACTS: Facts = Facts {
+        loads: 1,
+        indicators: (NODES > 0) as usize,
+        analytic: NODES == 0,
+        may_be_doubted: true,
+        ..Facts::USUAL
+    };
 
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
@@ -414,7 +414,7 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
     }
 
     fn memory(&mut self) -> &mut [f64] {
-        &mut self.memory[..1 + Self::INDICATORS]
+        &mut self.memory[..1 + Self::FACTS.indicators]
     }
 
     fn restored(&mut self) -> bool {

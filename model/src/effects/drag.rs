@@ -1,6 +1,6 @@
 //! `drag`: what the medium around the rotor does to its spin, linear and quadratic in it.
 
-use super::{Act, Effect, Motion, Row, Wrench};
+use super::{Act, Effect, Facts, Motion, Row, Wrench};
 use crate::scalar::Scalar;
 use crate::variable::units::{
     NEWTON_METRE, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_METRE_SECOND_SQUARED_PER_RADIAN_SQUARED,
@@ -48,7 +48,7 @@ impl Effect for Drag {
     ];
 
     // |ω_a| bends at zero.
-    const ANALYTIC: bool = false;
+    const FACTS: Facts = Facts { analytic: false, ..Facts::USUAL };
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {

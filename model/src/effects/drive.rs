@@ -1,7 +1,7 @@
 //! `drive`: a torque from outside, and the angle that goes with it.
 
 use super::partner::{LOADS, Loads, Shown, Slopes};
-use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
+use super::{Act, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
@@ -111,7 +111,7 @@ impl Effect for Drive {
         Act { load: Wrench::along_joint(motion, tau), supply, ..Act::none() }
     }
 
-    const HAS_PARTNER: bool = true;
+    const FACTS: Facts = Facts { partners: 1, ..Facts::USUAL };
 
     fn is_analytic(&self) -> bool {
         !self.is_known()

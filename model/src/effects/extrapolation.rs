@@ -1,6 +1,6 @@
 //! `extrapolation`: what inputs will be over the next step, from what they were.
 
-use super::{Effect, Row};
+use super::{Effect, Facts, Row};
 use crate::signal::{NODES, Signal, goes_on};
 use crate::variable::units::ONE;
 use crate::variable::{Access, Bound, Kind, Meta, Role, parameter};
@@ -93,13 +93,8 @@ impl Effect for Extrapolation {
         ),
     ];
 
-    const PUSHES: bool = false;
-
-    const COULD_WORK: bool = false;
-
-    const EXTRAPOLATES: bool = true;
-
-    const MOST_EXTRAPOLATED: usize = MOST;
+    const FACTS: Facts =
+        Facts { pushes: false, could_work: false, extrapolates: true, most_extrapolated: MOST, ..Facts::USUAL };
 
     fn begin(&mut self, _start: &super::Motion<f64>) {
         self.memory[0] = 0.0;

@@ -1,6 +1,6 @@
 //! `gravity`: uniform gravity on the mass centre.
 
-use super::{Act, Effect, Motion, Row, Wrench};
+use super::{Act, Effect, Facts, Motion, Row, Wrench};
 use crate::scalar::Scalar;
 use crate::variable::units::METRE_PER_SECOND_SQUARED;
 use crate::variable::{Bound, parameter};
@@ -24,9 +24,7 @@ impl Effect for Gravity {
 
     const WHERE_EMPTY: &'static [(&'static str, f64)] = &[("g.z", -9.81)];
 
-    const COULD_WORK: bool = false;
-
-    const PUSHES: bool = false;
+    const FACTS: Facts = Facts { could_work: false, pushes: false, ..Facts::USUAL };
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {

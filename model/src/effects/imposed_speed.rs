@@ -3,7 +3,7 @@
 //! Both inputs tell one signal, a speed that is continuous: a new rate bends it from where it is, a new speed sets it. Where a
 //! host sends derivatives of w, they tell the rate themselves.
 
-use super::{Effect, InputSet, Motion, Row, Terminal};
+use super::{Effect, Facts, InputSet, Motion, Row, Terminal};
 use crate::scalar::{Scalar, ulp};
 use crate::signal::Signal;
 use crate::state::{Kinematics, Rates};
@@ -137,9 +137,7 @@ impl Effect for ImposedSpeed {
         ),
     ];
 
-    const IMPOSES: bool = true;
-
-    const TELLS_RATES: bool = true;
+    const FACTS: Facts = Facts { imposes: true, tells_rates: true, ..Facts::USUAL };
 
     const EXCLUDES: &'static [&'static str] = &["motor"];
 

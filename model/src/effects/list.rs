@@ -9,7 +9,7 @@ mod member;
 pub use block::{Block, Kind};
 pub use member::{Called, Switched};
 
-use super::{Act, Change, Doubt, Effect, InputSet, Law, MOST_DOUBTS, MOST_OWN, Motion, Pose, Wrench};
+use super::{Act, Change, Doubt, Effect, Facts, InputSet, Law, MOST_DOUBTS, MOST_OWN, Motion, Pose, Wrench};
 use crate::body::Shape;
 use crate::dual::Tangent;
 use crate::error::Invalid;
@@ -18,46 +18,11 @@ use crate::signal::Signal;
 use crate::state::Kinematics;
 use crate::stored::{Damaged, Stored, Walk};
 use crate::variable::{Meta, Place};
-use member::{Member, inputs_extrapolated};
+use member::Member;
 
 /// Whether what extrapolates inputs has room for all of the list's.
 pub const fn follows_all_inputs<E: Effects>() -> bool {
     E::FACTS.extrapolated <= E::FACTS.most_extrapolated
-}
-
-/// What is known of a list while it is compiled.
-#[derive(Clone, Copy, Debug)]
-pub struct Facts {
-    /// How many effects it has.
-    pub count: usize,
-    /// How many states they have of their own.
-    pub own: usize,
-    /// How many of their outputs are loads whose errors count.
-    pub loads: usize,
-    /// Whether any of them can show the velocity of a station.
-    pub shows_velocity: bool,
-    /// How many indicators of events they have.
-    pub indicators: usize,
-    /// Whether any of them has a switch.
-    pub switched: bool,
-    /// Whether any of them can lose energy or be supplied with it, with any parameters.
-    pub could_work: bool,
-    /// Whether any of them can shape the body.
-    pub shapes: bool,
-    /// Whether any of them can follow φ.
-    pub follows_phi: bool,
-    /// Whether the law of any of them may be doubtful at some speeds.
-    pub may_be_doubted: bool,
-    /// Whether any of them can impose a speed.
-    pub imposes: bool,
-    /// Whether any of them can extrapolate inputs.
-    pub extrapolates: bool,
-    /// How many inputs they have that may be extrapolated.
-    pub extrapolated: usize,
-    /// How many can be.
-    pub most_extrapolated: usize,
-    /// How many of them may have partners.
-    pub partners: usize,
 }
 
 /// The effects of a scene together: sums of what each does, and the way to each.
@@ -123,7 +88,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
 
     /// Whether any of them follows φ.
     fn follows_phi(&self) -> bool {
-        self.active().any(|block| block.kind().follows_phi)
+        self.active().any(|block| block.kind().facts.follows_phi)
     }
 
     /// Whether the law of any of them has no limit where |γ| = π.
@@ -133,27 +98,27 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
 
     /// What that is, of the first.
     fn no_limit(&self) -> Option<&'static str> {
-        self.active().find_map(Block::no_limit)
+        self.active().find_map(|block| block.no_limit())
     }
 
     /// Whether any of them can act on the rotor other than by its weight.
     fn push(&self) -> bool {
-        self.active().any(|block| block.kind().pushes)
+        self.active().any(|block| block.kind().facts.pushes)
     }
 
     /// Whether any of them can lose energy or be supplied with it.
     fn works(&self) -> bool {
-        self.active().any(Block::works)
+        self.active().any(|block| block.works())
     }
 
     /// Whether what any of them applies depends on how fast the rotor moves, or on states of its own.
     fn follows_speed(&self) -> bool {
-        self.active().any(|block| block.follows_speed() || block.kind().own > 0)
+        self.active().any(|block| block.follows_speed() || block.kind().facts.own > 0)
     }
 
     /// Whether the laws of all of them are analytic as they are now.
     fn are_analytic(&self) -> bool {
-        self.active().all(Block::is_analytic)
+        self.active().all(|block| block.is_analytic())
     }
 
     /// Reports what is doubtful of those that act, each by its name, at ω_φ from the first to the second of these [rad/s], and was not
@@ -171,7 +136,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Whether any of them extrapolates inputs.
     #[inline(always)]
     fn extrapolates(&self) -> bool {
-        Self::FACTS.extrapolates && self.active().any(|block| block.kind().extrapolates)
+        Self::FACTS.extrapolates && self.active().any(|block| block.kind().facts.extrapolates)
     }
 
     /// The first parameter whose value is not possible.
@@ -190,7 +155,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn begin(&mut self, start: &Kinematics<f64>, own: &mut [f64], nominal: &mut [f64]) {
         let mut from = 0;
         self.for_each(|block| {
-            let count = block.kind().own;
+            let count = block.kind().facts.own;
             let motion = Motion::new(start, &[0.0; MOST_OWN][..count]);
             if let Some(law) = block.law_mut() {
                 *law = Law::default();
@@ -208,9 +173,9 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn switch(&mut self, positive: &[bool], motion: &Kinematics<f64>, own: &[f64]) {
         let (mut from, mut first) = (0, 0);
         self.for_each(|block| {
-            let kind = block.kind();
-            block.hear_signs(&positive[first..][..kind.indicators], &Motion::new(motion, &own[from..][..kind.own]));
-            (from, first) = (from + kind.own, first + kind.indicators);
+            let facts = &block.kind().facts;
+            block.switch(&positive[first..][..facts.indicators], &Motion::new(motion, &own[from..][..facts.own]));
+            (from, first) = (from + facts.own, first + facts.indicators);
         });
     }
 
@@ -218,7 +183,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn step_to(&mut self, end: &Kinematics<f64>, own: &[f64]) {
         let mut from = 0;
         self.for_each(|block| {
-            let to = from + block.kind().own;
+            let to = from + block.kind().facts.own;
             if block.is_active() {
                 block.step_to(&Motion::new(end, &own[from..to]));
             }
@@ -246,19 +211,19 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
 
     /// How many communication steps values of inputs are late, where that is given \[1].
     fn lag(&self) -> Option<f64> {
-        self.active().find_map(Block::lag)
+        self.active().find_map(|block| block.lag())
     }
 
     /// The degree of the polynomials as which inputs go on; 0 where they are held.
     fn order(&self) -> usize {
-        self.active().map(Block::order).max().unwrap_or_default()
+        self.active().map(|block| block.order()).max().unwrap_or_default()
     }
 
     /// Goes through those that may have partners, each with its number among them.
     fn for_each_partner(&mut self, mut act: impl FnMut(usize, &mut dyn Block)) {
         let mut number = 0;
         self.for_each(|block| {
-            if block.kind().has_partner {
+            if block.kind().facts.partners > 0 {
                 act(number, block);
                 number += 1;
             }
@@ -277,7 +242,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Each input that may be extrapolated.
     fn for_each_extrapolated(&mut self, act: &mut dyn FnMut(&mut Signal)) {
         self.for_each(|block| {
-            if !block.kind().tells_rates {
+            if !block.kind().facts.tells_rates {
                 block.for_each_signal(act);
             }
         });
@@ -288,7 +253,8 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         for n in 0..Self::FACTS.count {
             let (Some(block), Some(other)) = (self.nth_mut(n), other.nth(n)) else { continue };
             // A port that goes on by the law of its partner holds what was set.
-            let (tells_rates, mut row) = (block.kind().tells_rates || block.law_mut().is_some_and(|law| law.is_on), 0);
+            let (tells_rates, mut row) =
+                (block.kind().facts.tells_rates || block.law_mut().is_some_and(|law| law.is_on), 0);
             while !tells_rates && (block.kind().meta)(row).is_some() {
                 if let (Some(signal), Some(extrapolated)) = (block.signal_mut(row), other.signal(row)) {
                     *signal = *extrapolated;
@@ -308,7 +274,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     fn meta(place: Place) -> Option<&'static Meta> {
         let [n, _] = Self::number_of(place.block)?;
         let kind = Self::kind(n)?;
-        if kind.switched && place.row == Place::SWITCH { Some(&kind.switch) } else { (kind.meta)(place.row) }
+        if kind.facts.switched && place.row == Place::SWITCH { Some(&kind.switch) } else { (kind.meta)(place.row) }
     }
 
     /// The full name of the variable at this place; None where there is none.
@@ -349,7 +315,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Switches the effect at this place on, where it has a switch.
     fn switch_on(&mut self, block: u32) {
         if let Some(block) = self.at_mut(Place::switch(block)) {
-            block.switch(true);
+            block.switch_to(true);
         }
     }
 }
@@ -362,23 +328,7 @@ impl Stored for () {
 
 /// The end of a list.
 impl Effects for () {
-    const FACTS: Facts = Facts {
-        count: 0,
-        own: 0,
-        loads: 0,
-        shows_velocity: false,
-        indicators: 0,
-        switched: false,
-        could_work: false,
-        shapes: false,
-        follows_phi: false,
-        may_be_doubted: false,
-        imposes: false,
-        extrapolates: false,
-        extrapolated: 0,
-        most_extrapolated: usize::MAX,
-        partners: 0,
-    };
+    const FACTS: Facts = Facts::NONE;
 
     #[inline(always)]
     fn act<S: Scalar>(&self, _motion: &Motion<S>) -> Act<S> {
@@ -439,31 +389,11 @@ fn called<E: Effect, S: Scalar>(effect: &E, motion: &Motion<S>) -> (Wrench<S>, W
 
 /// An effect and the rest of the list.
 impl<H: Member, T: Effects> Effects for (H, T) {
-    const FACTS: Facts = {
-        let rest = T::FACTS;
-        let most = H::Effect::MOST_EXTRAPOLATED;
-        Facts {
-            count: 1 + rest.count,
-            own: H::Effect::OWN + rest.own,
-            loads: H::Effect::LOADS + rest.loads,
-            shows_velocity: H::Effect::SHOWS_VELOCITY || rest.shows_velocity,
-            indicators: H::Effect::INDICATORS + rest.indicators,
-            switched: H::SWITCHED || rest.switched,
-            could_work: H::Effect::COULD_WORK || rest.could_work,
-            shapes: H::Effect::SHAPES || rest.shapes,
-            follows_phi: H::Effect::FOLLOWS_PHI || rest.follows_phi,
-            may_be_doubted: H::Effect::MAY_BE_DOUBTED || rest.may_be_doubted,
-            imposes: H::Effect::IMPOSES || rest.imposes,
-            extrapolates: H::Effect::EXTRAPOLATES || rest.extrapolates,
-            extrapolated: inputs_extrapolated::<H::Effect>() + rest.extrapolated,
-            most_extrapolated: if most < rest.most_extrapolated { most } else { rest.most_extrapolated },
-            partners: H::Effect::HAS_PARTNER as usize + rest.partners,
-        }
-    };
+    const FACTS: Facts = H::KIND.facts.and(T::FACTS);
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
-        let (mine, others) = motion.all_own().split_at(H::Effect::OWN);
+        let (mine, others) = motion.all_own().split_at(H::Effect::FACTS.own);
         let mut all = self.1.act(&motion.seen_with(others));
         let Some(effect) = self.0.active() else { return all };
         let seen = motion.seen_with(mine);
@@ -481,28 +411,28 @@ impl<H: Member, T: Effects> Effects for (H, T) {
 
     #[inline(always)]
     fn stored<S: Scalar>(&self, motion: &Motion<S>) -> S {
-        let (mine, others) = motion.all_own().split_at(H::Effect::OWN);
+        let (mine, others) = motion.all_own().split_at(H::Effect::FACTS.own);
         let rest = self.1.stored(&motion.seen_with(others));
         self.0.active().map_or(rest, |effect| effect.act(&motion.seen_with(mine)).stored + rest)
     }
 
     #[inline(always)]
     fn own_rates<S: Scalar>(&self, motion: &Motion<S>, rates: &mut [S]) {
-        let (mine, others) = motion.all_own().split_at(H::Effect::OWN);
-        let (to, other_rates) = rates.split_at_mut(H::Effect::OWN);
-        if H::Effect::OWN > 0
+        let (mine, others) = motion.all_own().split_at(H::Effect::FACTS.own);
+        let (to, other_rates) = rates.split_at_mut(H::Effect::FACTS.own);
+        if H::Effect::FACTS.own > 0
             && let Some(effect) = self.0.active()
         {
-            to.copy_from_slice(&effect.act(&motion.seen_with(mine)).own[..H::Effect::OWN]);
+            to.copy_from_slice(&effect.act(&motion.seen_with(mine)).own[..H::Effect::FACTS.own]);
         }
         self.1.own_rates(&motion.seen_with(others), other_rates);
     }
 
     #[inline(always)]
     fn indicators(&self, motion: &Kinematics<f64>, own: &[f64], all: &mut [f64]) {
-        let (mine, others) = own.split_at(H::Effect::OWN);
-        let (to, other_indicators) = all.split_at_mut(H::Effect::INDICATORS);
-        if H::Effect::INDICATORS > 0
+        let (mine, others) = own.split_at(H::Effect::FACTS.own);
+        let (to, other_indicators) = all.split_at_mut(H::Effect::FACTS.indicators);
+        if H::Effect::FACTS.indicators > 0
             && let Some(effect) = self.0.active()
         {
             let seen = Motion::new(motion, mine);
@@ -513,19 +443,19 @@ impl<H: Member, T: Effects> Effects for (H, T) {
 
     #[inline(always)]
     fn loads<const SIZES: bool>(&self, at: &Pose, change: &Change, squares: &mut [f64]) {
-        let (to, others) = squares.split_at_mut(H::Effect::LOADS);
-        if H::Effect::LOADS > 0
+        let (to, others) = squares.split_at_mut(H::Effect::FACTS.loads);
+        if H::Effect::FACTS.loads > 0
             && let Some(effect) = self.0.active()
         {
             let loads = if SIZES { effect.load_sizes(at, change) } else { effect.load_changes(at, change) };
-            to.copy_from_slice(&loads[..H::Effect::LOADS]);
+            to.copy_from_slice(&loads[..H::Effect::FACTS.loads]);
         }
         self.1.loads::<SIZES>(at, change, others);
     }
 
     #[inline(always)]
     fn shows_velocity(&self) -> bool {
-        (H::Effect::SHOWS_VELOCITY && self.0.active().is_some()) || self.1.shows_velocity()
+        (H::Effect::FACTS.shows_velocity && self.0.active().is_some()) || self.1.shows_velocity()
     }
 
     #[inline(always)]
@@ -553,6 +483,6 @@ impl<H: Member, T: Effects> Effects for (H, T) {
         if block == H::KIND.block {
             return Some([0, 0]);
         }
-        T::number_of(block).map(|[n, own]| [n + 1, own + H::Effect::OWN])
+        T::number_of(block).map(|[n, own]| [n + 1, own + H::Effect::FACTS.own])
     }
 }

@@ -222,7 +222,7 @@ impl<'m, S: Scalar> Motion<'m, S> {
         self.series().map_or_else(|| self.kinematics.axial_rate(), rate)
     }
 
-    /// φ \[rad]; a law that asks for it declares that it [follows φ](super::Effect::FOLLOWS_PHI).
+    /// φ \[rad]; a law that asks for it declares that it [follows φ](super::Facts::follows_phi).
     pub fn phi(&self) -> S {
         self.kinematics.phi()
     }

@@ -1,6 +1,6 @@
 //! `motor`: a torque that falls with the speed, so that its power is limited (Sommerfeld 1902).
 
-use super::{Act, Effect, MOST_OWN, Motion, Row, Wrench};
+use super::{Act, Effect, Facts, MOST_OWN, Motion, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
@@ -85,7 +85,7 @@ impl Effect for Motor {
         own!(rate 0, "der(state.tau)", &NEWTON_METRE_PER_SECOND, "rate of the torque that follows the characteristic"),
     ];
 
-    const OWN: usize = 1;
+    const FACTS: Facts = Facts { own: 1, ..Facts::USUAL };
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {

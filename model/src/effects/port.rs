@@ -1,7 +1,7 @@
 //! `port`: force and moment from outside at a station, and the motion that goes with them.
 
 use super::partner::{LOADS, Loads, Shown, Slopes};
-use super::{Act, Effect, Exchange, Law, Motion, Row, Terminal, Wrench};
+use super::{Act, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
@@ -201,9 +201,7 @@ impl Effect for Port {
         }
     }
 
-    const SHOWS_VELOCITY: bool = true;
-
-    const HAS_PARTNER: bool = true;
+    const FACTS: Facts = Facts { shows_velocity: true, partners: 1, ..Facts::USUAL };
 
     fn is_answered(&self, t: f64) -> bool {
         // A master that sends derivatives knows how its loads go on.

@@ -1,6 +1,6 @@
 //! `probe`: what sensors at a station see; they do nothing to the rotor.
 
-use super::{Effect, Row};
+use super::{Effect, Facts, Row};
 use crate::variable::units::{METRE, METRE_PER_SECOND, RADIAN};
 use crate::variable::{Bound, output, parameter};
 
@@ -31,9 +31,5 @@ impl Effect for Probe {
         output!("v.z", &METRE_PER_SECOND, "velocity of the station, z", |p, m| m.station_velocity(p.position).z),
     ];
 
-    const SHOWS_VELOCITY: bool = true;
-
-    const PUSHES: bool = false;
-
-    const COULD_WORK: bool = false;
+    const FACTS: Facts = Facts { shows_velocity: true, pushes: false, could_work: false, ..Facts::USUAL };
 }

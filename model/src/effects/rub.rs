@@ -1,6 +1,6 @@
 //! `rub`: contact of a station with a ring around it, with Coulomb friction.
 
-use super::{Act, Change, Effect, MOST_LOADS, Motion, Pose, Row, Wrench};
+use super::{Act, Change, Effect, Facts, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE};
@@ -131,13 +131,9 @@ impl Effect for Rub {
         }),
     ];
 
-    const INDICATORS: usize = 2;
+    const FACTS: Facts = Facts { indicators: 2, analytic: false, loads: 1, ..Facts::USUAL };
 
     // It touches, or it does not.
-    const ANALYTIC: bool = false;
-
-    const LOADS: usize = 1;
-
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
         let Some((depth, outward)) = self.pressed(at) else { return [0.0; MOST_LOADS] };

@@ -1,6 +1,6 @@
 //! `support`: the paper's spring block at the rod's end a, with damping of our own.
 
-use super::{Act, Change, Effect, MOST_LOADS, Motion, Pose, Row, Wrench};
+use super::{Act, Change, Effect, Facts, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::scalar::Scalar;
 use crate::variable::units::{
     NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, NEWTON_PER_METRE,
@@ -65,7 +65,7 @@ impl Effect for Support {
         output!("M.z", &NEWTON_METRE, "moment against tilt on the rotor about z", |s, m| s.moment(m).z),
     ];
 
-    const LOADS: usize = 2;
+    const FACTS: Facts = Facts { loads: 2, ..Facts::USUAL };
 
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {

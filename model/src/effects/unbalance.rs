@@ -1,6 +1,6 @@
 //! `unbalance`: a point mass on the rotor.
 
-use super::{Effect, Row};
+use super::{Effect, Facts, Row};
 use crate::body::Shape;
 use crate::variable::units::{KILOGRAM, METRE, RADIAN};
 use crate::variable::{Bound, parameter};
@@ -36,11 +36,7 @@ impl Effect for Unbalance {
         parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
     ];
 
-    const PUSHES: bool = false;
-
-    const COULD_WORK: bool = false;
-
-    const SHAPES: bool = true;
+    const FACTS: Facts = Facts { pushes: false, could_work: false, shapes: true, ..Facts::USUAL };
 
     fn shape(&self, body: &mut Shape) {
         let (sine, cosine) = libm::sincos(self.angle);

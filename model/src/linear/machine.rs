@@ -150,7 +150,7 @@ pub(crate) fn stop_drives(parameters: &mut Parameters<All>) {
 fn switch_off(effects: &[&str], parameters: &mut Parameters<All>) {
     parameters.effects.for_each(|block| {
         if effects.contains(&block.kind().name) {
-            block.switch(false);
+            block.switch_to(false);
         }
     });
 }

@@ -12,7 +12,7 @@ use super::method::Method;
 use super::plan::Plan;
 use super::rattle::{Rattle, Rattles};
 use super::start::{Motion, tolerance};
-use crate::effects::{Block, Effects};
+use crate::effects::Effects;
 use crate::energy::{Ledger, kinetic};
 use crate::integrate::taylor::Scratch;
 use crate::integrate::{Cost, Fault, Refusal, Tolerance};
@@ -523,7 +523,7 @@ impl<const N: usize> Integration<N> {
                 self.method.limit_step(LONGEST_LOOK / self.nutation().sqrt());
             }
             if E::FACTS.own > 0 {
-                let decay = effects.active().map(Block::own_decay).fold(0.0, f64::max);
+                let decay = effects.active().map(|block| block.own_decay()).fold(0.0, f64::max);
                 self.method.limit_step(1.0 / decay);
             }
             return;

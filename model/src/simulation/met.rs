@@ -1,6 +1,6 @@
 //! The speeds that a motion came to, where the law of an effect may not be known at all of them.
 
-use crate::effects::{Block, Effects};
+use crate::effects::Effects;
 use crate::rotor::Rotor;
 use crate::stored::stored;
 
@@ -21,7 +21,7 @@ impl Met {
     /// Whether speeds matter under these effects.
     #[inline(always)]
     pub fn is_due<E: Effects>(effects: &E) -> bool {
-        E::FACTS.may_be_doubted && effects.active().any(Block::is_doubtful)
+        E::FACTS.may_be_doubted && effects.active().any(|block| block.is_doubtful())
     }
 
     /// Looks at the rotor at time `t` \[s] and state `y`.

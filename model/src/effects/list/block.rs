@@ -1,8 +1,11 @@
 //! An effect of a list without its type: what is not asked in every evaluation.
 
+use super::member::Member;
 use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
-use crate::effects::{Doubt, Exchange, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
+use crate::effects::{
+    Doubt, Effect, Exchange, Facts, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name,
+};
 use crate::error::Invalid;
 use crate::signal::Signal;
 use crate::state::Rates;
@@ -21,24 +24,10 @@ pub struct Kind {
     pub index: u32,
     /// Its block of value references.
     pub block: u32,
-    /// Whether it has a switch, and what is said of that.
-    pub switched: bool,
-    /// See `switched`.
+    /// What is said of its switch, if it has one.
     pub switch: Meta,
-    /// How many states of its own it has.
-    pub own: usize,
-    /// How many indicators of events it has.
-    pub indicators: usize,
-    /// Whether it can act on the rotor other than by its weight.
-    pub pushes: bool,
-    /// Whether it extrapolates inputs.
-    pub extrapolates: bool,
-    /// Whether what it does follows φ.
-    pub follows_phi: bool,
-    /// Whether its own inputs tell one another's rates.
-    pub tells_rates: bool,
-    /// Whether it may have a partner.
-    pub has_partner: bool,
+    /// What it can do, and how much room it needs.
+    pub facts: Facts,
     /// Which effects cannot act beside it.
     pub excludes: &'static [&'static str],
     /// What is said of its variable in this row; None where there is none.
@@ -62,60 +51,68 @@ impl Kind {
     }
 }
 
+/// Hooks of an effect that are passed on as they are: a new one stands in [`Effect`] and here.
+macro_rules! passed_on {
+    (
+        $(fn $asked:ident($($of:ident: $type:ty),*) $(-> $answer:ty)?;)*
+        mut:
+        $(fn $told:ident($($with:ident: $what:ty),*) $(-> $result:ty)?;)*
+    ) => {
+        /// What is passed on to the effect.
+        pub trait Hooks {
+            $(#[doc = concat!("[`Effect::", stringify!($asked), "`].")]
+            fn $asked(&self, $($of: $type),*) $(-> $answer)?;)*
+            $(#[doc = concat!("[`Effect::", stringify!($told), "`].")]
+            fn $told(&mut self, $($with: $what),*) $(-> $result)?;)*
+        }
+
+        impl<M: Member> Hooks for M {
+            $(fn $asked(&self, $($of: $type),*) $(-> $answer)? {
+                self.effect().$asked($($of),*)
+            })*
+            $(fn $told(&mut self, $($with: $what),*) $(-> $result)? {
+                self.effect_mut().$told($($with),*)
+            })*
+        }
+    };
+}
+
+passed_on! {
+    fn shape(body: &mut Shape);
+    fn no_limit() -> Option<&'static str>;
+    fn works() -> bool;
+    fn is_analytic() -> bool;
+    fn follows_speed() -> bool;
+    fn is_doubtful() -> bool;
+    fn doubts(speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS];
+    fn has_events() -> bool;
+    fn own_at_start(start: &Motion<f64>) -> [f64; MOST_OWN];
+    fn own_decay() -> f64;
+    fn own_nominal() -> [f64; MOST_OWN];
+    fn is_answered(t: f64) -> bool;
+    fn exchange(motion: &Motion<f64>) -> Option<Exchange>;
+    fn acting(t: f64) -> [Loads; 3];
+    fn order() -> usize;
+    fn lag() -> Option<f64>;
+    mut:
+    fn begin(start: &Motion<f64>);
+    fn switch(positive: &[bool], motion: &Motion<f64>);
+    fn step_from(t: f64);
+    fn step_to(end: &Motion<f64>);
+    fn extrapolate(number: usize, signal: &mut Signal);
+    fn law_mut() -> Option<&mut Law>;
+}
+
 /// An effect of a list. Rows are those of its variables.
-pub trait Block {
+pub trait Block: Hooks {
     /// What it is.
     fn kind(&self) -> &'static Kind;
     /// Whether it is not switched off.
     fn is_active(&self) -> bool;
-    /// Switches it, where it has a switch.
-    fn switch(&mut self, on: bool);
-    /// Adds its share to the mass, mass centre and inertia of the body.
-    fn shape(&self, body: &mut Shape);
-    /// What of its law has no limit where |γ| = π.
-    fn no_limit(&self) -> Option<&'static str>;
-    /// Whether it can lose energy or be supplied with it.
-    fn works(&self) -> bool;
-    /// Whether its law is analytic as it is now.
-    fn is_analytic(&self) -> bool;
-    /// Whether what it applies depends on how fast the rotor moves.
-    fn follows_speed(&self) -> bool;
-    /// Whether its law is doubtful at some speeds.
-    fn is_doubtful(&self) -> bool;
-    /// What is doubtful of it at ω_φ from the first to the second of these [rad/s].
-    fn doubts(&self, speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS];
+    /// Switches it on or off, where it has a switch.
+    fn switch_to(&mut self, on: bool);
     /// The first of its parameters whose value is not possible.
     fn check(&self) -> Result<(), Invalid>;
-    /// Whether it has events.
-    fn has_events(&self) -> bool;
-    /// Goes on where its indicators have these signs.
-    fn hear_signs(&mut self, positive: &[bool], motion: &Motion<f64>);
-    /// Hears where the motion begins.
-    fn begin(&mut self, start: &Motion<f64>);
-    /// Its own states there.
-    fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN];
-    /// How fast they die out [1/s].
-    fn own_decay(&self) -> f64;
-    /// What they count with until they have been larger.
-    fn own_nominal(&self) -> [f64; MOST_OWN];
-    /// Hears that a communication step begins at time `t` \[s].
-    fn step_from(&mut self, t: f64);
-    /// Hears where one ended.
-    fn step_to(&mut self, end: &Motion<f64>);
-    /// Extrapolates the input of this number.
-    fn extrapolate(&mut self, number: usize, signal: &mut Signal);
-    /// Whether a value was set of its inputs at the communication point `t` \[s].
-    fn is_answered(&self, t: f64) -> bool;
-    /// What it shows its partner at the communication point, and what was set there.
-    fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange>;
-    /// The law of its partner; None of what may have none.
-    fn law_mut(&mut self) -> Option<&mut Law>;
-    /// What acts of its inputs from the communication point `t` \[s] on.
-    fn acting(&self, t: f64) -> [Loads; 3];
-    /// The degree of the polynomials as which inputs go on by it.
-    fn order(&self) -> usize;
-    /// How many communication steps values of inputs are late, where that is given.
-    fn lag(&self) -> Option<f64>;
     /// Shows each of its inputs.
     fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal));
     /// Whether a variable is calculated from the rates of the state too.

@@ -1,8 +1,7 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Doubt, Effect, Entry, Exchange, InputSet, Law, Loads, MOST_DOUBTS, MOST_OWN, Motion, Row};
+use super::super::{Effect, Entry, Facts, InputSet, Motion, Row};
 use super::{Block, Kind, Tangent};
-use crate::body::Shape;
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
@@ -53,22 +52,20 @@ pub trait Member: Block + Clone + Default + Send + Stored + 'static {
     /// Its law and parameters.
     fn effect_mut(&mut self) -> &mut Self::Effect;
     /// Switches it, where it has a switch.
-    fn switch_to(&mut self, on: bool);
+    fn set_on(&mut self, on: bool);
     /// What it is.
     const KIND: Kind = Kind {
         name: Self::Effect::NAME,
         several: Self::Effect::SEVERAL,
         index: Self::INDEX,
         block: Place::effect_block(Self::Effect::NUMBER, Self::INDEX),
-        switched: Self::SWITCHED,
         switch: Self::Effect::SWITCH,
-        own: Self::Effect::OWN,
-        indicators: Self::Effect::INDICATORS,
-        pushes: Self::Effect::PUSHES,
-        follows_phi: Self::Effect::FOLLOWS_PHI,
-        extrapolates: Self::Effect::EXTRAPOLATES,
-        tells_rates: Self::Effect::TELLS_RATES,
-        has_partner: Self::Effect::HAS_PARTNER,
+        facts: {
+            let facts = Self::Effect::FACTS;
+            let extrapolated = if facts.tells_rates { 0 } else { inputs::<Self::Effect>() };
+            let follows_phi = facts.follows_phi || facts.shapes;
+            Facts { switched: Self::SWITCHED, extrapolated, follows_phi, ..facts }
+        },
         excludes: Self::Effect::EXCLUDES,
         meta: |row| Self::Effect::ROWS.get(row).map(|row| &row.meta),
     };
@@ -92,7 +89,7 @@ impl<E: Entry, const INDEX: u32> Member for Called<E, INDEX> {
         &mut self.0
     }
 
-    fn switch_to(&mut self, _on: bool) {}
+    fn set_on(&mut self, _on: bool) {}
 }
 
 impl<E: Entry, const INDEX: u32> Member for Switched<E, INDEX> {
@@ -113,7 +110,7 @@ impl<E: Entry, const INDEX: u32> Member for Switched<E, INDEX> {
         &mut self.effect
     }
 
-    fn switch_to(&mut self, on: bool) {
+    fn set_on(&mut self, on: bool) {
         self.on = on;
     }
 }
@@ -147,10 +144,10 @@ fn walk_rows<E: Effect>(effect: &mut E, walk: &mut impl Walk) -> Result<(), Dama
     if effect.restored() { Ok(()) } else { Err(Damaged) }
 }
 
-/// How many inputs of an effect may be extrapolated.
-pub(super) const fn inputs_extrapolated<E: Effect>() -> usize {
+/// How many inputs an effect has.
+const fn inputs<E: Effect>() -> usize {
     let (mut row, mut inputs) = (0, 0);
-    while row < E::ROWS.len() && !E::TELLS_RATES {
+    while row < E::ROWS.len() {
         inputs += matches!(E::ROWS[row].access, Access::Input { .. }) as usize;
         row += 1;
     }
@@ -183,36 +180,8 @@ impl<M: Member> Block for M {
         self.active().is_some()
     }
 
-    fn switch(&mut self, on: bool) {
-        self.switch_to(on);
-    }
-
-    fn shape(&self, body: &mut Shape) {
-        self.effect().shape(body);
-    }
-
-    fn no_limit(&self) -> Option<&'static str> {
-        self.effect().no_limit()
-    }
-
-    fn works(&self) -> bool {
-        self.effect().works()
-    }
-
-    fn is_analytic(&self) -> bool {
-        self.effect().is_analytic()
-    }
-
-    fn follows_speed(&self) -> bool {
-        self.effect().follows_speed()
-    }
-
-    fn is_doubtful(&self) -> bool {
-        M::Effect::MAY_BE_DOUBTED && self.effect().is_doubtful()
-    }
-
-    fn doubts(&self, speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS] {
-        self.effect().doubts(speeds)
+    fn switch_to(&mut self, on: bool) {
+        self.set_on(on);
     }
 
     fn check(&self) -> Result<(), Invalid> {
@@ -224,66 +193,6 @@ impl<M: Member> Block for M {
         }
         let within = |invalid: Invalid| Invalid { variable: M::KIND.full_name(&invalid.variable), ..invalid };
         effect.check().map_err(within)
-    }
-
-    fn has_events(&self) -> bool {
-        self.effect().has_events()
-    }
-
-    fn hear_signs(&mut self, positive: &[bool], motion: &Motion<f64>) {
-        self.effect_mut().switch(positive, motion);
-    }
-
-    fn begin(&mut self, start: &Motion<f64>) {
-        self.effect_mut().begin(start);
-    }
-
-    fn own_at_start(&self, start: &Motion<f64>) -> [f64; MOST_OWN] {
-        self.effect().own_at_start(start)
-    }
-
-    fn own_decay(&self) -> f64 {
-        self.effect().own_decay()
-    }
-
-    fn own_nominal(&self) -> [f64; MOST_OWN] {
-        self.effect().own_nominal()
-    }
-
-    fn step_from(&mut self, t: f64) {
-        self.effect_mut().step_from(t);
-    }
-
-    fn step_to(&mut self, end: &Motion<f64>) {
-        self.effect_mut().step_to(end);
-    }
-
-    fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
-        self.effect_mut().extrapolate(number, signal);
-    }
-
-    fn is_answered(&self, t: f64) -> bool {
-        self.effect().is_answered(t)
-    }
-
-    fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange> {
-        self.effect().exchange(motion)
-    }
-
-    fn law_mut(&mut self) -> Option<&mut Law> {
-        self.effect_mut().law_mut()
-    }
-
-    fn acting(&self, t: f64) -> [Loads; 3] {
-        self.effect().acting(t)
-    }
-
-    fn order(&self) -> usize {
-        self.effect().order()
-    }
-
-    fn lag(&self) -> Option<f64> {
-        self.effect().lag()
     }
 
     fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal)) {
@@ -333,7 +242,7 @@ impl<M: Member> Block for M {
 
     fn set_parameter(&mut self, row: usize, value: f64) -> bool {
         if M::SWITCHED && row == Place::SWITCH {
-            self.switch_to(value != 0.0);
+            self.set_on(value != 0.0);
             return true;
         }
         let Some(Access::Parameter { set, .. }) = access::<M::Effect>(row) else { return false };
