@@ -1,5 +1,6 @@
 //! The rigid body: a symmetric rotor on its rod, and what effects make of it.
 
+pub mod frame;
 mod poinsot;
 mod principal;
 mod shape;
@@ -10,6 +11,12 @@ pub use shape::{Asymmetric, Shape};
 use crate::scalar::Scalar;
 use crate::stored::stored;
 use nalgebra::{Matrix3, Vector3};
+
+/// How many bodies move.
+pub const BODIES: usize = 1;
+
+/// The rotor among them.
+pub const ROTOR: usize = 0;
 
 /// Mass and inertia of a rotor that is symmetric about its axis t, and the length of its rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

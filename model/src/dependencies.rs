@@ -5,13 +5,14 @@
 //! scalars as a constant. So nothing is asked of the values: a law that is zero where it is looked at, or that no random rotor
 //! could have, is listed all the same. Each parameter is looked at once for each chart and choice of switches.
 
+use crate::body::ROTOR;
 use crate::effects::{All, Effects, Info};
 use crate::integrate::Cost;
 use crate::rotation::Chart;
 use crate::scene::Scene;
 use crate::simulation::numbers_of_state;
 use crate::simulation::start::Motion;
-use crate::state::{Coordinates, GAMMA, Kinematics, rigid, rigid_mut};
+use crate::state::Kinematics;
 use crate::traced::Traced;
 use crate::variable::{Bound, Kind, Meta, Place, Role};
 use crate::variables::{Instant, Parameters, Variable};
@@ -71,8 +72,8 @@ impl Dependencies {
             } else {
                 marked.set(variable.place, f64::NAN);
             }
-            let Motion { frame, state, .. } = Motion::at_start(&mut marked, 0.0);
-            let shown = shown(&marked, frame.chart, &state, &numbers);
+            let Motion { bodies, state, .. } = Motion::at_start(&mut marked, 0.0);
+            let shown = shown(&marked, bodies.frames[0].chart, &state, &numbers);
             note(&mut self.at_start, scene, &marked, &shown, |_| Some(index));
         }
     }
@@ -80,9 +81,9 @@ impl Dependencies {
     /// Marks all states and inputs at once, each with its number.
     fn look_later(&mut self, scene: &Scene, rotor: &Parameters<All>, random: &mut Random) {
         let mut marked = rotor.clone();
-        let Motion { frame, .. } = Motion::<N>::at_start(&mut marked, 0.0);
+        let Motion { bodies, .. } = Motion::<N>::at_start(&mut marked, 0.0);
         let mut state: [f64; N] = std::array::from_fn(|_| random.within(ANY));
-        rigid_mut(&mut state)[GAMMA].fill_with(|| random.within(IN_FIRST_CHART));
+        state[All::layout::<N>().gamma(ROTOR)].fill_with(|| random.within(IN_FIRST_CHART));
         let is_state = |n| move |v: &Variable| rotor.number_in_state::<N>(v.place) == Some(n);
         let mut sources: Vec<Option<usize>> = (0..N).map(|n| scene.variables.iter().position(is_state(n))).collect();
         for (index, variable) in reals(scene, is_input) {
@@ -90,7 +91,7 @@ impl Dependencies {
             ask(&mut marked, variable.place, sources.len() as f64);
         }
         let numbers = std::array::from_fn(|n| (n + 1) as f64);
-        let shown = shown(&marked, frame.chart, &state, &numbers);
+        let shown = shown(&marked, bodies.frames[0].chart, &state, &numbers);
         note(&mut self.later, scene, &marked, &shown, |number| sources[number.checked_sub(1)?]);
     }
 
@@ -151,7 +152,7 @@ fn ask(rotor: &mut Parameters<All>, input: Place, number: f64) {
 
 /// What a state in a chart shows, its parts being the sources of these numbers.
 fn shown(rotor: &Parameters<All>, chart: Chart, state: &[f64; N], numbers: &[f64; N]) -> Instant<N, Traced> {
-    let motion = Kinematics::new(rotor.shape().inertia(), chart, Coordinates::from_slice(rigid(state)));
+    let motion = Kinematics::new(rotor.shape().inertia(), chart, All::layout::<N>().read(state, ROTOR));
     Instant::new(motion, *state, &rotor.effects, 0.0, Cost::default()).moving(numbers, 0.0, &rotor.effects)
 }
 

@@ -1,10 +1,14 @@
 //! The equations of motion of a body under its effects.
 
+mod active;
 mod expansion;
 pub mod groups;
 mod loads;
 
-use crate::body::Inertia;
+pub use crate::body::frame::Frame;
+pub use active::Active;
+
+use crate::body::{BODIES, Inertia, ROTOR};
 use crate::dual::{Dual, Tangent};
 use crate::effects::{Act, Effects, Motion, Wrench};
 use crate::integrate::sizes::Squares;
@@ -12,110 +16,45 @@ use crate::integrate::stiff::Differentiable;
 use crate::integrate::{Refusal, System};
 use crate::rotation::Chart;
 use crate::scalar::Scalar;
-use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, PHI, SUPPLIED, WITH_WORK, own, rigid};
-use crate::stored::{Damaged, Stored, Walk, whole};
+use crate::state::{Coordinates, Kinematics};
+use crate::stored::stored;
 use nalgebra::{Vector2, Vector3};
-use std::f64::consts::PI;
 
-/// A rotor with what acts on it. Its state of N numbers is written as [`crate::state`] has it.
+/// A rotor with what acts on it. Its state of N numbers is written as its [`Layout`](crate::state::Layout) says.
 #[derive(Clone, Copy)]
 pub struct Rotor<'e, E> {
-    /// Where it is written.
+    /// Its body, and how that is written.
     pub frame: Frame,
+    /// What the effects do that are switched on.
+    pub active: Active,
     /// What acts on it.
     pub effects: &'e E,
 }
 
-/// A body, and how its state is written.
+/// What a run stores of a rotor beside its state: all but the effects themselves.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Frame {
-    /// The body.
-    pub body: Inertia,
-    /// The chart in which its state is written.
-    pub chart: Chart,
-    /// Whole turns of φ, counted apart.
-    pub turns: f64,
-    /// Whether one of its effects works, which indicators are those of effects that have events (a bit each), whether one follows φ,
-    /// and how many own states those have that are switched off: asked once, not in each evaluation.
-    works: bool,
-    events: u32,
-    follows_phi: bool,
-    idle: u32,
+pub struct Bodies {
+    /// Each body, and how it is written.
+    pub frames: [Frame; BODIES],
+    /// What the effects do that are switched on.
+    pub active: Active,
 }
 
-impl Frame {
-    /// Of a body under effects that stay switched as they are, φ beyond these `turns`.
-    pub fn new<E: Effects>(body: Inertia, effects: &E, chart: Chart, turns: f64) -> Self {
-        let active: usize = effects.active().map(|block| block.kind().facts.own).sum();
-        let (mut events, mut first) = (0, 0);
-        for block in effects.blocks() {
-            let count = block.kind().facts.indicators;
-            if block.is_active() && block.has_events() {
-                events |= ((1 << count) - 1) << first;
-            }
-            first += count;
-        }
-        let (works, follows_phi) = (effects.works(), effects.follows_phi());
-        Self { body, chart, turns, works, events, follows_phi, idle: (E::FACTS.own - active) as u32 }
-    }
+stored!(Bodies { frames, active });
 
+impl Bodies {
     /// The rotor under these effects.
     #[inline(always)]
     pub fn under<E>(self, effects: &E) -> Rotor<'_, E> {
-        Rotor { frame: self, effects }
-    }
-
-    /// How far a motion at this γ \[rad] of the chart is from where a law that follows γ has no limit nearby \[rad²].
-    pub(crate) fn before_limit(&self, gamma: Vector2<f64>) -> f64 {
-        before_limit(self.chart, gamma)
-    }
-
-    /// Whether one of its effects can lose energy or be supplied with it.
-    pub fn works(&self) -> bool {
-        self.works
-    }
-
-    /// Whether one of its effects has events.
-    pub fn has_events(&self) -> bool {
-        self.events != 0
-    }
-
-    /// Whether the indicator of this number is that of an effect that has events.
-    pub(crate) fn watches(&self, number: usize) -> bool {
-        self.events >> number & 1 == 1
+        let Self { frames: [frame], active } = self;
+        Rotor { frame, active, effects }
     }
 
     /// Whether it can be that of a body under these effects: what was saved may have been altered.
     pub fn is_of<E: Effects>(&self, body: &Inertia, effects: &E) -> bool {
-        *self == Self::new(*body, effects, self.chart, self.turns)
+        self.frames.iter().all(|frame| frame.body == *body) && self.active == Active::of(effects)
     }
 }
-
-impl Stored for Frame {
-    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { body, chart, turns, works, events, follows_phi, idle } = self;
-        body.walk(walk)?;
-        chart.walk(walk)?;
-        whole(turns, walk)?;
-        works.walk(walk)?;
-        events.walk(walk)?;
-        follows_phi.walk(walk)?;
-        idle.walk(walk)
-    }
-}
-
-/// |γ| \[rad] beyond which laws that follow the direction of γ are refused: at π they have no limit.
-pub const LIMIT: f64 = 3.1;
-
-/// In the chart from −e: |γ′| \[rad] within which they are refused.
-pub const FORBIDDEN: f64 = PI - LIMIT;
-
-const BEYOND_REACH: Refusal = Refusal("the axis turns too far for one chart, however short the step");
-
-const BEYOND_CHART: Refusal = Refusal(
-    "|gamma| of the continuous states exceeds 3.1 rad, too far for their chart: complete a step earlier, so that an event \
-     can change it",
-);
 
 /// The rate of K under this load [N·m].
 #[inline(always)]
@@ -159,14 +98,6 @@ fn rates<S: Scalar>(motion: &Kinematics<S>, load: Wrench<S>) -> Coordinates<S> {
     }
 }
 
-/// How far a γ \[rad] of a chart is from where a law that follows γ has no limit nearby \[rad²]; not positive beyond it.
-fn before_limit(chart: Chart, gamma: Vector2<f64>) -> f64 {
-    match chart {
-        Chart::FromE => LIMIT * LIMIT - gamma.norm_squared(),
-        Chart::FromMinusE => gamma.norm_squared() - FORBIDDEN * FORBIDDEN,
-    }
-}
-
 /// The rates of a state of N numbers, of the work where it is asked for; not a number where a law that follows γ has no limit
 /// nearby.
 pub fn whole_rates<S: Scalar, E: Effects, const N: usize>(
@@ -175,15 +106,21 @@ pub fn whole_rates<S: Scalar, E: Effects, const N: usize>(
     state: &[S; N],
 ) -> [S; N] {
     let gamma = motion.tilt.gamma_in_chart().map(S::re);
-    if effects.needs_gamma() && before_limit(motion.tilt.chart(), gamma) < 0.0 {
+    if effects.needs_gamma() && motion.tilt.chart().before_limit(gamma) < 0.0 {
         return [S::constant(f64::NAN); N];
     }
-    let own = &state[..own(N)];
+    let own = &state[E::layout::<N>().own()];
     if effects.works() {
         all_rates::<S, E, N, true, false>(effects, motion, own)
     } else {
         all_rates::<S, E, N, false, false>(effects, motion, own)
     }
+}
+
+/// γ \[rad] of a state.
+#[inline(always)]
+pub(crate) fn gamma<E: Effects, const N: usize>(y: &[f64; N]) -> Vector2<f64> {
+    E::layout::<N>().read(y, ROTOR).gamma
 }
 
 /// Whether what is long for these effects is compiled once and called: of those with switches, where they are compiled for commands and
@@ -214,7 +151,7 @@ fn all_rates<S: Scalar, E: Effects, const N: usize, const ALL: bool, const HERE:
     let mut all = [S::zero(); N];
     let seen = Motion::new(motion, states);
     let act = if HERE { effects.act(&seen) } else { acting(effects, &seen) };
-    effects.own_rates(&seen, &mut all[..own(N)]);
+    effects.own_rates(&seen, &mut all[E::layout::<N>().own()]);
     written::<S, E, N, ALL>(effects, motion, &act, all)
 }
 
@@ -227,11 +164,11 @@ fn written<S: Scalar, E: Effects, const N: usize, const ALL: bool>(
     mut all: [S; N],
 ) -> [S; N] {
     let load = if ALL { act.load + act.damping } else { act.load };
-    let rigid = &mut all[own(N)..];
-    rates(motion, load).write(rigid);
-    if ALL && N >= WITH_WORK {
-        rigid[SUPPLIED] = imposing(effects, motion, load).map_or(act.supply, |power| act.supply + power);
-        rigid[DISSIPATED] = act.loss;
+    let layout = E::layout::<N>();
+    layout.write(&mut all, ROTOR, &rates(motion, load));
+    if ALL && layout.has_work() {
+        let supply = imposing(effects, motion, load).map_or(act.supply, |power| act.supply + power);
+        layout.write_work(&mut all, [supply, act.loss]);
     }
     all
 }
@@ -239,19 +176,25 @@ fn written<S: Scalar, E: Effects, const N: usize, const ALL: bool>(
 impl<'e, E: Effects> Rotor<'e, E> {
     /// A body under effects that stay switched as they are, its state written in this chart, φ beyond these `turns`.
     pub fn new(body: Inertia, effects: &'e E, chart: Chart, turns: f64) -> Self {
-        Frame::new(body, effects, chart, turns).under(effects)
+        Rotor { frame: Frame { body, chart, turns }, active: Active::of(effects), effects }
+    }
+
+    /// The coordinates of a state.
+    #[inline(always)]
+    pub fn at<S: Scalar, const N: usize>(&self, y: &[S; N]) -> Coordinates<S> {
+        E::layout::<N>().read(y, ROTOR)
     }
 
     /// The motion at time `t` \[s], from a state.
     #[inline(always)]
-    pub fn motion<S: Scalar>(&self, t: f64, y: &[S]) -> Kinematics<S> {
+    pub fn motion<S: Scalar, const N: usize>(&self, t: f64, y: &[S; N]) -> Kinematics<S> {
         self.motion_in(self.frame.chart, t, y)
     }
 
     /// [`Rotor::motion`] from a state that is written in this chart.
     #[inline(always)]
-    pub fn motion_in<S: Scalar>(&self, chart: Chart, t: f64, y: &[S]) -> Kinematics<S> {
-        let motion = Kinematics::new(self.inertia(), chart, Coordinates::from_slice(rigid(y)));
+    pub fn motion_in<S: Scalar, const N: usize>(&self, chart: Chart, t: f64, y: &[S; N]) -> Kinematics<S> {
+        let motion = Kinematics::new(self.inertia(), chart, self.at(y));
         imposed(self.effects, motion.when(S::constant(t), self.frame.turns))
     }
 
@@ -282,8 +225,8 @@ impl<'e, E: Effects> Rotor<'e, E> {
     #[inline(always)]
     fn rates_in<S: Scalar, const N: usize, const ALL: bool>(&self, chart: Chart, t: f64, y: &[S; N]) -> [S; N] {
         let motion = self.motion_in(chart, t, y);
-        debug_assert!(ALL || !self.frame.works, "what works is solved with its work");
-        all_rates::<S, E, N, ALL, false>(self.effects, &motion, &y[..own(N)])
+        debug_assert!(ALL || !self.active.works, "what works is solved with its work");
+        all_rates::<S, E, N, ALL, false>(self.effects, &motion, &y[E::layout::<N>().own()])
     }
 
     /// The same in any form, called: beside it in every stage, the usual one would wait for registers.
@@ -304,45 +247,48 @@ impl<'e, E: Effects> Rotor<'e, E> {
     #[inline(never)]
     fn rates_of_switched<const N: usize, const ALL: bool>(&self, t: f64, y: &[f64; N]) -> [f64; N] {
         let body = self.frame.body.symmetric();
-        let motion = Kinematics::new(body, self.frame.chart, Coordinates::from_slice(rigid(y)));
-        all_rates::<f64, E, N, ALL, true>(self.effects, &motion.when(t, self.frame.turns), &y[..own(N)])
+        let motion = Kinematics::new(body, self.frame.chart, self.at(y));
+        all_rates::<f64, E, N, ALL, true>(self.effects, &motion.when(t, self.frame.turns), &y[E::layout::<N>().own()])
     }
 
     /// Whether a state may have this γ \[rad] in the chart, whose own reach is told, under these effects.
     pub fn reaches(&self, gamma: Vector2<f64>, reach: f64) -> Result<(), Refusal> {
-        let theta_squared = gamma.norm_squared();
-        if theta_squared > reach * reach {
-            return Err(if reach < LIMIT { BEYOND_REACH } else { BEYOND_CHART });
-        }
-        if self.frame.chart == Chart::FromMinusE && self.frame.before_limit(gamma) < 0.0 {
+        self.frame.reaches(gamma, reach)?;
+        if self.frame.chart == Chart::FromMinusE && self.frame.chart.before_limit(gamma) < 0.0 {
             return self.effects.no_limit().map_or(Ok(()), |reason| Err(Refusal(reason)));
         }
         Ok(())
     }
 }
 
+/// How many numbers of a state others depend on, if a law follows φ or none does.
+const fn depended_on<E: Effects, const N: usize>(follows_phi: bool) -> usize {
+    let angles = E::FACTS.layout(N).angles();
+    if follows_phi { angles.end } else { angles.start }
+}
+
 impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     /// The work integrals are quadratures: no law depends on them. φ is one too where no effect follows it.
-    const DEPENDED_ON: usize = own(N) + if E::FACTS.follows_phi { COORDINATES } else { PHI };
+    const DEPENDED_ON: usize = depended_on::<E, N>(E::FACTS.follows_phi);
 
-    const USUALLY_DEPENDED_ON: usize = if E::FACTS.switched { own(N) + PHI } else { <Self as System<N>>::DEPENDED_ON };
+    const USUALLY_DEPENDED_ON: usize = depended_on::<E, N>(E::FACTS.follows_phi && !E::FACTS.switched);
 
-    const ALWAYS: usize = own(N) + COORDINATES;
+    const ALWAYS: usize = E::FACTS.layout(N).angles().end;
 
-    const GROUPS: usize = own(N) + groups::RIGID + E::FACTS.loads;
+    const GROUPS: usize = E::FACTS.own + groups::RIGID + E::FACTS.loads;
 
     fn depended_on(&self) -> usize {
-        own(N) + if E::FACTS.follows_phi && self.frame.follows_phi { COORDINATES } else { PHI }
+        depended_on::<E, N>(E::FACTS.follows_phi && self.active.follows_phi)
     }
 
     fn differentiated(&self) -> usize {
-        System::<N>::depended_on(self).saturating_sub(self.frame.idle as usize)
+        System::<N>::depended_on(self).saturating_sub(self.active.idle as usize)
     }
 
     /// Where its state has room for the work.
     #[inline(always)]
     fn solves_all(&self) -> bool {
-        N >= WITH_WORK && E::FACTS.could_work && self.frame.works
+        E::layout::<N>().has_work() && E::FACTS.could_work && self.active.works
     }
 
     /// In the chart from e; where effects have switches, of a body that none shapes, or imposes a speed on, in any chart.
@@ -350,7 +296,7 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     fn is_usual(&self) -> bool {
         if E::FACTS.switched {
             // Whether one imposes a speed is the same at all times; what speed, is not asked.
-            !self.frame.follows_phi && self.effects.imposed(0.0).is_none()
+            !self.active.follows_phi && self.effects.imposed(0.0).is_none()
         } else {
             self.frame.chart == Chart::FromE
         }
@@ -366,7 +312,7 @@ impl<E: Effects, const N: usize> System<N> for Rotor<'_, E> {
     }
 
     fn admits(&self, _t: f64, y: &[f64; N]) -> Result<(), Refusal> {
-        self.reaches(Coordinates::from_slice(rigid(y)).gamma, Chart::REACH)
+        self.reaches(self.at(y).gamma, Chart::REACH)
     }
 
     #[inline(always)]

@@ -37,15 +37,17 @@ pub use rattle::Rattle;
 pub use tangents::Tangents;
 pub use unheld::Unheld;
 
+use crate::body::frame::Frame;
 use crate::effects::{Block, Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
 use crate::energy::moving;
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::taylor::Scratch;
 use crate::integrate::{Fault, Refusal};
+use crate::rotation::Chart;
 use crate::rotor;
 use crate::signal::Signal;
-use crate::state::{COORDINATES, Kinematics, WITH_WORK, own};
+use crate::state::{Kinematics, Layout, WITH_WORK};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
 use crate::variables::{Instant, Parameters, Reading, Start};
@@ -108,8 +110,8 @@ enum Run<const N: usize> {
     Exchange(Exchange<N>),
 }
 
-/// So many indicators of events are always there: of the chart, two of γ, and of the limit.
-pub const ALWAYS_INDICATED: usize = 4;
+/// So many indicators of events are always there.
+pub const ALWAYS_INDICATED: usize = Frame::INDICATORS;
 
 /// Until it locates an event, a host may try states beyond the chart: to nearly 2π \[rad] their rates are smooth.
 const TRIAL: f64 = 6.0;
@@ -118,9 +120,10 @@ const TRIAL: f64 = 6.0;
 #[cfg(feature = "scenes")]
 pub type Any = Simulation<crate::effects::All, { numbers_of_state::<crate::effects::All>() }>;
 
-/// How many numbers the state of a rotor under these effects has: [`COORDINATES`], where none of them could work or has own states.
+/// How many numbers the state of a rotor under these effects has: without room for the work, where none of them could work or has own
+/// states.
 pub const fn numbers_of_state<E: Effects>() -> usize {
-    if E::FACTS.could_work || E::FACTS.own > 0 { WITH_WORK + E::FACTS.own } else { COORDINATES }
+    Layout::new(E::FACTS.own, E::FACTS.could_work || E::FACTS.own > 0).count()
 }
 
 impl<E: Effects, const N: usize> From<Parameters<E>> for Simulation<E, N> {
@@ -133,12 +136,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// How many continuous states a host integrates: the coordinates, the work integrals where an effect could work, and the own
     /// states of the effects.
     pub const STATES: usize = {
-        assert!(N == numbers_of_state::<E>() || N == WITH_WORK + E::FACTS.own, "N is numbers_of_state::<E>()");
-        E::FACTS.own + Self::RIGID
+        let layout = E::FACTS.layout(N);
+        assert!(layout.has_work() || !E::FACTS.could_work, "N is numbers_of_state::<E>()");
+        layout.count_of_host(E::FACTS.could_work)
     };
-
-    /// How many of them are no own states.
-    const RIGID: usize = if E::FACTS.could_work { WITH_WORK } else { COORDINATES };
 
     /// How many indicators of events a host sees: [`ALWAYS_INDICATED`] and those of the effects.
     pub const INDICATORS: usize = ALWAYS_INDICATED + {
@@ -343,7 +344,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// Effects hear where a communication step ended.
     fn tell_of_step(&mut self) {
         if let Ok(Instant { reading, state }) = self.instant().copied() {
-            self.parameters.effects.step_to(&reading.motion, &state[..own(N)]);
+            self.parameters.effects.step_to(&reading.motion, &state[E::layout::<N>().own()]);
         }
     }
 
@@ -493,11 +494,11 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// In which directions nothing holds the rotor, while something does in others; asked where the run begins.
     pub fn unheld(&self) -> Option<Unheld> {
-        let (frame, t, state) = match self.run.as_ref()? {
+        let (bodies, t, state) = match self.run.as_ref()? {
             Run::Method(integration) => integration.reached(),
             Run::Exchange(exchange) => exchange.reached(),
         };
-        Unheld::of(&frame.under(&self.parameters.effects), t, state)
+        Unheld::of(&bodies.under(&self.parameters.effects), t, state)
     }
 
     /// Where the search for what grows last failed, so that nobody knows whether the rotor is stable; None where a later one succeeded.
@@ -595,11 +596,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// Where the state of a host's number stands.
     fn number_of_host(n: usize) -> usize {
-        match n.checked_sub(Self::RIGID) {
-            None => own(N) + n,
-            Some(n) if n < own(N) => n,
-            Some(n) => Self::RIGID + n,
-        }
+        E::layout::<N>().of_host(n, E::FACTS.could_work)
     }
 
     /// How states and inputs differ from what they are, as derivatives go with them: of each place that is named, by its
@@ -627,7 +624,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     #[inline(always)]
     pub fn admits(&self) -> Result<(), Refusal> {
         match &self.run {
-            Some(Run::Exchange(exchange)) => exchange.admits(&self.parameters.effects, rotor::LIMIT),
+            Some(Run::Exchange(exchange)) => exchange.admits(&self.parameters.effects, Chart::LIMIT),
             _ => Ok(()),
         }
     }
@@ -671,7 +668,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let t = self.time().unwrap_or_default();
         let mut parameters = self.parameters.clone();
         let start = Motion::<N>::begins(&mut parameters, t).unwrap_or_else(|_| Motion::at_start(&mut parameters, t));
-        Nominals::of(&parameters.effects, &start, t, span).each()
+        Nominals::of(&parameters.effects, &start, t, span).each::<E>()
     }
 
     /// Below which place \[m], velocity [m/s], angular momentum [kg·m²/s] and tilt \[rad] errors are not compared with a smaller
@@ -689,7 +686,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     fn at_start(&self, parameters: &mut Parameters<E>, t: f64) -> Result<(Motion<N>, Instant<N>), Invalid> {
         let mut start = Motion::begins(parameters, t)?;
         if self.integrator == Integrator::Host {
-            start.unwrap_turns();
+            start.unwrap_turns::<E>();
         }
         let instant = start.shows(&parameters.effects, t);
         if !instant.reading.ledger.total().is_finite() {

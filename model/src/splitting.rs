@@ -5,6 +5,7 @@ mod tumbling;
 
 pub use tumbling::{Beside, Tumbling};
 
+use crate::body::ROTOR;
 use crate::effects::{Effects, Motion};
 use crate::integrate::composition::{Composition, Split, Splitting};
 use crate::integrate::sizes::{MOST_GROUPS, Squares};
@@ -14,8 +15,8 @@ use crate::integrate::tableau::{DOP853, DOPRI5, Tableau};
 use crate::integrate::{Refusal, System};
 use crate::rotation::arc::{Reduced, atan2};
 use crate::rotation::{Angle, Chart, Tilt, Turn, Winding};
-use crate::rotor::{FORBIDDEN, LIMIT, Rotor, acting, groups};
-use crate::state::{Coordinates, Kinematics, PHI, own, put_work, rigid, rigid_mut, work};
+use crate::rotor::{Rotor, acting, groups};
+use crate::state::{BODY, Coordinates, Kinematics};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
@@ -62,7 +63,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
 
     #[inline(always)]
     fn flow<'r>(&'r self, y: &[f64; N], composition: &Composition, h: f64) -> Flow<'r, E, N> {
-        let at = Coordinates::from_slice(rigid(y));
+        let at = self.at(y);
         Flow {
             rotor: self,
             at,
@@ -70,9 +71,9 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
             spun: 0.0,
             windings: [Winding::none(); 2],
             turns: 0.0,
-            work: work(y),
+            work: E::layout::<N>().read_work(y),
             y: *y,
-            works: self.frame.works(),
+            works: self.active.works,
             inner: self.effects.follows_speed().then_some(if composition.order <= 4 { &DOPRI5 } else { &DOP853 }),
             spreads: self.spreads(&at, h),
             guarded: self.effects.needs_gamma(),
@@ -84,7 +85,7 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
     #[inline(always)]
     fn kicks_by_place(&self, y: &[f64; N], h: f64) -> bool {
         // A kick that is spread turns the axis as well, and work follows the speeds.
-        !self.effects.follows_speed() && !self.frame.works() && !self.spreads(&Coordinates::from_slice(rigid(y)), h)
+        !self.effects.follows_speed() && !self.active.works && !self.spreads(&self.at(y), h)
     }
 
     /// From the linear equations of place and speed: what turns K about the axis is followed exactly, as is what dampens. But where the
@@ -92,28 +93,28 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
     /// another then.
     fn fastest(&self, t: f64, y: &[f64; N], h: f64) -> [f64; 2] {
         const SPEEDS: std::ops::Range<usize> = 3..9;
-        let spreads = self.spreads(&Coordinates::from_slice(rigid(y)), h);
-        let jacobian = self.jacobian(t, y);
+        let spreads = self.spreads(&self.at(y), h);
+        let (jacobian, first) = (self.jacobian(t, y), E::layout::<N>().body(ROTOR).start);
         let radius = |numbers: usize, is_asked: fn(bool, bool) -> bool| {
             let mut part = jacobian;
             for (i, row) in part.iter_mut().enumerate() {
                 for (j, entry) in row.iter_mut().enumerate() {
-                    let [i, j] = [i, j].map(|place| place.wrapping_sub(own(N)));
+                    let [i, j] = [i, j].map(|place| place.wrapping_sub(first));
                     if i >= numbers || j >= numbers || !is_asked(SPEEDS.contains(&i), SPEEDS.contains(&j)) {
                         *entry = 0.0;
                     }
                 }
             }
-            spectral_radius(&part, own(N) + numbers)
+            spectral_radius(&part, first + numbers)
         };
         // eq. 112: the block A B of the square of these equations
-        let swings = radius(if spreads { 6 } else { PHI }, |of, by| of != by);
-        let dies = if spreads && self.effects.follows_speed() { radius(PHI, |of, by| of && by) } else { 0.0 };
+        let swings = radius(if spreads { 6 } else { BODY }, |of, by| of != by);
+        let dies = if spreads && self.effects.follows_speed() { radius(BODY, |of, by| of && by) } else { 0.0 };
         [swings, dies]
     }
 
     fn is_steady(&self) -> bool {
-        !self.frame.has_events()
+        !self.active.has_events()
     }
 
     fn roundings_of_parts(&self, y: &[f64; N], h: f64) -> Squares {
@@ -121,20 +122,20 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
         // A drift turns the rotor anew, and directions and angles are known to so many radians: an asymmetric body goes about K by an
         // azimuth of up to half a turn, and back.
         let angle = if self.inertia().asymmetric.is_some() { PI * PI } else { 1.0 };
-        squares[own(N) + groups::GAMMA] = angle;
-        squares[own(N) + groups::PHI] += angle;
+        squares[E::FACTS.own + groups::GAMMA] = angle;
+        squares[E::FACTS.own + groups::PHI] += angle;
         let mut of_turns = [0.0; MOST_GROUPS];
-        self.round_loads::<N>(&Coordinates::from_slice(rigid(y)), [0.0, 0.0, angle.sqrt(), 0.0], &mut of_turns);
+        self.round_loads::<N>(&self.at(y), [0.0, 0.0, angle.sqrt(), 0.0], &mut of_turns);
         (0..MOST_GROUPS).for_each(|group| squares[group] += of_turns[group]);
         squares
     }
 
     /// Across K, where the nutation is not resolved, a change is a turn of K, which the axis follows: it counts beside γ.
     fn parts_of_ends(&self, t: f64, y: &[f64; N], apart: &[f64; N], h: f64) -> Squares {
-        let (mut parts, at) = (self.parts_of_motion(y, apart), Coordinates::from_slice(rigid(y)));
-        let mut by = Coordinates::from_slice(rigid(apart));
+        let (mut parts, at) = (self.parts_of_motion(y, apart), self.at(y));
+        let mut by = self.at(apart);
         if self.spreads(&at, h) {
-            let [across, gamma] = [groups::ACROSS, groups::GAMMA].map(|group| own(N) + group);
+            let [across, gamma] = [groups::ACROSS, groups::GAMMA].map(|group| E::FACTS.own + group);
             parts[gamma] += parts[across] / at.k.norm_squared();
             parts[across] = 0.0;
             // The loads of dampers do not see the nutation either.
@@ -145,9 +146,9 @@ impl<E: Effects, const N: usize> Splitting<N> for Rotor<'_, E> {
     }
 
     fn apart(&self, a: &[f64; N], b: &[f64; N]) -> [f64; N] {
-        let mut apart = std::array::from_fn(|n| a[n] - b[n]);
+        let (mut apart, phi): ([f64; N], _) = (std::array::from_fn(|n| a[n] - b[n]), E::layout::<N>().phi(ROTOR));
         // From −e, φ jumps by whole turns where γ is on the other side of where its azimuth begins.
-        apart[own(N) + PHI] -= TAU * (apart[own(N) + PHI] / TAU).round();
+        apart[phi] -= TAU * (apart[phi] / TAU).round();
         apart
     }
 }
@@ -210,7 +211,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             Some(asymmetric) => k.norm() * body.quickest(asymmetric) * h.abs(),
         };
         // What overflows is told by what comes of it.
-        way.is_finite() && way > to_antipode - FORBIDDEN
+        way.is_finite() && way > to_antipode - Chart::FORBIDDEN
     }
 
     /// The motion at time `t` \[s], with these speeds where it is.
@@ -229,7 +230,7 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return;
         }
         if self.guarded
-            && let Err(refusal) = self.rotor.reaches(self.tilt().gamma_in_chart(), LIMIT)
+            && let Err(refusal) = self.rotor.reaches(self.tilt().gamma_in_chart(), Chart::LIMIT)
         {
             self.refusal = Some(refusal);
             return;
@@ -240,12 +241,12 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
             return;
         }
         let motion = self.motion(t, self.at.v, self.at.k);
-        let load = acting(effects, &Motion::new(&motion, &self.y[..own(N)])).load;
+        let load = acting(effects, &Motion::new(&motion, &self.y[E::layout::<N>().own()])).load;
         let (v, k) = (load.force * (h * self.rotor.frame.body.per_m), load.about_centre(&motion) * h);
         if self.works {
             // No load follows the speeds, so power does so linearly, and the middle of the way tells the work.
             let middle = self.motion(t, self.at.v + v * 0.5, self.at.k + k * 0.5);
-            let act = acting(effects, &Motion::new(&middle, &self.y[..own(N)]));
+            let act = acting(effects, &Motion::new(&middle, &self.y[E::layout::<N>().own()]));
             self.work = [self.work[0] + act.supply * h, self.work[1] + act.loss * h];
             self.evaluations += 1.0;
         }
@@ -260,25 +261,26 @@ impl<E: Effects, const N: usize> Flow<'_, E, N> {
     fn pushed_followed(mut self, tableau: &Tableau, t: f64, h: f64) -> Self {
         let effects = self.rotor.effects;
         let mut speeds = self.y;
-        Coordinates { v: self.at.v, k: self.at.k, ..self.at }.write(rigid_mut(&mut speeds));
-        put_work(&mut speeds, self.work);
+        let layout = E::layout::<N>();
+        layout.write(&mut speeds, ROTOR, &self.at);
+        layout.write_work(&mut speeds, self.work);
         let rates = |speeds: &[f64; N]| {
-            let at = Coordinates::from_slice(rigid(speeds));
+            let at = layout.read(speeds, ROTOR);
             let motion = self.motion(t, at.v, at.k);
-            let act = acting(effects, &Motion::new(&motion, &speeds[..own(N)]));
+            let act = acting(effects, &Motion::new(&motion, &speeds[layout.own()]));
             let load = act.load + act.damping;
             let mut rates = [0.0; N];
-            effects.own_rates(&Motion::new(&motion, &speeds[..own(N)]), &mut rates[..own(N)]);
+            effects.own_rates(&Motion::new(&motion, &speeds[layout.own()]), &mut rates[layout.own()]);
             let still = Vector3::zeros();
             let (v, k) = (load.force * self.rotor.frame.body.per_m, load.about_centre(&motion));
-            Coordinates { r: still, v, k, gamma: still.yz(), phi: 0.0 }.write(rigid_mut(&mut rates));
-            put_work(&mut rates, [act.supply, act.loss]);
+            layout.write(&mut rates, ROTOR, &Coordinates { r: still, v, k, gamma: still.yz(), phi: 0.0 });
+            layout.write_work(&mut rates, [act.supply, act.loss]);
             rates
         };
         let speeds = tableau.advanced(rates, speeds, h);
-        let at = Coordinates::from_slice(rigid(&speeds));
-        (self.at.v, self.at.k, self.work) = (at.v, at.k, work(&speeds));
-        self.y[..own(N)].copy_from_slice(&speeds[..own(N)]);
+        let at = layout.read(&speeds, ROTOR);
+        (self.at.v, self.at.k, self.work) = (at.v, at.k, layout.read_work(&speeds));
+        self.y[layout.own()].copy_from_slice(&speeds[layout.own()]);
         self.evaluations += tableau.stages.len() as f64;
         self
     }
@@ -333,8 +335,9 @@ impl<E: Effects, const N: usize> Split<N> for Flow<'_, E, N> {
         }
         // φ has all the turns that φ from e has gained.
         let phi = Angle { turns, remainder: phi }.radians();
-        Coordinates { phi, gamma, ..self.at }.write(rigid_mut(&mut y));
-        put_work(&mut y, self.work);
+        let layout = E::layout::<N>();
+        layout.write(&mut y, ROTOR, &Coordinates { phi, gamma, ..self.at });
+        layout.write_work(&mut y, self.work);
         (self.refusal.map_or(Ok(y), Err), self.evaluations)
     }
 }

@@ -1,6 +1,10 @@
 //! The state of the motion and its kinematics.
 
-use crate::body::{AngularVelocity, Inertia};
+mod layout;
+
+pub use layout::{BODY, Layout};
+
+use crate::body::{AngularVelocity, Inertia, ROTOR};
 use crate::dual::Dual;
 use crate::rotation::{Angle, Chart, Tilt};
 use crate::scalar::Scalar;
@@ -21,81 +25,35 @@ pub struct Coordinates<S: Scalar> {
     pub phi: S,
 }
 
+/// A state of the rotor alone, and its work: the order of the variables `state`.
+const ALONE: Layout = Layout::new(0, true);
+
 /// How many coordinates a motion has.
-pub const COORDINATES: usize = 12;
+pub const COORDINATES: usize = ALONE.angles().end;
 
-/// The work integrals follow them. A state is `[own states of the effects, coordinates, work]`: what nothing depends on stands
-/// last. N is [`WITH_WORK`] and the own states; a state of [`COORDINATES`] only has neither.
-pub const WITH_WORK: usize = COORDINATES + 2;
+/// The coordinates and the work.
+pub const WITH_WORK: usize = ALONE.count();
 
-/// Where the work supplied \[J] stands behind the own states.
-pub const SUPPLIED: usize = COORDINATES;
+/// The number of the work supplied \[J] among them.
+pub const SUPPLIED: usize = ALONE.work().start;
 
-/// Where the work lost \[J] stands behind the own states.
-pub const DISSIPATED: usize = COORDINATES + 1;
+/// The number of the work lost \[J] among them.
+pub const DISSIPATED: usize = SUPPLIED + 1;
 
 /// The coordinates and the work, or their rates.
 pub type Whole<S> = [S; WITH_WORK];
 
-/// How many own states a state of N numbers begins with.
-#[inline(always)]
-pub const fn own(n: usize) -> usize {
-    n.saturating_sub(WITH_WORK)
-}
+/// The numbers of γ among them.
+pub const GAMMA: std::ops::Range<usize> = ALONE.gamma(ROTOR);
 
-/// The work supplied and lost \[J] of a state.
-#[inline(always)]
-pub fn work<S: Scalar, const N: usize>(y: &[S; N]) -> [S; 2] {
-    if N < WITH_WORK { [S::zero(); 2] } else { [y[N - 2], y[N - 1]] }
-}
-
-/// Puts them there, where the state has them.
-#[inline(always)]
-pub fn put_work<S: Scalar, const N: usize>(y: &mut [S; N], work: [S; 2]) {
-    if N >= WITH_WORK {
-        [y[N - 2], y[N - 1]] = work;
-    }
-}
-
-/// A state without the own states.
-#[inline(always)]
-pub fn rigid<S>(y: &[S]) -> &[S] {
-    &y[own(y.len())..]
-}
-
-/// The same to be changed.
-#[inline(always)]
-pub fn rigid_mut<S>(y: &mut [S]) -> &mut [S] {
-    let own = own(y.len());
-    &mut y[own..]
-}
-
-/// Where γ stands among the coordinates.
-pub const GAMMA: std::ops::Range<usize> = 9..11;
-
-/// Where φ stands among the coordinates.
-pub const PHI: usize = 11;
+/// The number of φ among them.
+pub const PHI: usize = ALONE.phi(ROTOR);
 
 impl<S: Scalar> Coordinates<S> {
-    /// From the first [`COORDINATES`] numbers of `y`, in the order of the fields.
-    #[inline(always)]
-    pub fn from_slice(y: &[S]) -> Self {
-        Self {
-            r: Vector3::new(y[0], y[1], y[2]),
-            v: Vector3::new(y[3], y[4], y[5]),
-            k: Vector3::new(y[6], y[7], y[8]),
-            gamma: Vector2::new(y[GAMMA.start], y[GAMMA.start + 1]),
-            phi: y[PHI],
-        }
-    }
-
     /// Into the first [`COORDINATES`] numbers of `y`, in the order of the fields.
     #[inline(always)]
     pub fn write(&self, y: &mut [S]) {
-        let [r, v, k, gamma] = [&self.r, &self.v, &self.k, &self.gamma.push(self.phi)];
-        for (part, vector) in y.chunks_exact_mut(3).zip([r, v, k, gamma]) {
-            part.copy_from_slice(vector.as_slice());
-        }
+        ALONE.write(y, ROTOR, self);
     }
 }
 

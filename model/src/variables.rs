@@ -5,7 +5,7 @@ mod solver;
 
 pub use solver::{METHODS, Solver, TOLERANCES, numbers};
 
-use crate::body::{Body, Shape};
+use crate::body::{self, Body, Shape};
 use crate::dual::Tangent;
 use crate::effects::{Effects, Info, Motion, full_name};
 use crate::energy::Ledger;
@@ -14,7 +14,7 @@ use crate::integrate::Cost;
 use crate::rotation::Chart;
 use crate::rotor;
 use crate::scalar::Scalar;
-use crate::state::{COORDINATES, Coordinates, DISSIPATED, Kinematics, Rates, SUPPLIED, WITH_WORK, own, rigid, work};
+use crate::state::{COORDINATES, DISSIPATED, Kinematics, Rates, SUPPLIED, WITH_WORK};
 use crate::stored::{Damaged, Stored, Walk};
 #[cfg(feature = "scenes")]
 use crate::traced::Traced;
@@ -115,13 +115,14 @@ pub struct Instant<const N: usize, S: Scalar = f64> {
 impl<const N: usize, S: Scalar> Instant<N, S> {
     /// What a motion with this state shows, and the total energy at the start \[J].
     pub fn new<E: Effects>(motion: Kinematics<S>, state: [S; N], effects: &E, total_at_start: f64, cost: Cost) -> Self {
-        let ledger = Ledger::new(&motion, &state[..own(N)], effects, work(&state), total_at_start);
+        let layout = E::layout::<N>();
+        let ledger = Ledger::new(&motion, &state[layout.own()], effects, layout.read_work(&state), total_at_start);
         Self { reading: Reading { motion, ledger, cost }, state }
     }
 
     /// The states of the effects.
-    fn own(&self) -> &[S] {
-        &self.state[..own(N)]
+    fn own<E: Effects>(&self) -> &[S] {
+        &self.state[E::layout::<N>().own()]
     }
 
     /// The rates of all of it under these effects.
@@ -136,15 +137,17 @@ impl<const N: usize> Instant<N> {
     pub fn moving<S: Scalar, E: Effects>(&self, seeds: &[f64; N], time: f64, effects: &E) -> Instant<N, S> {
         let state: [S; N] = std::array::from_fn(|n| S::moving(self.state[n], seeds[n]));
         let Kinematics { body, t, turns, tilt, .. } = self.reading.motion;
-        let (at, t) = (Coordinates::from_slice(rigid(&state)), S::moving(t, time));
+        let (at, t) = (E::layout::<N>().read(&state, body::ROTOR), S::moving(t, time));
         let motion = rotor::imposed(effects, Kinematics::new(body, tilt.chart(), at).when(t, turns));
         Instant::new(motion, state, effects, self.reading.ledger.total_at_start, self.reading.cost)
     }
 }
 
 /// Rates as outputs see them, those of an effect's own states being the first of `count` from number `from`.
-fn seen<S: Scalar, const N: usize>(rates: &[S; N], from: usize, count: usize) -> Rates<'_, S> {
-    Rates { coordinates: Coordinates::from_slice(rigid(rates)), work: work(rates), own: &rates[from..][..count] }
+fn seen<E: Effects, S: Scalar, const N: usize>(rates: &[S; N], from: usize, count: usize) -> Rates<'_, S> {
+    let layout = E::layout::<N>();
+    let own = &rates[layout.own()][from..][..count];
+    Rates { coordinates: layout.read(rates, body::ROTOR), work: layout.read_work(rates), own }
 }
 
 /// The variables that are always there are read from a [`Reading`].
@@ -482,14 +485,14 @@ impl<E: Effects> Parameters<E> {
         let Some(row) = always(place, E::FACTS.could_work) else {
             let (block, from) = self.effects.at(place)?;
             let count = block.kind().facts.own;
-            let motion = instant.map(|now| Motion::new(&now.reading.motion, &now.own()[from..][..count]));
+            let motion = instant.map(|now| Motion::new(&now.reading.motion, &now.own::<E>()[from..][..count]));
             let rates = instant.filter(|_| block.asks_rates(place.row)).map(|now| now.rates(&self.effects));
-            let rates = rates.as_ref().map(|rates| seen(rates, from, count));
+            let rates = rates.as_ref().map(|rates| seen::<E, _, _>(rates, from, count));
             return block.value(place.row, t, motion.as_ref(), rates.as_ref());
         };
         let asks = matches!(row.access, Access::Rate(_));
         let rates = instant.filter(|_| asks).map(|now| now.rates(&self.effects));
-        let rates = rates.as_ref().map(|rates| seen(rates, 0, 0));
+        let rates = rates.as_ref().map(|rates| seen::<E, _, _>(rates, 0, 0));
         row.access.value(&self.setup, t, instant.map(|now| &now.reading), rates.as_ref())
     }
 
@@ -538,12 +541,12 @@ impl<E: Effects> Parameters<E> {
             let (block, from) = self.effects.at(place)?;
             let count = block.kind().facts.own;
             let rates = block.asks_rates(place.row).then(|| instant.rates(&self.effects));
-            let rates = rates.as_ref().map(|rates| seen(rates, from, count));
-            let motion = Motion::new(&instant.reading.motion, &instant.own()[from..][..count]);
+            let rates = rates.as_ref().map(|rates| seen::<E, _, _>(rates, from, count));
+            let motion = Motion::new(&instant.reading.motion, &instant.own::<E>()[from..][..count]);
             return block.tangent(place.row, &motion, rates.as_ref());
         };
         let rates = matches!(row.access, Access::Rate(_)).then(|| instant.rates(&self.effects));
-        let rates = rates.as_ref().map(|rates| seen(rates, 0, 0));
+        let rates = rates.as_ref().map(|rates| seen::<E, _, _>(rates, 0, 0));
         row.access.tangent(&self.setup, &instant.reading, rates.as_ref())
     }
 
@@ -558,16 +561,16 @@ impl<E: Effects> Parameters<E> {
         let Some(row) = always(place, E::FACTS.could_work) else {
             let (block, from) = self.effects.at(place)?;
             let count = block.kind().facts.own;
-            let motion = Motion::new(&instant.reading.motion, &instant.own()[from..][..count]);
-            return block.traced(place.row, &motion, &seen(rates, from, count));
+            let motion = Motion::new(&instant.reading.motion, &instant.own::<E>()[from..][..count]);
+            return block.traced(place.row, &motion, &seen::<E, _, _>(rates, from, count));
         };
-        row.access.traced(&self.setup, &instant.reading, &seen(rates, 0, 0))
+        row.access.traced(&self.setup, &instant.reading, &seen::<E, _, _>(rates, 0, 0))
     }
 
     /// The number of the state at this place in a state of N numbers, if it is one.
     pub fn number_in_state<const N: usize>(&self, place: Place) -> Option<usize> {
         if let Some(n) = state_number(place) {
-            return Some(own(N) + n);
+            return Some(E::layout::<N>().own().end + n);
         }
         let (block, from) = self.effects.at(place)?;
         block.own_state(place.row).map(|n| from + n)

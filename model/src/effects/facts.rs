@@ -1,5 +1,7 @@
 //! What is known of an effect, or of the effects of a list together, while it is compiled.
 
+use crate::state::Layout;
+
 /// What an effect can do, with any parameters and inputs, and how much room it needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
@@ -90,5 +92,12 @@ impl Facts {
             most_extrapolated: if most[0] < most[1] { most[0] } else { most[1] },
             tells_rates: self.tells_rates || other.tells_rates,
         }
+    }
+    /// Where everything stands in a state of `n` numbers of a rotor under these effects.
+    #[inline(always)]
+    pub const fn layout(&self, n: usize) -> Layout {
+        let layout = Layout::new(self.own, n != Layout::new(self.own, false).count());
+        assert!(layout.count() == n, "a state has coordinates and own states, and room for both works or none");
+        layout
     }
 }

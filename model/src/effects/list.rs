@@ -15,7 +15,7 @@ use crate::dual::Tangent;
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::state::Kinematics;
+use crate::state::{Kinematics, Layout};
 use crate::stored::{Damaged, Stored, Walk};
 use crate::variable::{Meta, Place};
 use member::Member;
@@ -29,6 +29,12 @@ pub const fn follows_all_inputs<E: Effects>() -> bool {
 pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// What is known of them while they are compiled.
     const FACTS: Facts;
+
+    /// Where everything stands in a state of N numbers.
+    #[inline(always)]
+    fn layout<const N: usize>() -> Layout {
+        Self::FACTS.layout(N)
+    }
 
     /// What they do together, but for the energy that they store, in a motion with all of their states, in their order.
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S>;

@@ -1,13 +1,12 @@
 //! Where a balanced machine runs steadily, and its linear equations about that.
 
-use crate::body::Asymmetric;
+use crate::body::{Asymmetric, ROTOR};
 use crate::effects::{All, Effects};
 use crate::rotation::Tilt;
 use crate::rotor::Rotor;
 use crate::simulation::numbers_of_state;
 use crate::simulation::rest::{self, Balance, Rest, Spinning};
 use crate::simulation::start::Motion;
-use crate::state::{Coordinates, own, rigid};
 use crate::variables::Parameters;
 use nalgebra::{Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 use std::fmt;
@@ -209,8 +208,8 @@ impl Machine {
     /// Where nothing balances what acts, or a law switches on the way from the start.
     pub fn steady(&self, speed: f64, near: Option<&Steady>) -> Result<Steady, Obstacle> {
         let (parameters, start) = self.spinning(speed);
-        let rotor = start.frame.under(&parameters.effects);
-        let r = near.map_or(Coordinates::from_slice(rigid(&start.state)).r, |near| near.r);
+        let rotor = start.bodies.under(&parameters.effects);
+        let r = near.map_or(All::layout::<N>().read(&start.state, ROTOR).r, |near| near.r);
         let gamma = near.map_or(Vector2::zeros(), |near| near.gamma);
         let spinning = self.spins(&rotor, speed);
         let rest: Rest<N> = spinning.rest(r, gamma).ok_or(Obstacle::NoSteadyState { speed })?;
@@ -247,7 +246,7 @@ impl Machine {
         all.fixed_view_mut::<2, 2>(9, 6).fill_with_identity();
         // eq. 116: δK·t = 0 where K·t is held
         all.fixed_view_mut::<3, 2>(6, 8).copy_from(&across);
-        let first = own(N);
+        let first = All::layout::<N>().body(ROTOR).start;
         let slopes = SMatrix::<f64, 11, 11>::from_fn(|row, column| at.jacobian[first + row][first + column]);
         let rates = slopes * all;
         let mut matrix = SMatrix::<f64, STATES, STATES>::zeros();

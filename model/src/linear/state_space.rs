@@ -4,11 +4,12 @@
 
 use super::machine::{DRIVES, Machine, N, Obstacle, STATES, Steady, across};
 use super::modes::Shape;
+use crate::body::ROTOR;
 use crate::dual::Tangent;
 use crate::effects::{All, Effects};
 use crate::integrate::Cost;
 use crate::rotor::Rotor;
-use crate::state::{Coordinates, GAMMA, PHI, own, rigid, rigid_mut};
+use crate::state::GAMMA;
 use crate::variable::units::{ANGULAR_MOMENTUM, Unit};
 use crate::variable::{Kind, Meta, Place, Role};
 use crate::variables::{Instant, Parameters, state_place};
@@ -144,7 +145,7 @@ fn listed(parameters: &Parameters<All>, is_wanted: fn(Role) -> bool) -> Vec<List
 fn directions(across: &Matrix3x2<f64>) -> [[f64; N]; STATES] {
     std::array::from_fn(|n| {
         let mut direction = [0.0; N];
-        let at = rigid_mut(&mut direction);
+        let at = &mut direction[All::layout::<N>().body(ROTOR)];
         match n {
             0..6 => at[n] = 1.0,
             6..8 => at[GAMMA.start + n - 6] = 1.0,
@@ -157,10 +158,11 @@ fn directions(across: &Matrix3x2<f64>) -> [[f64; N]; STATES] {
 
 /// Names and units of the states, and their values where a machine stands like this.
 fn states(state: &[f64; N]) -> Vec<Quantity> {
+    let first = All::layout::<N>().body(ROTOR).start;
     let of_list = (0..6).chain(GAMMA).map(|n| {
         let (name, meta) = (Parameters::<All>::name(state_place(n)), Parameters::<All>::meta(state_place(n)));
         let unit = meta.expect("a state of every rotor").unit;
-        Quantity { name: name.expect("a state of every rotor"), unit, steady: state[own(N) + n] }
+        Quantity { name: name.expect("a state of every rotor"), unit, steady: state[first + n] }
     });
     let momentum = ["state.K.u1", "state.K.u2"];
     of_list.chain(momentum.map(|name| Quantity { name: name.into(), unit: &ANGULAR_MOMENTUM, steady: 0.0 })).collect()
@@ -175,7 +177,7 @@ impl Machine {
     pub fn state_space(&self, speed: f64, near: Option<&Steady>) -> Result<StateSpace, Obstacle> {
         let steady = self.steady(speed, near)?;
         let (parameters, start) = self.spinning(speed);
-        let rotor: Rotor<'_, All> = start.frame.under(&parameters.effects);
+        let rotor: Rotor<'_, All> = start.bodies.under(&parameters.effects);
         let state = self.spins(&rotor, speed).state(steady.r, steady.gamma);
         let instant = Instant::new(rotor.motion(0.0, &state), state, &parameters.effects, 0.0, Cost::default());
         let standing = Standing { parameters: &parameters, instant };
@@ -192,7 +194,7 @@ impl Machine {
             let mut pushed = parameters.clone();
             pushed.effects.signal_mut(input.place).expect("it is an input").ask(1.0);
             let moved: Instant<N, Tangent> = standing.instant.moving(&[0.0; N], 0.0, &pushed.effects);
-            let rates = Coordinates::from_slice(rigid(&moved.rates(&pushed.effects)));
+            let rates = All::layout::<N>().read(&moved.rates(&pushed.effects), ROTOR);
             let [force, moment] = [rates.v, rates.k].map(|vector| vector.map(|part| part.eps[0]));
             // eq. 118: B = (0, ∂F/∂u /m, 0, u_i·∂M/∂u), what holds the spin being along t
             b.fixed_view_mut::<3, 1>(3, column).copy_from(&force);
@@ -221,7 +223,7 @@ impl Machine {
 fn steady_outputs(standing: &Standing<'_>) -> Vec<Listed> {
     let outputs = listed(standing.parameters, |role| matches!(role, Role::Output));
     let mut turned = [0.0; N];
-    rigid_mut(&mut turned)[PHI] = 1.0;
+    turned[All::layout::<N>().phi(ROTOR)] = 1.0;
     let changes = Standing::changes(standing.parameters, &standing.moved(&turned), &outputs);
     let is_of_a_run = |one: &Listed| OF_A_RUN.iter().any(|begin| one.meta.name.starts_with(begin));
     // Of a balanced machine only φ follows φ, whatever it is called.

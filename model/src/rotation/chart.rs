@@ -37,6 +37,12 @@ impl Chart {
     /// A step that ends beyond this |γ| \[rad] was too long: the chart is singular at π.
     pub const REACH: f64 = 2.8;
 
+    /// |γ| \[rad] from e beyond which laws that follow the direction of γ are refused: at π they are undefined.
+    pub const LIMIT: f64 = 3.1;
+
+    /// |γ′| \[rad] from −e within which they are refused.
+    pub const FORBIDDEN: f64 = PI - Self::LIMIT;
+
     /// +1 where γ turns e into t, −1 where it turns −e into t \[1].
     #[inline(always)]
     pub const fn sign(self) -> f64 {
@@ -70,6 +76,14 @@ impl Chart {
     /// Whether a motion at this γ \[rad] should go on in the other chart.
     pub fn is_left_at(self, gamma: Vector2<f64>) -> bool {
         self.before_border(gamma) <= 0.0
+    }
+
+    /// How far a motion at this γ \[rad] is from where a law that follows γ is refused \[rad²]; negative there.
+    pub fn before_limit(self, gamma: Vector2<f64>) -> f64 {
+        match self {
+            Chart::FromE => Self::LIMIT * Self::LIMIT - gamma.norm_squared(),
+            Chart::FromMinusE => gamma.norm_squared() - Self::FORBIDDEN * Self::FORBIDDEN,
+        }
     }
 
     /// Whether the axis at this γ \[rad] is tilted from e by more than π/2.
@@ -109,13 +123,18 @@ impl Chart {
         }
     }
 
-    /// The turns that φ from e gains beside φ in this chart, while γ \[rad] goes from one value to another by less than
-    /// half a turn about the origin: those of 2β where its azimuth β passes its cut at ±π.
-    pub fn turns_gained(self, from: Vector2<f64>, to: Vector2<f64>) -> f64 {
-        match self {
-            Chart::FromE => 0.0,
-            Chart::FromMinusE => 2.0 * ((azimuth(from) + azimuth_change(from, to) - azimuth(to)) / TAU).round(),
+    /// The turns that φ from e gains beside φ in this chart, while γ \[rad] goes a way from one place to the next by less than
+    /// half a turn about the origin: those of 2β where its azimuth β passes its cut at ±π. None on a way that is not finite.
+    pub fn turns_gained(self, mut from: Vector2<f64>, way: impl IntoIterator<Item = Vector2<f64>>) -> f64 {
+        if self == Chart::FromE {
+            return 0.0;
         }
+        let gained = way.into_iter().map(|to| {
+            let from = std::mem::replace(&mut from, to);
+            2.0 * ((azimuth(from) + azimuth_change(from, to) - azimuth(to)) / TAU).round()
+        });
+        let gained = gained.sum::<f64>();
+        if gained.is_finite() { gained } else { 0.0 }
     }
 }
 

@@ -6,13 +6,14 @@ mod lean;
 mod triple;
 
 use super::{Rotor, groups};
+use crate::body::ROTOR;
 use crate::coefficient::Coefficient;
 use crate::effects::series::{MOST_POWER, Now, Row, Series};
 use crate::effects::{Change, Effects, Motion};
 use crate::integrate::sizes::{Squares, largest_square};
 use crate::integrate::taylor::{Analytic, Room, Scratch, Seed, Terms};
 use crate::rotation::Tilt;
-use crate::state::{Coordinates, Kinematics, SUPPLIED, WITH_WORK, own, rigid, rigid_mut};
+use crate::state::{Coordinates, Kinematics};
 use axis::{Axis, Lower, Pairs};
 use lean::Lean;
 use nalgebra::Vector3;
@@ -83,18 +84,18 @@ impl<E: Effects> Rotor<'_, E> {
         };
         // Where there are no own states, nothing is made of them.
         let states: [Coefficient<HIGHER>; N];
-        let seen_own = if own(N) > 0 {
+        let seen_own = if E::FACTS.own > 0 {
             states = std::array::from_fn(|n| own_states.get(n).map_or(none, |state| Coefficient::varying(*state)));
-            &states[..own(N)]
+            &states[E::layout::<N>().own()]
         } else {
             &[]
         };
         let seen = Motion::of_series(&kinematics, seen_own, series);
         let act = self.effects.act(&seen);
         let load = if series.works() { act.load + act.damping } else { act.load };
-        if own(N) > 0 {
+        if E::FACTS.own > 0 {
             let mut rates = [Coefficient::zero(); N];
-            self.effects.own_rates(&seen, &mut rates[..own(N)]);
+            self.effects.own_rates(&seen, &mut rates[E::layout::<N>().own()]);
             for (to, rate) in own_rates.iter_mut().zip(rates) {
                 *to = rate.coefficient() * per_next;
             }
@@ -117,12 +118,12 @@ impl<E: Effects> Rotor<'_, E> {
         order: usize,
         terms: &mut Terms<N>,
     ) {
-        let own = own(N);
+        let own = E::FACTS.own;
         let body = self.frame.body;
-        let at = Coordinates::from_slice(rigid(y));
+        let at = self.at(y);
         let sign = f64x2::splat(self.frame.chart.sign());
         let per_ja = body.spin + body.per_jt;
-        let works = series.works() && N >= WITH_WORK;
+        let works = series.works() && E::layout::<N>().has_work();
         let [first, second] = [0, 3].map(|n| Triple::of(vector(&seed[n..])));
         let along = seed[0];
         let per_divisor = f64x2::ONE / (f64x2::ONE + sign * f64x2::splat(along));
@@ -137,7 +138,7 @@ impl<E: Effects> Rotor<'_, E> {
         begin[AXIS..][..3].copy_from_slice(&seed[..3]);
         (begin[SPIN], begin[ANGLE]) = (momentum, at.phi);
         if works {
-            begin[OWN + own..][..2].copy_from_slice(&y[own + SUPPLIED..][..2]);
+            begin[OWN + own..][..2].copy_from_slice(&E::layout::<N>().read_work(y));
         }
         terms[1][PLACE..][..3].copy_from_slice(at.v.as_slice());
         terms[1][AXIS..][..3].copy_from_slice(&seed[3..6]);
@@ -231,7 +232,7 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
         scratch: &mut Scratch,
         terms: &mut Terms<N>,
     ) -> Room {
-        let works = self.frame.works;
+        let works = self.active.works;
         let mut expand = |series: &mut Series| {
             self.expanded(series, scratch, room.levels, start, order, terms);
             Room {
@@ -271,7 +272,7 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
 
     #[inline(always)]
     fn state_of(&self, numbers: &[f64; N], rates: &[f64; N]) -> ([f64; N], Seed) {
-        let own = own(N);
+        let own = E::FACTS.own;
         let [of, rate] = [numbers, rates];
         // Rounding leaves t beside the sphere, and dt/dt beside its tangent plane.
         let axis = vector(&of[AXIS..]).normalize();
@@ -288,16 +289,17 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
             gamma: self.frame.chart.gamma_of(&axis),
             phi: of[ANGLE],
         };
-        coordinates.write(rigid_mut(&mut y));
-        if N >= WITH_WORK {
-            y[own + SUPPLIED..][..2].copy_from_slice(&of[OWN + own..][..2]);
+        let layout = E::layout::<N>();
+        layout.write(&mut y, ROTOR, &coordinates);
+        if layout.has_work() {
+            layout.write_work(&mut y, [of[OWN + own], of[OWN + own + 1]]);
         }
         (y, seed(&axis, &axis_rate, of[SPIN]))
     }
 
     #[inline(always)]
     fn term(&self, y: &[f64; N], terms: &Terms<N>, power: usize, weights: &Squares) -> f64 {
-        let own = own(N);
+        let own = E::FACTS.own;
         let first = &terms[0];
         let [of, above] = [power, power + 1].map(|power| &terms[power]);
         let (axis, next) = (vector(&of[AXIS..]), (power + 1) as f64);
@@ -312,16 +314,17 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
             gamma: nalgebra::Vector2::new(axis.norm(), 0.0),
             phi: 0.0,
         };
-        coordinates.write(rigid_mut(&mut change));
-        if N >= WITH_WORK {
-            change[own + SUPPLIED..][..2].copy_from_slice(&of[OWN + own..][..2]);
+        let layout = E::layout::<N>();
+        layout.write(&mut change, ROTOR, &coordinates);
+        if layout.has_work() {
+            layout.write_work(&mut change, [of[OWN + own], of[OWN + own + 1]]);
         }
         let mut parts = self.parts_of_motion(y, &change);
         if E::FACTS.loads > 0 {
             let axis_rate = vector(&above[AXIS..]) * next;
             let speed = coordinates.k.dot(&start) * (self.frame.body.per_jt + self.frame.body.spin);
             let loaded = Change { r_c: coordinates.r, axis, v_c: coordinates.v, axis_rate, speed };
-            let at = Coordinates::from_slice(rigid(y));
+            let at = self.at(y);
             let tilt = Tilt::of_axis(self.frame.chart, start);
             self.change_loads::<N>(&at, &tilt, &at.k, &loaded, &mut parts);
         }

@@ -2,11 +2,11 @@
 //! [kg·m²/s] along K and across it, γ \[rad], φ \[rad], the work supplied and lost \[J]; then the loads \[N], [N·m].
 
 use super::Rotor;
+use crate::body::ROTOR;
 use crate::effects::Effects;
 use crate::integrate::System;
 use crate::integrate::sizes::{MOST_GROUPS, Squares};
 use crate::rotation::Tilt;
-use crate::state::{COORDINATES, Coordinates, own, rigid, work};
 use nalgebra::Vector3;
 
 /// How many there are, beside the own states, which come first, each a group of its own.
@@ -20,12 +20,12 @@ pub const PHI: usize = 7;
 
 /// The own states' squares and those of the rigid motion.
 #[inline(always)]
-pub(crate) fn squares<const N: usize>(y: &[f64; N], rigid: [f64; RIGID]) -> Squares {
+pub(crate) fn squares(own: &[f64], rigid: [f64; RIGID]) -> Squares {
     let mut squares = [0.0; MOST_GROUPS];
-    for n in 0..own(N) {
-        squares[n] = y[n] * y[n];
+    for n in 0..own.len() {
+        squares[n] = own[n] * own[n];
     }
-    squares[own(N)..][..RIGID].copy_from_slice(&rigid);
+    squares[own.len()..][..RIGID].copy_from_slice(&rigid);
     squares
 }
 
@@ -43,7 +43,7 @@ impl<E: Effects> Rotor<'_, E> {
     /// r and v go round with it; what c does beside that may be far less, and then φ must be known as well.
     #[inline(always)]
     pub(super) fn sizes_of<const N: usize>(&self, y: &[f64; N], rate: &[f64; N], origin: &[f64; N]) -> Squares {
-        let [at, rate, origin] = [y, rate, origin].map(|y| Coordinates::from_slice(rigid(y)));
+        let [at, rate, origin] = [y, rate, origin].map(|y| self.at(y));
         let (mut way, mut speed, mut phi) = (at.r - origin.r, at.v, 1.0);
         let centre = self.frame.body.asymmetric.map_or_else(Vector3::zeros, |asymmetric| asymmetric.centre);
         let eccentricity = split(&centre)[1];
@@ -67,7 +67,10 @@ impl<E: Effects> Rotor<'_, E> {
             0.0
         };
         let kinetic = 0.5 * (self.frame.body.m * at.v.norm_squared() + k * per_j + driven);
-        let mut squares = squares(y, [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic]);
+        let mut squares = squares(
+            &y[E::layout::<N>().own()],
+            [larger(x, r), r, larger(vx, v), v, k, across, tilt, phi, kinetic * kinetic],
+        );
         self.size_loads::<N>([&at, &rate, &origin], [way, speed], &mut squares);
         squares
     }
@@ -76,14 +79,14 @@ impl<E: Effects> Rotor<'_, E> {
     #[inline(always)]
     pub(super) fn parts_of<const N: usize>(&self, t: f64, y: &[f64; N], change: &[f64; N]) -> Squares {
         let mut squares = self.parts_of_motion(y, change);
-        self.part_loads(t, y, &Coordinates::from_slice(rigid(change)), &mut squares);
+        self.part_loads(t, y, &self.at(change), &mut squares);
         squares
     }
 
     /// The same, without the loads.
     #[inline(always)]
     pub(crate) fn parts_of_motion<const N: usize>(&self, y: &[f64; N], change: &[f64; N]) -> Squares {
-        let (k, by) = (Coordinates::from_slice(rigid(y)).k, Coordinates::from_slice(rigid(change)));
+        let (k, by) = (self.at(y).k, self.at(change));
         let ([x, r], [vx, v]) = (split(&by.r), split(&by.v));
         let square = k.norm_squared();
         let (dot, cross) = (k.dot(&by.k), k.cross(&by.k).norm_squared());
@@ -94,18 +97,19 @@ impl<E: Effects> Rotor<'_, E> {
         // eq. 121: Jt d(dt/dt) = dK×t + K×dt
         let across =
             if E::FACTS.shows_velocity && self.effects.shows_velocity() { across + square * gamma } else { across };
+        let layout = E::layout::<N>();
         // As a quadrature it has no part in the error.
-        let phi = if System::<N>::depended_on(self) == own(N) + COORDINATES { by.phi * by.phi } else { 0.0 };
-        let [supplied, dissipated] = work(change);
+        let phi = if System::<N>::depended_on(self) > layout.phi(ROTOR) { by.phi * by.phi } else { 0.0 };
+        let [supplied, dissipated] = layout.read_work(change);
         let work = supplied * supplied + dissipated * dissipated;
-        squares(change, [x, r, vx, v, along, across, gamma, phi, work])
+        squares(&change[layout.own()], [x, r, vx, v, along, across, gamma, phi, work])
     }
 
     /// [`System::roundings`]: a velocity is known no better than the place over the step allows,
     /// a tilt no better than the way of the step.
     #[inline(always)]
     pub(super) fn roundings_of<const N: usize>(&self, y: &[f64; N], h: f64) -> Squares {
-        let at = Coordinates::from_slice(rigid(y));
+        let (at, layout) = (self.at(y), E::layout::<N>());
         let ([x, r], [vx, v], k) = (split(&at.r), split(&at.v), at.k.norm_squared());
         let (per_h, jt, gamma) = (1.0 / (h * h), 1.0 / self.frame.body.per_jt, at.gamma.norm_squared());
         // eq. 85: q² = |r|² + |γ|² Jt/m
@@ -113,10 +117,11 @@ impl<E: Effects> Rotor<'_, E> {
         let turning = k + q * per_h * (jt * self.frame.body.m);
         // eq. 85: |γ|² + (4 h |v⊥|)² m/Jt, what moments that cancel leave in all stages of a step
         let tilt = gamma + 16.0 * v * (h * h * self.frame.body.m * self.frame.body.per_jt);
-        let [supplied, dissipated] = work(y);
+        let [supplied, dissipated] = layout.read_work(y);
         let work = supplied * supplied + dissipated * dissipated;
         let velocity = v + q * per_h;
-        let mut squares = squares(y, [x, r, vx + x * per_h, velocity, turning, turning, tilt, at.phi * at.phi, work]);
+        let mut squares =
+            squares(&y[layout.own()], [x, r, vx + x * per_h, velocity, turning, turning, tilt, at.phi * at.phi, work]);
         let loaded = [x + r, vx + velocity, tilt, turning * self.frame.body.per_jt * self.frame.body.per_jt];
         self.round_loads::<N>(&at, loaded.map(f64::sqrt), &mut squares);
         squares

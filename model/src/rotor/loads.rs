@@ -5,13 +5,13 @@ use crate::effects::{Change, Effects, Pose};
 use crate::integrate::sizes::{MOST_GROUPS, Squares};
 use crate::rotation::{Chart, Tilt};
 use crate::rotor::groups::RIGID;
-use crate::state::{Coordinates, own, rigid};
+use crate::state::Coordinates;
 use nalgebra::{Vector2, Vector3};
 
 impl<E: Effects> Rotor<'_, E> {
     /// Where the loads of a state of N numbers stand among the groups.
-    const fn load_groups<const N: usize>() -> std::ops::Range<usize> {
-        let first = own(N) + RIGID;
+    const fn load_groups() -> std::ops::Range<usize> {
+        let first = E::FACTS.own + RIGID;
         assert!(first + E::FACTS.loads <= MOST_GROUPS, "a system has at most MOST_GROUPS groups");
         first..first + E::FACTS.loads
     }
@@ -54,7 +54,7 @@ impl<E: Effects> Rotor<'_, E> {
         if E::FACTS.loads == 0 {
             return;
         }
-        let at = Coordinates::from_slice(rigid(y));
+        let at = self.at(y);
         let tilt = Tilt::new(self.frame.chart, at.gamma);
         let (axis, momentum, body) = (tilt.axis_change(&by.gamma), self.momentum(t, y), &self.frame.body);
         // eq. 121: d(dt/dt) = (dK×t + K×dt)/Jt
@@ -111,7 +111,7 @@ impl<E: Effects> Rotor<'_, E> {
         if const { is_apart::<E>() } {
             self.load_squares_called::<N, SIZES>(pose, change, squares);
         } else {
-            self.effects.loads::<SIZES>(pose, change, &mut squares[Self::load_groups::<N>()]);
+            self.effects.loads::<SIZES>(pose, change, &mut squares[Self::load_groups()]);
         }
     }
 
@@ -123,7 +123,7 @@ impl<E: Effects> Rotor<'_, E> {
         change: &Change,
         squares: &mut Squares,
     ) {
-        self.effects.loads::<SIZES>(pose, change, &mut squares[Self::load_groups::<N>()]);
+        self.effects.loads::<SIZES>(pose, change, &mut squares[Self::load_groups()]);
     }
 
     /// How the rotor lies at these coordinates, where its axis has this tilt and rate [1/s] and φ this rate [rad/s].
@@ -140,6 +140,6 @@ impl<E: Effects> Rotor<'_, E> {
         if E::FACTS.imposes && self.effects.imposed(t).is_some() {
             return self.motion(t, y).momentum();
         }
-        Coordinates::from_slice(rigid(y)).k
+        self.at(y).k
     }
 }

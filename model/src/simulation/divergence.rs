@@ -1,9 +1,10 @@
 //! Detects a motion that diverges: something holds the rotor, and yet it is further away than any machine is large.
 
+use crate::body::ROTOR;
 use crate::effects::{Block, Effects};
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
-use crate::state::{GAMMA, own, rigid};
+use crate::state::GAMMA;
 use crate::stored::stored;
 use std::fmt::{self, Display, Formatter};
 
@@ -69,7 +70,7 @@ impl Bounds {
     /// Looks at the rotor at time `t` \[s] and state `y`.
     #[inline(always)]
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
-        let place = rigid(y);
+        let place = &y[E::layout::<N>().body(ROTOR)];
         if (0..DIRECTIONS).any(|n| place[n].abs() > self.limits[n]) && self.found.is_none() {
             self.judge(rotor, t, y);
         }
@@ -81,8 +82,8 @@ impl Bounds {
     fn judge<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
         let Frame { body, chart, turns, .. } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
-        let jacobian = balanced.jacobian(t, y);
-        let (first, place) = (own(N), rigid(y));
+        let (jacobian, at) = (balanced.jacobian(t, y), E::layout::<N>().body(ROTOR));
+        let (first, place) = (at.start, &y[at]);
         // A load that depends on the place: the rates of velocity and angular momentum do.
         let is_held = |n: usize| (DIRECTIONS..GAMMA.start).any(|rate| jacobian[first + rate][first + n] != 0.0);
         let held = (0..DIRECTIONS).filter(|n| is_held(*n));

@@ -5,7 +5,7 @@
 
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::scalar::ulp;
-use crate::state::{Kinematics, own};
+use crate::state::Kinematics;
 use crate::stored::stored;
 
 /// The values of all indicators of a list.
@@ -120,7 +120,7 @@ impl Events {
     /// The effects take the sides that are known.
     pub(super) fn tell<E: Effects, const N: usize>(&self, effects: &mut E, motion: &Kinematics<f64>, state: &[f64; N]) {
         if E::FACTS.indicators > 0 {
-            effects.switch(&self.positive, motion, &state[..own(N)]);
+            effects.switch(&self.positive, motion, &state[E::layout::<N>().own()]);
         }
     }
 
@@ -189,7 +189,7 @@ pub(super) fn indicators<E: Effects, const N: usize>(
     state: &[f64; N],
 ) -> Indicators {
     let mut all = [1.0; MOST_INDICATORS];
-    effects.indicators(motion, &state[..own(N)], &mut all);
+    effects.indicators(motion, &state[E::layout::<N>().own()], &mut all);
     all
 }
 

@@ -6,13 +6,11 @@ use super::events::{Events, indicators};
 use super::growth::{Growth, Unjudged, Watch};
 use super::met::Met;
 use super::start::Motion;
+use crate::body::ROTOR;
 use crate::effects::{Effects, MOST_INDICATORS};
 use crate::energy::kinetic;
 use crate::integrate::{Cost, Refusal};
-use crate::rotation::Chart;
-use crate::rotation::chart::crossed_exactly;
-use crate::rotor::{Frame, whole_rates};
-use crate::state::{Coordinates, GAMMA, PHI, SUPPLIED, rigid, rigid_mut};
+use crate::rotor::{Bodies, gamma, whole_rates};
 use crate::stored::stored;
 use crate::variables::{Instant, LARGEST_PHI, Parameters};
 use nalgebra::Vector2;
@@ -20,7 +18,7 @@ use nalgebra::Vector2;
 /// A rotor whose state a host sets.
 #[derive(Clone, Copy)]
 pub struct Exchange<const N: usize> {
-    frame: Frame,
+    bodies: Bodies,
     /// \[s]
     t: f64,
     /// φ with all its turns but those that it gains beside the chart from −e, which the rotor's `turns` count.
@@ -40,7 +38,7 @@ pub struct Exchange<const N: usize> {
 }
 
 stored!(Exchange<const N: usize> {
-    frame, t, state, completed, at_event, total_at_start, tilted, watch, bounds, met, events
+    bodies, t, state, completed, at_event, total_at_start, tilted, watch, bounds, met, events
 });
 
 /// The end of a completed step.
@@ -83,22 +81,22 @@ const PIECES: u32 = 32;
 impl<const N: usize> Exchange<N> {
     /// From a motion that shows `reading` at its start.
     pub(super) fn start<E: Effects>(effects: &E, start: &Motion<N>, instant: &Instant<N>) -> Self {
-        let Motion { frame, state, events, .. } = *start;
+        let Motion { bodies, state, events, .. } = *start;
         let (total_at_start, t) = (instant.reading.ledger.total_at_start, instant.reading.motion.t);
-        let mut exchange = Self { frame, t, state, total_at_start, events, ..Self::blank() };
+        let mut exchange = Self { bodies, t, state, total_at_start, events, ..Self::blank() };
         exchange.completed = exchange.here(effects);
         exchange.at_event = Some(exchange.kinetic(effects));
         exchange.watch_tilt(effects);
-        exchange.watch.look(&frame.under(effects), t, &state);
-        exchange.bounds = Bounds::of(&frame.under(effects));
-        exchange.met.look(&frame.under(effects), t, &state);
+        exchange.watch.look(&bodies.under(effects), t, &state);
+        exchange.bounds = Bounds::of(&bodies.under(effects));
+        exchange.met.look(&bodies.under(effects), t, &state);
         exchange
     }
 
     /// Nothing yet: a place for what was stored.
     pub(super) fn blank() -> Self {
         Self {
-            frame: Frame::default(),
+            bodies: Bodies::default(),
             t: 0.0,
             state: [0.0; N],
             completed: Completed::default(),
@@ -114,7 +112,7 @@ impl<const N: usize> Exchange<N> {
 
     /// Whether a run of these parameters can be this one: what was saved may have been altered.
     pub(super) fn is_of<E: Effects>(&self, parameters: &Parameters<E>) -> bool {
-        self.frame.is_of(&parameters.shape().inertia(), &parameters.effects)
+        self.bodies.is_of(&parameters.shape().inertia(), &parameters.effects)
     }
 
     /// The time \[s].
@@ -138,8 +136,8 @@ impl<const N: usize> Exchange<N> {
     }
 
     /// Where the host's motion stands: time \[s] and state.
-    pub(super) fn reached(&self) -> (Frame, f64, &[f64; N]) {
-        (self.frame, self.t, &self.state)
+    pub(super) fn reached(&self) -> (Bodies, f64, &[f64; N]) {
+        (self.bodies, self.t, &self.state)
     }
 
     /// The lowest and the highest ω_φ so far [rad/s], where a law may be doubtful at some.
@@ -172,33 +170,32 @@ impl<const N: usize> Exchange<N> {
         if !self.state.iter().all(|number| number.is_finite()) {
             return Err(Refusal("a state is infinite or not a number"));
         }
-        if rigid(&self.state)[PHI].abs() > LARGEST_PHI {
+        if self.state[E::layout::<N>().phi(ROTOR)].abs() > LARGEST_PHI {
             return Err(Refusal("phi of the continuous states is so large that its whole turns cannot be counted"));
         }
-        self.frame.under(effects).reaches(gamma(&self.state), reach)
+        self.bodies.under(effects).reaches(gamma::<E, N>(&self.state), reach)
     }
 
     /// The host completed a step: counts turns. Whether the chart should now be changed, at an event.
     pub(super) fn complete_step<E: Effects>(&mut self, effects: &E) -> bool {
         self.count_turns(effects);
         self.watch_tilt(effects);
-        self.watch.look(&self.frame.under(effects), self.t, &self.state);
-        self.bounds.look(&self.frame.under(effects), self.t, &self.state);
-        self.met.look(&self.frame.under(effects), self.t, &self.state);
-        let motion = self.frame.under(effects).motion(self.t, &self.state);
-        self.events.would_change(effects, &motion, &self.state) || self.frame.chart.is_left_at(self.completed.gamma)
+        self.watch.look(&self.bodies.under(effects), self.t, &self.state);
+        self.bounds.look(&self.bodies.under(effects), self.t, &self.state);
+        self.met.look(&self.bodies.under(effects), self.t, &self.state);
+        let motion = self.bodies.under(effects).motion(self.t, &self.state);
+        let [frame] = &self.bodies.frames;
+        self.events.would_change(effects, &motion, &self.state) || frame.chart.is_left_at(self.completed.gamma)
     }
 
     /// The indicators of events: of the chart, of γ about −e, of the limit of a law that follows γ, and of the effects. Where one
     /// changes its sign, the host is to come to an event.
     pub(super) fn indicators<E: Effects>(&self, effects: &E) -> [f64; ALWAYS_INDICATED + MOST_INDICATORS] {
-        let gamma = gamma(&self.state);
-        let about = if self.frame.chart == Chart::FromMinusE { [gamma.x, gamma.y] } else { [1.0; 2] };
-        let limit = if effects.needs_gamma() { self.frame.before_limit(gamma) } else { 1.0 };
-        let motion = self.frame.under(effects).motion(self.t, &self.state);
+        let [frame] = &self.bodies.frames;
+        let motion = self.bodies.under(effects).motion(self.t, &self.state);
         let mut all = [0.0; ALWAYS_INDICATED + MOST_INDICATORS];
         let (always, of_effects) = all.split_at_mut(ALWAYS_INDICATED);
-        always.copy_from_slice(&[self.frame.chart.before_border(gamma), about[0], about[1], limit]);
+        always.copy_from_slice(&frame.indicators(gamma::<E, N>(&self.state), effects.needs_gamma()));
         of_effects.copy_from_slice(&self.events.sided(indicators(effects, &motion, &self.state)));
         all
     }
@@ -233,11 +230,11 @@ impl<const N: usize> Exchange<N> {
         if E::FACTS.indicators == 0 {
             return false;
         }
-        let motion = self.frame.under(effects).motion(self.t, &self.state);
+        let motion = self.bodies.under(effects).motion(self.t, &self.state);
         let rates = whole_rates(effects, &motion, &self.state);
         let h = AHEAD * (self.t.abs() + AHEAD.sqrt());
         let ahead: [f64; N] = std::array::from_fn(|n| self.state[n] + h * rates[n]);
-        let motion = self.frame.under(effects).motion(self.t + h, &ahead);
+        let motion = self.bodies.under(effects).motion(self.t + h, &ahead);
         self.events.take_sides(effects, &motion, &ahead)
     }
 
@@ -249,64 +246,54 @@ impl<const N: usize> Exchange<N> {
         if !E::FACTS.imposes || jump == 0.0 {
             return false;
         }
-        rigid_mut(&mut self.state)[SUPPLIED] += jump;
+        self.state[E::layout::<N>().work()][0] += jump;
         true
     }
 
     /// \[J]
     fn kinetic<E: Effects>(&self, effects: &E) -> f64 {
-        kinetic(&self.frame.under(effects).motion(self.t, &self.state))
+        kinetic(&self.bodies.under(effects).motion(self.t, &self.state))
     }
 
     /// Counts the turns up to the present γ, and goes on counting from there.
     fn count_turns<E: Effects>(&mut self, effects: &E) {
-        self.frame.turns = self.turns(effects);
+        let turns = self.turns(effects);
+        let [frame] = &mut self.bodies.frames;
+        frame.turns = turns;
         self.completed = self.here(effects);
     }
 
     /// Goes on in the other chart where this one is left, which changes the state. Whether it did. Turns were counted.
     fn settle_chart<E: Effects>(&mut self, effects: &E) -> bool {
-        let chart = self.frame.chart;
-        let now = gamma(&self.state);
-        if !chart.is_left_at(now) {
-            return false;
-        }
-        let rigid = rigid_mut(&mut self.state);
-        let phi = chart.axial_angle(self.frame.turns, rigid[PHI], now);
-        let crossed = crossed_exactly(now);
-        self.frame.chart = chart.other();
-        rigid[PHI] = self.frame.chart.own_angle(phi, crossed).radians();
-        rigid[GAMMA].copy_from_slice(crossed.as_slice());
-        self.frame.turns = 0.0;
+        let ([frame], now) = (&mut self.bodies.frames, gamma::<E, N>(&self.state));
+        let layout = E::layout::<N>();
+        let Some((crossed, phi)) = frame.leave(now, self.state[layout.phi(ROTOR)]) else { return false };
+        self.state[layout.gamma(ROTOR)].copy_from_slice(crossed.as_slice());
+        self.state[layout.phi(ROTOR)] = frame.unwrap(phi);
         self.completed = self.here(effects);
         true
     }
 
     /// What the present state shows.
     pub(super) fn read<E: Effects>(&self, effects: &E) -> Instant<N> {
-        let motion = self.frame.under(effects).motion(self.t, &self.state).when(self.t, self.turns(effects));
+        let motion = self.bodies.under(effects).motion(self.t, &self.state).when(self.t, self.turns(effects));
         Instant::new(motion, self.state, effects, self.total_at_start, Cost::default())
     }
 
     /// The turns that go with the present γ: those that it gained since the last completed step. A host that completes no
     /// step while γ goes around the origin loses count.
     fn turns<E: Effects>(&self, effects: &E) -> f64 {
-        let mut last = self.completed.gamma;
-        let gained =
-            self.path(effects).map(|gamma| self.frame.chart.turns_gained(std::mem::replace(&mut last, gamma), gamma));
-        let gained = gained.sum::<f64>();
         // Near −e a rate may have no limit; a host's state there is refused, and counts no turn.
-        self.frame.turns + if gained.is_finite() { gained } else { 0.0 }
+        let [frame] = &self.bodies.frames;
+        frame.turns + frame.chart.turns_gained(self.completed.gamma, self.path(effects))
     }
 
     /// The way of γ \[rad] since the last completed step, in pieces.
     fn path<E: Effects>(&self, effects: &E) -> impl Iterator<Item = Vector2<f64>> {
         let (start, end) = (self.completed, self.here(effects));
         let h = end.t - start.t;
-        // From e nothing happens on the way.
-        let pieces = if self.frame.chart == Chart::FromE { 1 } else { PIECES };
-        (1..=pieces).map(move |piece| {
-            let s = f64::from(piece) / f64::from(pieces);
+        (1..=PIECES).map(move |piece| {
+            let s = f64::from(piece) / f64::from(PIECES);
             let r = 1.0 - s;
             // eq. 33: γ(σ) = (1 − σ)²((1 + 2σ)γ₀ + σhγ̇₀) + σ²((3 − 2σ)γ₁ − (1 − σ)hγ̇₁)
             (start.gamma * (1.0 + 2.0 * s) + start.rate * (s * h)) * (r * r)
@@ -316,15 +303,12 @@ impl<const N: usize> Exchange<N> {
 
     /// Where the motion is now.
     fn here<E: Effects>(&self, effects: &E) -> Completed {
-        let motion = self.frame.under(effects).motion(self.t, &self.state);
+        let motion = self.bodies.under(effects).motion(self.t, &self.state);
         Completed { t: self.t, gamma: motion.at.gamma, rate: motion.gamma_rate() }
     }
 
     fn watch_tilt<E: Effects>(&mut self, effects: &E) {
-        self.tilted |= self.frame.chart.is_tilted_back(gamma(&self.state)) && effects.needs_gamma();
+        let [frame] = &self.bodies.frames;
+        self.tilted |= frame.chart.is_tilted_back(gamma::<E, N>(&self.state)) && effects.needs_gamma();
     }
-}
-
-fn gamma<const N: usize>(state: &[f64; N]) -> Vector2<f64> {
-    Coordinates::from_slice(rigid(state)).gamma
 }

@@ -1,7 +1,7 @@
 //! Whether the linear motion about where a rotor is grows: what an unstable machine does is right, but its user should know.
 
 use super::rest::settled;
-use crate::body::{Asymmetric, Inertia};
+use crate::body::{Asymmetric, Inertia, ROTOR};
 use crate::decompositions::eigenvalues;
 use crate::effects::Effects;
 use crate::integrate::System;
@@ -9,7 +9,7 @@ use crate::integrate::stiff::Differentiable;
 use crate::log::shown;
 use crate::rotation::Chart;
 use crate::rotor::{Frame, Rotor};
-use crate::state::{Coordinates, GAMMA, Kinematics, PHI, own, rigid, rigid_mut};
+use crate::state::{BODY, GAMMA, Kinematics};
 use crate::stored::stored;
 use nalgebra::{Complex, Normed, SMatrix, Vector3};
 use std::f64::consts::FRAC_PI_2;
@@ -109,7 +109,7 @@ impl Seen {
 
 /// The equations without φ, the work and the own states, which hold on their own: a motor does not make a whirl grow at a
 /// steady speed.
-pub const LINEAR: usize = PHI;
+pub const LINEAR: usize = BODY;
 
 /// Such equations.
 pub type Linear = SMatrix<f64, LINEAR, LINEAR>;
@@ -155,7 +155,7 @@ pub(super) const PORT: &str = "port";
 
 /// The linear equations of a rotor about this state at time `t` \[s].
 pub(super) fn linear<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Linear {
-    let (jacobian, first) = (rotor.jacobian(t, y), own(N));
+    let (jacobian, first) = (rotor.jacobian(t, y), E::layout::<N>().body(ROTOR).start);
     Linear::from_fn(|i, j| jacobian[first + i][first + j])
 }
 
@@ -173,8 +173,7 @@ impl Watch {
     /// Looks at the rotor at time `t` \[s] and state `y`, if that is due.
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
         // The state lacks what an imposed speed passed on.
-        let momentum =
-            if E::FACTS.imposes { rotor.motion(t, y).momentum() } else { Coordinates::from_slice(rigid(y)).k };
+        let momentum = if E::FACTS.imposes { rotor.motion(t, y).momentum() } else { rotor.at(y).k };
         let [low, high] = self.known;
         let is_settled = || self.doubted.by > 0.0 && self.doubted.exceeds(&rotor.motion(t, y));
         // What the axis does across e is no spin.
@@ -204,7 +203,7 @@ impl Watch {
         };
         self.unjudged = None;
         // M·t, by which a spin that nothing imposes changes.
-        let moment = Coordinates::from_slice(rigid(&System::rates::<true, false>(rotor, t, y))).k;
+        let moment = rotor.at(&System::rates::<true, false>(rotor, t, y)).k;
         let torque = if motion.impulse.is_some() { 0.0 } else { moment.dot(motion.axis()).abs() };
         // What turns is left out: it may part two motions that are nearly one by its root.
         let least = (turning * fastest).sqrt().max(ROUNDING * fastest);
@@ -274,7 +273,7 @@ impl Watch {
         let balanced = Rotor::new(balanced, rotor.effects, chart, turns);
         let at = |phi: f64| {
             let mut state = state;
-            rigid_mut(&mut state)[PHI] = phi;
+            state[E::layout::<N>().phi(ROTOR)] = phi;
             linear(&balanced, t, &state)
         };
         let [start, quarter] = [0.0, FRAC_PI_2].map(at);

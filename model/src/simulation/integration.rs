@@ -12,24 +12,24 @@ use super::method::Method;
 use super::plan::Plan;
 use super::rattle::{Rattle, Rattles};
 use super::start::{Motion, tolerance};
+use crate::body::frame::{Frame, Step};
+use crate::body::{BODIES, ROTOR};
 use crate::effects::Effects;
 use crate::energy::{Ledger, kinetic};
 use crate::integrate::taylor::Scratch;
 use crate::integrate::{Cost, Fault, Refusal, Tolerance};
-use crate::rotation::chart::{azimuth_change, crossed_exactly};
-use crate::rotation::{Angle, Chart};
-use crate::rotor::{self, Frame, Rotor};
-use crate::state::{Coordinates, GAMMA, Kinematics, PHI, SUPPLIED, own, rigid, rigid_mut, work};
-use crate::stored::{Damaged, Stored, Walk, stored, whole};
+use crate::rotation::Chart;
+use crate::rotor::{Bodies, Rotor, gamma};
+use crate::state::Kinematics;
+use crate::stored::stored;
 use crate::variables::{Instant, Parameters, Setup, numbers};
 use nalgebra::Vector2;
-use std::f64::consts::TAU;
 
 /// A rotor with N equations, its method, and how far its answers are wanted.
 #[derive(Clone, Copy)]
 pub(super) struct Integration<const N: usize> {
-    /// The chart and the whole turns of the time that the method has reached.
-    frame: Frame,
+    /// Charts and whole turns are those of the time that the method has reached.
+    bodies: Bodies,
     method: Method<N>,
     /// Where it is that of `auto` or `taylor`.
     auto: Option<Auto>,
@@ -38,7 +38,8 @@ pub(super) struct Integration<const N: usize> {
     tolerance: Tolerance,
     /// So many evaluations a communication step may take.
     most: f64,
-    last: LastStep,
+    /// The last step, of each body.
+    last: [Step; BODIES],
     /// The communication point \[s], and when the run stops.
     t: f64,
     stop: f64,
@@ -56,7 +57,7 @@ pub(super) struct Integration<const N: usize> {
 }
 
 stored!(Integration<const N: usize> {
-    frame, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, bounds, rattles, met, events, held
+    bodies, method, auto, series, tolerance, most, last, t, stop, total_at_start, tilted, watch, bounds, rattles, met, events, held
 });
 
 /// The communication point as it was before an input was set there.
@@ -77,33 +78,6 @@ impl<const N: usize> Default for Held<N> {
     }
 }
 
-/// What must be known of the last step to read it.
-#[derive(Clone, Copy, Default)]
-struct LastStep {
-    /// Its chart; the method may go on in the other one.
-    chart: Chart,
-    /// Whole turns of φ at its start.
-    turns: f64,
-    /// γ \[rad] at its start.
-    gamma: Vector2<f64>,
-    /// When \[s] and where \[rad] γ came closest to the origin, if its azimuth turned much.
-    closest: Option<(f64, Vector2<f64>)>,
-}
-
-impl Stored for LastStep {
-    fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { chart, turns, gamma, closest } = self;
-        chart.walk(walk)?;
-        whole(turns, walk)?;
-        gamma.walk(walk)?;
-        closest.walk(walk)
-    }
-}
-
-/// Where the azimuth of γ turns by more than this in a step \[rad], the way past the origin is looked at closely: on a
-/// curved path it may have turned by more than π. What whirls steadily turns by less ([`LONGEST_WHIRL`]).
-const MUCH: f64 = 1.2;
-
 /// So near −e \[rad], a law that ends close to it makes every step looked at: an axis may go there and back within one.
 const NEAR: f64 = 1.0;
 
@@ -113,19 +87,8 @@ const AHEAD: f64 = 1e6;
 /// Nor is an exact one longer than so many \[1]: each communication point within it is reached from where it began.
 const EXACT_AHEAD: f64 = 8.0;
 
-/// φ \[rad] advances by at most so much in a step: further, a double near 0 and one so large differ too much in their
-/// last place for the remainder of φ to stay exact.
-const LONGEST_TURN: f64 = 16.0 * TAU;
-
-/// γ \[rad] advances by about so much at most in a step: through −e it goes nearly straight, and no error estimate would
-/// keep the step from growing beyond what its dense output can follow. A power series can be read wherever it is right.
-const LONGEST_TILT: f64 = 1.0;
-
 /// An exact drift in which events are looked for nutates by at most so much \[rad], so that places in it tell where a station goes.
 const LONGEST_LOOK: f64 = 1.0;
-
-/// The azimuth of γ from −e \[rad] advances by about so much at most in a step, so that its turns can be counted.
-const LONGEST_WHIRL: f64 = 1.0;
 
 /// A step in which events are looked for is halved so often at most.
 const MOST_HALVES: u32 = 8;
@@ -158,46 +121,46 @@ impl<const N: usize> Integration<N> {
         let t = instant.reading.motion.t;
         let span = span.unwrap_or(f64::INFINITY);
         let tolerance = tolerance(setup, effects, start, t, span);
-        let Motion { frame, state: y, events, .. } = *start;
+        let Motion { bodies, state: y, events, .. } = *start;
         let plan = Plan::new(&setup.solver, effects);
-        let method = Method::start(plan, tolerance, &frame.under(effects), t, y);
+        let method = Method::start(plan, tolerance, &bodies.under(effects), t, y);
         let auto = match plan {
             Plan::Auto => Some(Auto::with_stiff()),
             Plan::Taylor => Some(Auto::default()),
             _ => None,
         };
-        let last = LastStep { chart: frame.chart, turns: frame.turns, gamma: gamma(&y), closest: None };
+        let last = bodies.frames.each_ref().map(|frame| Step::from(frame, gamma::<E, N>(&y)));
         let mut integration = Self {
-            frame,
+            bodies,
             method,
             auto,
-            series: auto.map(|_| BySeries::new(&frame.under(effects))),
+            series: auto.map(|_| BySeries::new(&bodies.under(effects))),
             tolerance,
             most: setup.solver.max_evaluations,
             last,
             t,
             stop: t + span,
             total_at_start: instant.reading.ledger.total_at_start,
-            bounds: Bounds::of(&frame.under(effects)),
+            bounds: Bounds::of(&bodies.under(effects)),
             events,
             ..Self::blank()
         };
-        integration.watch_tilt(effects, last.gamma);
-        integration.watch.look(&frame.under(effects), t, &y);
-        integration.met.look(&frame.under(effects), t, &y);
+        integration.watch_tilt(effects, gamma::<E, N>(&y));
+        integration.watch.look(&bodies.under(effects), t, &y);
+        integration.met.look(&bodies.under(effects), t, &y);
         integration
     }
 
     /// Nothing yet: a place for what was stored.
     pub(super) fn blank() -> Self {
         Self {
-            frame: Frame::default(),
+            bodies: Bodies::default(),
             method: Method::blank(),
             auto: None,
             series: None,
             tolerance: Tolerance::default(),
             most: 0.0,
-            last: LastStep::default(),
+            last: Default::default(),
             t: 0.0,
             stop: 0.0,
             total_at_start: 0.0,
@@ -214,7 +177,7 @@ impl<const N: usize> Integration<N> {
     /// Whether a run of these parameters can be this one: what was saved may have been altered.
     pub(super) fn is_of<E: Effects>(&self, parameters: &Parameters<E>) -> bool {
         let most = parameters.setup.solver.max_evaluations;
-        self.most == most && self.frame.is_of(&parameters.shape().inertia(), &parameters.effects)
+        self.most == most && self.bodies.is_of(&parameters.shape().inertia(), &parameters.effects)
     }
 
     /// The communication point \[s].
@@ -248,8 +211,8 @@ impl<const N: usize> Integration<N> {
     }
 
     /// Where the method stands: time \[s] and state.
-    pub(super) fn reached(&self) -> (Frame, f64, &[f64; N]) {
-        (self.frame, self.method.time(), self.method.state())
+    pub(super) fn reached(&self) -> (Bodies, f64, &[f64; N]) {
+        (self.bodies, self.method.time(), self.method.state())
     }
 
     /// The lowest and the highest ω_φ so far [rad/s], where a law may be doubtful at some.
@@ -257,7 +220,7 @@ impl<const N: usize> Integration<N> {
         let mut met = self.met;
         // Points within the last step are not looked at one by one.
         if self.t == self.method.time() {
-            met.look(&self.frame.under(effects), self.t, self.method.state());
+            met.look(&self.bodies.under(effects), self.t, self.method.state());
         }
         met.speeds()
     }
@@ -268,7 +231,8 @@ impl<const N: usize> Integration<N> {
     }
 
     fn watch_tilt<E: Effects>(&mut self, effects: &E, gamma: Vector2<f64>) {
-        self.tilted |= self.frame.chart.is_tilted_back(gamma) && effects.needs_gamma();
+        let [frame] = &self.bodies.frames;
+        self.tilted |= frame.chart.is_tilted_back(gamma) && effects.needs_gamma();
     }
 
     /// An input will be set at the communication point, under these effects so far: what is there stays.
@@ -309,17 +273,17 @@ impl<const N: usize> Integration<N> {
         if !matches!(self.method, Method::Composed(_)) {
             return self.run_to(effects, scratch, [t, until], looks);
         }
-        let before = (self.t, self.method, self.last, self.frame, self.events);
+        let before = (self.t, self.method, self.last, self.bodies, self.events);
         let seen = looks.clone();
         let outcome = self.run_to(effects, scratch, [t, until], looks);
         // Where the motion is lost, what stands in its way has another cause.
         if self.keeps_energy(effects) {
             return outcome.and_then(|()| self.show_at(effects, t));
         }
-        (self.t, self.method, self.last, self.frame, self.events) = before;
+        (self.t, self.method, self.last, self.bodies, self.events) = before;
         *looks = seen;
         let y = self.method.state();
-        let motion = self.frame.under(effects).motion(self.method.time(), y);
+        let motion = self.bodies.under(effects).motion(self.method.time(), y);
         self.events.tell(effects, &motion, y);
         Err(Fault::Refused { t: self.t, reason: TOO_LONG })
     }
@@ -375,7 +339,7 @@ impl<const N: usize> Integration<N> {
             (true, _) => "power series",
             (false, _) => "dop853",
         };
-        let why = series.words(is_series, &self.frame.under(&parameters.effects));
+        let why = series.words(is_series, &self.bodies.under(&parameters.effects));
         Some(match self.changes() {
             0 => format!("{who} takes {what}: {why}{also}"),
             _ => format!("{who} goes on with {what} from t = {t:?} s: {why}"),
@@ -398,28 +362,28 @@ impl<const N: usize> Integration<N> {
         let mut switched = 0;
         while self.method.time() < t {
             // What lies ahead of the communication point may still come otherwise.
-            self.met.look(&self.frame.under(effects), self.method.time(), self.method.state());
+            self.met.look(&self.bodies.under(effects), self.method.time(), self.method.state());
             if let Some(auto) = &mut self.auto
                 && auto.is_due()
             {
-                self.method.adapt(auto, self.tolerance, &self.frame.under(effects), self.stop);
+                self.method.adapt(auto, self.tolerance, &self.bodies.under(effects), self.stop);
             }
             if let Some(number) = self.events.due() {
                 let (t, y) = (self.method.time(), *self.method.state());
-                let rotor = self.frame.under(effects);
+                let rotor = self.bodies.under(effects);
                 let (motion, switch) = (rotor.motion(t, &y), self.rattles.switches(&rotor, t, &y, number));
                 self.events.switch(effects, &motion, &y);
-                self.rattles.switched(&self.frame.under(effects), t, &y, switch);
-                self.method.go_on_under(&self.frame.under(effects));
+                self.rattles.switched(&self.bodies.under(effects), t, &y, switch);
+                self.method.go_on_under(&self.bodies.under(effects));
                 if let Some(series) = &mut self.series {
-                    series.look(&self.frame.under(effects));
+                    series.look(&self.bodies.under(effects));
                 }
             }
             if let Some(series) = &mut self.series
                 && !self.method.is_stiff()
             {
                 let held = self.auto.is_some_and(|auto| auto.holds_steps());
-                series.choose(&mut self.method, &self.frame.under(effects), held);
+                series.choose(&mut self.method, &self.bodies.under(effects), held);
             }
             let before = self.method.time();
             // Laws that switch to and fro in one place must still go on.
@@ -444,20 +408,20 @@ impl<const N: usize> Integration<N> {
                 looks.look(self, effects, t.min(self.method.time()));
                 if E::FACTS.indicators > 0 {
                     let ends = [self.method.start_state(), self.method.state()];
-                    self.rattles.follow(&self.frame.under(effects), self.last_step(), ends);
+                    self.rattles.follow(&self.bodies.under(effects), self.last_step(), ends);
                 }
                 self.settle(effects, t);
             }
             if looks.looks() {
-                self.bounds.look(&self.frame.under(effects), self.method.time(), self.method.state());
+                self.bounds.look(&self.bodies.under(effects), self.method.time(), self.method.state());
                 if self.bounds.found().is_some() {
                     self.t = self.method.time();
                     return Err(Fault::Refused { t: self.t, reason: DIVERGES });
                 }
             }
         }
-        self.watch.look(&self.frame.under(effects), self.method.time(), self.method.state());
-        self.bounds.look(&self.frame.under(effects), self.method.time(), self.method.state());
+        self.watch.look(&self.bodies.under(effects), self.method.time(), self.method.state());
+        self.bounds.look(&self.bodies.under(effects), self.method.time(), self.method.state());
         self.t = t;
         if Met::is_due(effects) {
             let (y, chart, _) = self.shown(effects);
@@ -476,8 +440,9 @@ impl<const N: usize> Integration<N> {
     /// The ledger of the state that the method has reached.
     fn ledger<E: Effects>(&self, effects: &E) -> Ledger<f64> {
         let y = self.method.state();
-        let motion = self.frame.under(effects).motion(self.method.time(), y);
-        Ledger::new(&motion, &y[..own(N)], effects, work(y), self.total_at_start)
+        let motion = self.bodies.under(effects).motion(self.method.time(), y);
+        let layout = E::layout::<N>();
+        Ledger::new(&motion, &y[layout.own()], effects, layout.read_work(y), self.total_at_start)
     }
 
     /// Where inputs were set, goes on from the communication point under these effects.
@@ -492,35 +457,36 @@ impl<const N: usize> Integration<N> {
             let motion = self.motion_in(effects, held.chart, &y);
             self.events.jump(effects, &motion, &y);
         }
-        (self.frame.chart, self.frame.turns) = (held.chart, held.turns);
-        self.method.go_back(&self.frame.under(effects), self.t, y);
+        let [frame] = &mut self.bodies.frames;
+        (frame.chart, frame.turns) = (held.chart, held.turns);
+        self.method.go_back(&self.bodies.under(effects), self.t, y);
         if let (true, Some(series)) = (E::FACTS.partners > 0, &mut self.series) {
-            series.look_again(&self.frame.under(effects));
+            series.look_again(&self.bodies.under(effects));
         }
-        self.watch_tilt(effects, gamma(&y));
-        let reached = self.frame.under(effects).reaches(gamma(&y), Chart::REACH);
+        self.watch_tilt(effects, gamma::<E, N>(&y));
+        let reached = self.bodies.under(effects).reaches(gamma::<E, N>(&y), Chart::REACH);
         reached.map_err(|reason| Fault::Refused { t: self.t, reason })
     }
 
     /// The state that was held: a jump of the imposed speed to that of these effects supplies the jump of kinetic energy.
     fn jumped<E: Effects>(&self, effects: &E, held: &Held<N>) -> [f64; N] {
         let mut y = held.y;
-        if E::FACTS.imposes && self.frame.works() {
+        if E::FACTS.imposes && self.bodies.active.works {
             let now = kinetic(&self.motion_in(effects, held.chart, &y));
-            rigid_mut(&mut y)[SUPPLIED] += now - held.kinetic;
+            y[E::layout::<N>().work()][0] += now - held.kinetic;
         }
         y
     }
 
     fn motion_in<E: Effects>(&self, effects: &E, chart: Chart, y: &[f64; N]) -> Kinematics<f64> {
-        self.frame.under(effects).motion_in(chart, self.t, y)
+        self.bodies.under(effects).motion_in(chart, self.t, y)
     }
 
     /// A step that keeps to what the chart and the counting of turns allow.
     fn limit_step<E: Effects>(&mut self, effects: &E) {
         let Some(rates) = self.method.rate() else {
-            if self.frame.has_events() {
-                self.method.limit_step(LONGEST_LOOK / self.nutation().sqrt());
+            if self.bodies.active.has_events() {
+                self.method.limit_step(LONGEST_LOOK / self.nutation::<E>().sqrt());
             }
             if E::FACTS.own > 0 {
                 let decay = effects.active().map(|block| block.own_decay()).fold(0.0, f64::max);
@@ -528,36 +494,27 @@ impl<const N: usize> Integration<N> {
             }
             return;
         };
-        let (at, rate) = (gamma(self.method.state()), gamma(rates));
-        // Mostly nothing limits the step, and products tell: divisions and roots would hold up the next step.
-        let (h, turning) = (self.method.next_step(), rigid(rates)[PHI].abs());
-        if h * turning > LONGEST_TURN {
-            self.method.limit_step(LONGEST_TURN / turning);
-        }
+        let ([frame], h) = (&self.bodies.frames, self.method.next_step());
+        let (at, rate, turning) =
+            (gamma::<E, N>(self.method.state()), gamma::<E, N>(rates), rates[E::layout::<N>().phi(ROTOR)]);
+        let longest = frame.longest_step(h, at, rate, turning, self.method.is_series());
         // A nutation that nothing damps would grow out of rounding, unseen until it is as large as what moves the axis.
-        let nutation = self.nutation();
+        let nutation = self.nutation::<E>();
         if let Some(most) = self.method.swings()
             && nutation * h * h > most * most
         {
             self.method.limit_step(most / nutation.sqrt());
         }
-        // At its present rate γ stays within reach of its chart.
-        let longest = if self.method.is_series() { Chart::REACH } else { LONGEST_TILT };
-        let far = at.norm_squared() < (Chart::REACH - longest) * (Chart::REACH - longest);
-        if !far || rate.norm_squared() * h * h >= longest * longest {
-            self.method.limit_step((Chart::REACH - at.norm()).min(longest) / rate.norm());
-        }
-        if self.frame.chart == Chart::FromMinusE {
-            // dβ/dt = e·(γ×dγ/dt)/|γ|²
-            self.method.limit_step(LONGEST_WHIRL * at.norm_squared() / at.perp(&rate).abs());
+        if longest < h {
+            self.method.limit_step(longest);
         }
     }
 
     /// The square of the rate at which the axis nutates [1/s²].
     #[inline(always)]
-    fn nutation(&self) -> f64 {
-        let k = Coordinates::from_slice(rigid(self.method.state())).k;
-        k.norm_squared() * self.frame.body.per_jt * self.frame.body.per_jt
+    fn nutation<E: Effects>(&self) -> f64 {
+        let ([frame], k) = (&self.bodies.frames, E::layout::<N>().read(self.method.state(), ROTOR).k);
+        k.norm_squared() * frame.body.per_jt * frame.body.per_jt
     }
 
     /// A step, or the part of it up to the first event.
@@ -569,11 +526,11 @@ impl<const N: usize> Integration<N> {
         until: f64,
     ) -> Result<(), Fault> {
         // Not `then_some`: so much is copied only where it is needed, here and below.
-        let looks = E::FACTS.indicators > 0 && self.frame.has_events();
+        let looks = E::FACTS.indicators > 0 && self.bodies.active.has_events();
         let before = if looks { Some((self.method, self.last)) } else { None };
         self.step(effects, scratch, most, until)?;
         let Some((method, last)) = before else { return Ok(()) };
-        let rotor = self.frame.under(effects);
+        let rotor = self.bodies.under(effects);
         // Each place of a step that is too long for its polynomial would be a motion of its own.
         for _ in 0..MOST_HALVES {
             if !self.method.is_rough(&rotor) {
@@ -586,8 +543,8 @@ impl<const N: usize> Integration<N> {
             self.step(effects, scratch, most, until)?;
         }
         let (from, to) = (self.method.start_time(), self.method.time());
-        let (method_now, frame) = (&mut self.method, &self.frame);
-        let watched = (0..E::FACTS.indicators).filter(|number| frame.watches(*number));
+        let (method_now, active) = (&mut self.method, &self.bodies.active);
+        let watched = (0..E::FACTS.indicators).filter(|number| active.watches(*number));
         let places = method_now.places();
         let found = self.events.first(watched, [from, to], places, |t| {
             let y = if t == to { *method_now.state() } else { method_now.dense(&rotor, t) };
@@ -610,23 +567,24 @@ impl<const N: usize> Integration<N> {
 
     fn step<E: Effects>(&mut self, effects: &E, scratch: &mut Scratch, most: f64, until: f64) -> Result<(), Fault> {
         self.limit_step(effects);
-        let rotor = self.frame.under(effects);
+        let rotor = self.bodies.under(effects);
         // Near −e a step can pass where it may not end; then it is taken back.
         let counts_turns = self.method.counts_turns();
-        let may_pass = self.frame.chart == Chart::FromMinusE && effects.needs_gamma() && !counts_turns;
+        let frame = &rotor.frame;
+        let may_pass = frame.chart == Chart::FromMinusE && effects.needs_gamma() && !counts_turns;
         let before = if may_pass { Some((self.method, self.last)) } else { None };
         let mut limit = f64::INFINITY;
         loop {
             self.method.step(&rotor, scratch, most, until)?;
-            let (from, to) = (gamma(self.method.start_state()), gamma(self.method.state()));
-            self.last = LastStep { chart: self.frame.chart, turns: self.frame.turns, gamma: from, closest: None };
+            let (from, to) = (gamma::<E, N>(self.method.start_state()), gamma::<E, N>(self.method.state()));
+            let mut last = Step::from(frame, from);
             let near = before.is_some() && from.norm().min(to.norm()) < NEAR;
-            let turned = || !counts_turns && azimuth_change(from, to).abs() > MUCH;
-            if self.frame.chart == Chart::FromMinusE && (near || turned()) {
-                self.last.closest = Some(self.closest_to_origin(&rotor));
+            if frame.chart == Chart::FromMinusE && (near || !counts_turns && last.turns_much(to)) {
+                last.closest = Some(self.closest_to_origin(&rotor));
             }
-            match (&before, self.last.closest) {
-                (Some((method, last)), Some((_, closest))) if closest.norm() < rotor::FORBIDDEN => {
+            self.last = [last];
+            match (&before, last.closest) {
+                (Some((method, last)), Some((_, closest))) if closest.norm() < Chart::FORBIDDEN => {
                     limit = 0.5 * limit.min(self.method.time() - method.time());
                     self.method.take_back(*method);
                     self.last = *last;
@@ -640,54 +598,41 @@ impl<const N: usize> Integration<N> {
 
     /// After a step on the way to time `t` \[s]: counts whole turns, and goes on in the other chart where this one is left.
     fn settle<E: Effects>(&mut self, effects: &E, t: f64) {
-        let y = *self.method.state();
-        let gamma = gamma(&y);
+        let (y, layout) = (*self.method.state(), E::layout::<N>());
+        let gamma = gamma::<E, N>(&y);
         self.watch_tilt(effects, gamma);
         let turns = self.turns_at(self.method.time(), gamma);
-        let chart = self.frame.chart;
-        if chart.is_left_at(gamma) {
-            if t < self.method.time() {
-                // The last step is still to be read, in its own chart.
-                self.method.prepare_dense(&self.frame.under(effects));
-            }
-            let phi = chart.axial_angle(turns, rigid(&y)[PHI], gamma);
-            let crossed = crossed_exactly(gamma);
-            self.frame.chart = chart.other();
+        let [frame] = &self.bodies.frames;
+        if t < self.method.time() && frame.chart.is_left_at(gamma) {
+            // The last step is still to be read, in its own chart.
+            self.method.prepare_dense(&self.bodies.under(effects));
+        }
+        let [frame] = &mut self.bodies.frames;
+        frame.turns = turns;
+        if let Some((crossed, phi)) = frame.leave(gamma, y[layout.phi(ROTOR)]) {
             self.rattles.restart();
-            let phi = self.frame.chart.own_angle(phi, crossed);
-            self.frame.turns = phi.turns;
             let mut y = y;
-            let coordinates = rigid_mut(&mut y);
-            coordinates[GAMMA].copy_from_slice(crossed.as_slice());
-            coordinates[PHI] = phi.remainder;
-            self.method.go_on_from(&self.frame.under(effects), y);
-            self.method.recount(own(N) + GAMMA.start..own(N) + GAMMA.end);
+            y[layout.gamma(ROTOR)].copy_from_slice(crossed.as_slice());
+            y[layout.phi(ROTOR)] = phi;
+            self.method.go_on_from(&self.bodies.under(effects), y);
+            self.method.recount(layout.gamma(ROTOR));
         } else {
-            let phi = Angle { turns, remainder: rigid(&y)[PHI] }.wrapped();
-            self.frame.turns = phi.turns;
-            self.method.replace(own(N) + PHI, phi.remainder);
+            let phi = frame.wrap(y[layout.phi(ROTOR)]);
+            self.method.replace(layout.phi(ROTOR), phi);
         }
     }
 
     /// The whole turns of φ that go with γ \[rad] at a time `t` \[s] of the last step.
     fn turns_at(&self, t: f64, gamma: Vector2<f64>) -> f64 {
-        let LastStep { chart, turns, gamma: from, closest } = self.last;
-        if self.method.counts_turns() {
-            return turns;
-        }
-        match closest {
-            Some((when, closest)) if when < t => {
-                turns + chart.turns_gained(from, closest) + chart.turns_gained(closest, gamma)
-            }
-            _ => turns + chart.turns_gained(from, gamma),
-        }
+        let [last] = &self.last;
+        if self.method.counts_turns() { last.turns } else { last.turns_at(t, gamma) }
     }
 
     /// When \[s] and where \[rad] γ came closest to the origin in the last step.
     fn closest_to_origin<E: Effects>(&mut self, rotor: &Rotor<'_, E>) -> (f64, Vector2<f64>) {
         let (from, to) = (self.method.start_time(), self.method.time());
         closest_to_origin(from, to, |t| {
-            let gamma = gamma(&self.method.dense(rotor, t));
+            let gamma = gamma::<E, N>(&self.method.dense(rotor, t));
             // Where kicks on the way there have no limit, the origin is near.
             if gamma.norm().is_nan() { Vector2::zeros() } else { gamma }
         })
@@ -696,13 +641,15 @@ impl<const N: usize> Integration<N> {
     /// The state at the communication point, its chart, and the whole turns of φ, under the effects of the last step.
     fn shown<E: Effects>(&mut self, effects: &E) -> ([f64; N], Chart, f64) {
         if self.t == self.method.time() {
-            return (*self.method.state(), self.frame.chart, self.frame.turns);
+            let [Frame { chart, turns, .. }] = self.bodies.frames;
+            return (*self.method.state(), chart, turns);
         }
         // The rotor may have gone on in the other chart.
-        let mut frame = self.frame;
-        frame.chart = self.last.chart;
-        let y = self.method.dense(&frame.under(effects), self.t);
-        (y, self.last.chart, self.turns_at(self.t, gamma(&y)))
+        let (mut bodies, [Step { chart, .. }]) = (self.bodies, self.last);
+        let [frame] = &mut bodies.frames;
+        frame.chart = chart;
+        let y = self.method.dense(&bodies.under(effects), self.t);
+        (y, chart, self.turns_at(self.t, gamma::<E, N>(&y)))
     }
 
     /// When the last step began and ended \[s].
@@ -711,9 +658,9 @@ impl<const N: usize> Integration<N> {
     }
 
     /// The last step is looked at in so many places, between which a distance neither rises and falls twice.
-    pub(super) fn places_to_look(&self) -> u32 {
+    pub(super) fn places_to_look<E: Effects>(&self) -> u32 {
         let [start, end] = self.last_step();
-        let (body, nutation) = (&self.frame.body, self.nutation().sqrt());
+        let ([Frame { body, .. }], nutation) = (&self.bodies.frames, self.nutation::<E>().sqrt());
         // An unbalance turns with the body, by up to |K|/Ja.
         let turning =
             if body.asymmetric.is_some() { nutation * (1.0 + body.spin.abs() / body.per_jt) } else { nutation };
@@ -738,8 +685,4 @@ impl<const N: usize> Integration<N> {
         let cost = Cost { error_estimate: spent.error_estimate * self.tolerance.relative, ..spent };
         Instant::new(motion, y, effects, self.total_at_start, cost)
     }
-}
-
-fn gamma<const N: usize>(y: &[f64; N]) -> Vector2<f64> {
-    Coordinates::from_slice(rigid(y)).gamma
 }

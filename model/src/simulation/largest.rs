@@ -90,7 +90,7 @@ impl Largest {
         let mut read = *run;
         let [start, end] = run.last_step();
         let from = self.seen.map_or(to, |seen| seen.max(start).min(to));
-        let parts = (f64::from(run.places_to_look()) * (to - from) / (end - start)).ceil().max(1.0);
+        let parts = (f64::from(run.places_to_look::<E>()) * (to - from) / (end - start)).ceil().max(1.0);
         self.seen = Some(to);
         let mut motion = |t: f64| read.motion_at(effects, t);
         let first = motion(from);

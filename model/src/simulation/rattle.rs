@@ -1,12 +1,12 @@
 //! Looks whether contacts are chaotic: a small change of the motion then grows from contact to contact until it is as large as the motion.
 
 use super::events::indicators;
-use crate::body::Inertia;
+use crate::body::{Inertia, ROTOR};
 use crate::effects::Effects;
 use crate::integrate::System;
 use crate::log::shown;
 use crate::rotor::Rotor;
-use crate::state::{GAMMA, PHI, own};
+use crate::state::{BODY, GAMMA};
 use crate::stored::stored;
 use std::fmt::{self, Display, Formatter};
 
@@ -55,7 +55,7 @@ const NEAR: f64 = 1e-9;
 const RING: &str = "rub";
 
 /// The coordinates but φ, whose change grows with the time where the spin changes.
-const CHANGED: usize = PHI;
+const CHANGED: usize = BODY;
 
 /// Follows a small change of the motion, to first order: to see by what power of 10 it grows.
 #[derive(Clone, Copy, Debug, Default)]
@@ -105,14 +105,14 @@ impl Rattles {
             return;
         }
         let (h, middle) = (to - from, std::array::from_fn(|n| 0.5 * (ends[0][n] + ends[1][n])));
-        let (mut power, mut sum, first) = ([0.0; N], self.change, own(N));
-        power[first..][..CHANGED].copy_from_slice(&self.change);
+        let (mut power, mut sum, place) = ([0.0; N], self.change, E::layout::<N>().body(ROTOR));
+        power[place.clone()].copy_from_slice(&self.change);
         let body = &rotor.frame.body;
         for n in 1..=MOST_TERMS {
             // eq. 122: xₙ = (h/n) A xₙ₋₁
             let next = rotor.slope_along(0.5 * (from + to), &middle, &power);
-            let part = changed(&next).map(|rate| rate * (h / f64::from(n)));
-            power[first..][..CHANGED].copy_from_slice(&part);
+            let part = changed::<E, N>(&next).map(|rate| rate * (h / f64::from(n)));
+            power[place.clone()].copy_from_slice(&part);
             sum = std::array::from_fn(|i| sum[i] + part[i]);
             if n > 1 && size(body, &part) < SMALL * size(body, &sum) {
                 self.change = sum;
@@ -132,12 +132,12 @@ impl Rattles {
         number: u32,
     ) -> Option<Switch> {
         self.since?;
-        let rate = changed(&rotor.rates::<true, false>(t, y));
+        let rate = changed::<E, N>(&rotor.rates::<true, false>(t, y));
         let all = |y: &[f64; N]| indicators(rotor.effects, &rotor.motion(t, y), y);
         let indicator = |y: &[f64; N]| all(y).get(number as usize).copied().unwrap_or(f64::NAN);
         let slope = |along: &[f64; CHANGED]| {
             let (mut beside, part) = (*y, NEAR / size(&rotor.frame.body, along));
-            beside[own(N)..].iter_mut().zip(along).for_each(|(y, along)| *y += part * along);
+            beside[E::layout::<N>().body(ROTOR)].iter_mut().zip(along).for_each(|(y, along)| *y += part * along);
             (indicator(&beside) - indicator(y)) / part
         };
         let later = -slope(&self.change) / slope(&rate);
@@ -156,7 +156,7 @@ impl Rattles {
             return;
         }
         if let Some(Switch { later, rate }) = switch {
-            let after = changed(&rotor.rates::<true, false>(t, y));
+            let after = changed::<E, N>(&rotor.rates::<true, false>(t, y));
             // eq. 123: x₊ = x₋ + (f₋ − f₊) τ
             self.change = std::array::from_fn(|n| self.change[n] + (rate[n] - after[n]) * later);
         }
@@ -186,8 +186,9 @@ impl Rattles {
 }
 
 /// What of a rate is one of a small change.
-fn changed<const N: usize>(rate: &[f64; N]) -> [f64; CHANGED] {
-    std::array::from_fn(|n| rate[own(N) + n])
+fn changed<E: Effects, const N: usize>(rate: &[f64; N]) -> [f64; CHANGED] {
+    let first = E::layout::<N>().body(ROTOR).start;
+    std::array::from_fn(|n| rate[first + n])
 }
 
 /// A change of place and tilt that favours no direction.

@@ -2,6 +2,7 @@
 
 use super::growth::Watch;
 use super::start::Motion;
+use crate::body::ROTOR;
 use crate::decompositions::{eigenvalues, singular_values};
 use crate::dual::Dual;
 use crate::effects::{Effects, MOST_INDICATORS};
@@ -10,7 +11,7 @@ use crate::integrate::System;
 use crate::integrate::stiff::Differentiable;
 use crate::rotation::Tilt;
 use crate::rotor::Rotor;
-use crate::state::{Coordinates, GAMMA, own, rigid, rigid_mut};
+use crate::state::{Coordinates, GAMMA};
 use crate::variables::{Parameters, Start};
 use nalgebra::{Matrix2, Matrix3, Matrix3x2, SMatrix, SVector, Vector2, Vector3};
 
@@ -117,7 +118,8 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
         let mut state = self.own;
         let axis = Tilt::new(self.rotor.frame.chart, gamma).axis;
         let k = axis * (self.about_axis * self.speed);
-        Coordinates { r, v: Vector3::zeros(), k, gamma, phi: 0.0 }.write(rigid_mut(&mut state));
+        let at = Coordinates { r, v: Vector3::zeros(), k, gamma, phi: 0.0 };
+        E::layout::<N>().write(&mut state, ROTOR, &at);
         state
     }
 
@@ -130,7 +132,7 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
     pub(super) fn balance(&self, r: Vector3<f64>, gamma: Vector2<f64>) -> Balance<N> {
         let (rotor, (inertia, length)) = (self.rotor, self.across());
         let state = self.state(r, gamma);
-        let mut rates = Coordinates::from_slice(rigid(&rotor.rates_of_all(self.t, &state)));
+        let mut rates = rotor.at(&rotor.rates_of_all(self.t, &state));
         let jacobian = rotor.jacobian(self.t, &state);
         let moving = Vector2::new(Dual::<2>::variable(gamma.x, 0), Dual::variable(gamma.y, 1));
         let tilted = Tilt::new(rotor.frame.chart, moving).axis;
@@ -144,15 +146,17 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
         let across = rates.k - axis * moment;
         let [by_place, by_tilt, by_k] = [0..3, GAMMA, 6..9].map(|of| Block { jacobian: &jacobian, of });
         // K = Ja ω_φ t
-        let v_by_tilt = by_tilt.rates_of::<2>(3) + by_k.rates_of::<3>(3) * turning * (self.about_axis * self.speed);
-        let k_by_tilt = by_tilt.rates_of::<2>(6) + by_k.rates_of::<3>(6) * turning * (self.about_axis * self.speed);
+        let v_by_tilt =
+            by_tilt.rates_of::<E, 2>(3) + by_k.rates_of::<E, 3>(3) * turning * (self.about_axis * self.speed);
+        let k_by_tilt =
+            by_tilt.rates_of::<E, 2>(6) + by_k.rates_of::<E, 3>(6) * turning * (self.about_axis * self.speed);
         let project = Matrix3::identity() - axis * axis.transpose();
         // eq. 115: d(M − (M·t) t)
         let turned = project * k_by_tilt - axis * (rates.k.transpose() * turning) - turning * moment;
         let mut slopes = SMatrix::<f64, BALANCES, UNKNOWNS>::zeros();
-        slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&by_place.rates_of::<3>(3));
+        slopes.fixed_view_mut::<3, 3>(0, 0).copy_from(&by_place.rates_of::<E, 3>(3));
         slopes.fixed_view_mut::<3, 2>(0, 3).copy_from(&(v_by_tilt / length));
-        slopes.fixed_view_mut::<3, 3>(3, 0).copy_from(&(project * by_place.rates_of::<3>(6) * (length / inertia)));
+        slopes.fixed_view_mut::<3, 3>(3, 0).copy_from(&(project * by_place.rates_of::<E, 3>(6) * (length / inertia)));
         slopes.fixed_view_mut::<3, 2>(3, 3).copy_from(&(turned / inertia));
         let (v, k) = (rates.v / length, across / inertia);
         let left = SVector::from([v.x, v.y, v.z, k.x, k.y, k.z]);
@@ -254,8 +258,8 @@ impl<E: Effects, const N: usize> Spinning<'_, E, N> {
 
 impl<const N: usize> Balance<N> {
     /// Whether a force follows the velocity.
-    pub(super) fn damps(&self) -> bool {
-        Block { jacobian: &self.jacobian, of: 3..6 }.rates_of::<3>(3).iter().any(|slope| *slope != 0.0)
+    pub(super) fn damps<E: Effects>(&self) -> bool {
+        Block { jacobian: &self.jacobian, of: 3..6 }.rates_of::<E, 3>(3).iter().any(|slope| *slope != 0.0)
     }
 
     /// Directions in which nothing holds it, or so little that these loads would take it farther than `lost` radii of gyration or \[rad]; None
@@ -303,9 +307,10 @@ struct Block<'a, const N: usize> {
 }
 
 impl<const N: usize> Block<'_, N> {
-    /// Of three rates from the coordinate `first` on.
-    fn rates_of<const D: usize>(&self, first: usize) -> SMatrix<f64, 3, D> {
-        SMatrix::from_fn(|row, column| self.jacobian[own(N) + first + row][own(N) + self.of.start + column])
+    /// Of three rates from this coordinate on.
+    fn rates_of<E: Effects, const D: usize>(&self, rate: usize) -> SMatrix<f64, 3, D> {
+        let first = E::layout::<N>().body(ROTOR).start;
+        SMatrix::from_fn(|row, column| self.jacobian[first + rate + row][first + self.of.start + column])
     }
 }
 
@@ -313,17 +318,17 @@ impl<const N: usize> Block<'_, N> {
 /// the rotor: a top stands on its own weight, and before its spring has taken that up, nothing turns it over. The state itself where it
 /// lies on another side of an event, or is not found: the laws are then far from linear.
 pub(super) fn settled<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> [f64; N] {
-    let (mut state, length) = (*y, rotor.frame.body.radius());
+    let (mut state, length, layout) = (*y, rotor.frame.body.radius(), E::layout::<N>());
     for _ in 0..MOST_SETTLING {
-        let acceleration = Coordinates::from_slice(rigid(&rotor.rates_of_all(t, &state))).v;
-        let slopes = Block { jacobian: &rotor.jacobian(t, &state), of: 0..3 }.rates_of::<3>(3);
+        let acceleration = rotor.at(&rotor.rates_of_all(t, &state)).v;
+        let slopes = Block { jacobian: &rotor.jacobian(t, &state), of: 0..3 }.rates_of::<E, 3>(3);
         // Least squares: where nothing holds the rotor, it stays.
         let squares = slopes.tr_mul(&slopes);
         let inverse = (squares + Matrix3::identity() * (HARDLY_HELD * squares.trace())).try_inverse();
         let Some(step) = inverse.map(|inverse| inverse * slopes.tr_mul(&acceleration)) else { return *y };
-        let mut coordinates = Coordinates::from_slice(rigid(&state));
+        let mut coordinates = rotor.at(&state);
         coordinates.r -= step;
-        coordinates.write(rigid_mut(&mut state));
+        layout.write(&mut state, ROTOR, &coordinates);
         if step.norm() <= SETTLED * length {
             return if sides(rotor, &state) == sides(rotor, y) { state } else { *y };
         }
@@ -334,7 +339,7 @@ pub(super) fn settled<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, 
 /// On which side each indicator of an effect is in this state.
 pub(crate) fn sides<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, state: &[f64; N]) -> [bool; MOST_INDICATORS] {
     let mut all = [1.0; MOST_INDICATORS];
-    rotor.effects.indicators(&rotor.motion(0.0, state), &state[..own(N)], &mut all);
+    rotor.effects.indicators(&rotor.motion(0.0, state), &state[E::layout::<N>().own()], &mut all);
     all.map(|indicator| indicator > 0.0)
 }
 
@@ -371,8 +376,8 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
     let mut span = None;
     let mut unstable = None;
     for _ in 0..MOST_CREEPING {
-        let at = Coordinates::from_slice(rigid(&begun.state));
-        let rotor = begun.frame.under(&balanced.effects);
+        let rotor = begun.bodies.under(&balanced.effects);
+        let at = rotor.at(&begun.state);
         let about_axis = 1.0 / (rotor.frame.body.spin + rotor.frame.body.per_jt);
         let spinning = Spinning { rotor: &rotor, own: begun.state, about_axis, speed, t };
         let centre = rotor.frame.body.asymmetric.map_or(0.0, |asymmetric| asymmetric.centre.x);
@@ -410,7 +415,7 @@ pub(super) fn start<E: Effects, const N: usize>(parameters: &Parameters<E>, t: f
                 let Some((rate, along)) = leaving.filter(|_| unstable.is_none()) else { return Ok(found) };
                 unstable = Some(found);
                 // Where the start lies, if it lies on one side.
-                let given = Coordinates::from_slice(rigid(&spinning.own));
+                let given = rotor.at(&spinning.own);
                 let side = along.fixed_rows::<2>(3).dot(&(given.gamma - rest.gamma))
                     + along.fixed_rows::<3>(0).dot(&(given.r - rest.r)) / length;
                 let (r, gamma, _) = spinning.moved(rest.r, rest.gamma, &(along * BESIDE.copysign(side)));

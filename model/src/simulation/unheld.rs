@@ -5,7 +5,7 @@ use super::rest::{Free, Spinning, UNKNOWNS, rounding, settled};
 use crate::effects::Effects;
 use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
-use crate::state::{Coordinates, rigid};
+use crate::state::Coordinates;
 use nalgebra::{SVector, Vector2, Vector3};
 use std::fmt::{self, Display, Formatter};
 
@@ -55,10 +55,10 @@ impl Unheld {
         let body = balanced.frame.body;
         let (about_axis, speed) = (1.0 / (body.spin + body.per_jt), rotor.motion(t, y).axial_rate());
         let spinning = Spinning { rotor: &balanced, own: *y, about_axis, speed, t };
-        let Coordinates { r, gamma, .. } = Coordinates::from_slice(rigid(&settled(&balanced, t, y)));
+        let Coordinates { r, gamma, .. } = rotor.at(&settled(&balanced, t, y));
         let balance = spinning.balance(r, gamma);
         // What acts where it begins: the forces balance where a weak spring has let it go far.
-        let begun = Coordinates::from_slice(rigid(y));
+        let begun = rotor.at(y);
         let begun = spinning.balance(begun.r, begun.gamma).left;
         let lost = if gamma.norm() < LEANS { LOST } else { f64::INFINITY };
         let Some(Free { directions: free, held, is_weak, largest }) = balance.unheld(&begun, lost) else {
@@ -75,7 +75,7 @@ impl Unheld {
             });
         };
         // A free body is meant to be free; one in bearings that only damp is not.
-        if free.is_empty() || held == 0 && !balance.damps() {
+        if free.is_empty() || held == 0 && !balance.damps::<E>() {
             return None;
         }
         let (inertia, length) = spinning.across();
