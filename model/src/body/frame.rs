@@ -62,16 +62,21 @@ impl Frame {
     }
 
     /// Goes on in the other chart if γ \[rad] leaves this one; returns γ and φ \[rad] there.
+    #[inline(always)]
     pub fn leave(&mut self, gamma: Vector2<f64>, phi: f64) -> Option<(Vector2<f64>, f64)> {
-        if !self.chart.is_left_at(gamma) {
-            return None;
-        }
+        self.chart.is_left_at(gamma).then(|| self.cross(gamma, phi))
+    }
+
+    /// [`Frame::leave`] where it does: seldom, so it is called.
+    #[cold]
+    #[inline(never)]
+    fn cross(&mut self, gamma: Vector2<f64>, phi: f64) -> (Vector2<f64>, f64) {
         let phi = self.chart.axial_angle(self.turns, phi, gamma);
         let crossed = crossed_exactly(gamma);
         self.chart = self.chart.other();
         let phi = self.chart.own_angle(phi, crossed);
         self.turns = phi.turns;
-        Some((crossed, phi.remainder))
+        (crossed, phi.remainder)
     }
 
     /// φ \[rad] in [0, 2π); its whole turns are counted here.

@@ -382,7 +382,7 @@ fn ordinary_partners_may_answer_seldom() {
     for (h, bound) in [(1e-4, 2e-4), (2e-5, 1e-5)] {
         let mut coupling = Pair::linear().coupling(LEARNT);
         let mut point = |step: usize| {
-            if step % EVERY == 0 {
+            if step.is_multiple_of(EVERY) {
                 coupling.answer(h, false);
             }
             coupling.advance((step + 1) as f64 * h).expect("a possible motion")
@@ -400,7 +400,7 @@ fn what_a_script_sets_seldom_is_not_made_worse() {
         let mut named = Named::started(&format!("{}[[effects.port]]\nposition = 0.05\nlearn = {learn}\n", turbo()));
         let place = named.place("port[1].f.y");
         let mut point = |step: u32| {
-            if step % every == 0 {
+            if step.is_multiple_of(every) {
                 named.simulation.set_input(place, 100.0 * libm::sin(rate * f64::from(step) * h));
             }
             named.simulation.advance(f64::from(step + 1) * h).expect("a possible motion");
