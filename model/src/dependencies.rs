@@ -73,7 +73,7 @@ impl Dependencies {
                 marked.set(variable.place, f64::NAN);
             }
             let Motion { bodies, state, .. } = Motion::at_start(&mut marked, 0.0);
-            let shown = shown(&marked, bodies.frames[0].chart, &state, &numbers);
+            let shown = shown(&marked, bodies.frames[ROTOR].chart, &state, &numbers);
             note(&mut self.at_start, scene, &marked, &shown, |_| Some(index));
         }
     }
@@ -91,7 +91,7 @@ impl Dependencies {
             ask(&mut marked, variable.place, sources.len() as f64);
         }
         let numbers = std::array::from_fn(|n| (n + 1) as f64);
-        let shown = shown(&marked, bodies.frames[0].chart, &state, &numbers);
+        let shown = shown(&marked, bodies.frames[ROTOR].chart, &state, &numbers);
         note(&mut self.later, scene, &marked, &shown, |number| sources[number.checked_sub(1)?]);
     }
 

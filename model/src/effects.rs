@@ -279,7 +279,7 @@ pub struct Info {
     pub law: &'static str,
     /// What some of its variables are where a scene calls for it and gives none.
     pub where_empty: &'static [(&'static str, f64)],
-    /// What it can do without a table.
+    /// What it can do without a table, as it declares that.
     pub facts: Facts,
     /// What it can do with one, if it may have one.
     pub facts_with_table: Facts,

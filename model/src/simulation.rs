@@ -388,10 +388,11 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
 
     /// Whether the exchange with partners is wrong, where inputs are exchanged after this step \[s]; looked at where that is due.
     fn look_at_coupling(&mut self, motion: &Kinematics<f64>, step: f64) {
-        let (mut is_doubted, mut is_fed) = (false, false);
-        for partner in self.partners.iter_mut().filter(|partner| partner.is_due()) {
+        let (mut is_doubted, mut is_fed, mut period) = (false, false, step);
+        for partner in self.partners.iter_mut().filter(|partner| partner.is_due(motion.t)) {
             is_doubted |= partner.is_doubted();
             is_fed |= partner.feeds(moving(motion));
+            period = partner.period(step).max(period);
         }
         let (true, Some(Run::Method(integration))) = (is_doubted || is_fed, &self.run) else { return };
         let (effects, partners) = (&self.parameters.effects, &self.partners);
@@ -400,8 +401,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             let exchange = block.exchange(&Seen::new(motion, &[])).filter(|_| block.is_active());
             exchange.and_then(|exchange| partners[number].answers(&exchange, &told))
         };
-        let (frame, t, state) = integration.reached();
-        let found = Coupling::of(&frame.under(effects), t, state, answers, step, is_fed);
+        let (bodies, t, state) = integration.reached();
+        let found = Coupling::of(&bodies.under(effects), t, state, answers, period, is_fed);
         let wrong = partners.iter().map(Partner::wrong).fold(0.0, f64::max);
         let is_wrong = found.growth > 0.0 || partners.iter().any(Partner::is_wrong);
         self.coupling = is_wrong.then_some(Coupling { wrong, ..found });

@@ -118,7 +118,7 @@ impl Package {
         }
         system.components.iter().skip(1).for_each(|partner| eprintln!("  {}", summary(&system, partner)));
         if !on.is_empty() {
-            eprintln!("  fmpy 0.3.32 ignores parameter sets: in it, set {} to true", on.join(", "));
+            eprintln!("  fmpy 0.3.32 ignores parameter sets: give it {} = true as start values", on.join(", "));
         }
         let mut texts = vec![
             ("SystemStructure.ssd".into(), system.structure(scene, has_boundary)?),

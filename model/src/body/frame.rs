@@ -157,7 +157,7 @@ impl Step {
         Self { chart: frame.chart, turns: frame.turns, gamma, closest: None }
     }
 
-    /// Whether its turns can only be counted with the place known where γ came closest to the origin on its way to this one \[rad].
+    /// Whether the azimuth turned so far on the way to this γ \[rad] that counting turns needs the point closest to the origin.
     pub fn turns_much(&self, to: Vector2<f64>) -> bool {
         azimuth_change(self.gamma, to).abs() > MUCH
     }

@@ -298,9 +298,9 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
 
     const ROWS: &'static [Row<Self>] = Self::ALL.split_at(UNTABLED + OF_NODE * NODES).0;
 
-    // A node is passed.
     const FACTS: Facts = Facts {
         loads: 1,
+        // A node is passed.
         indicators: (NODES > 0) as usize,
         analytic: NODES == 0,
         may_be_doubted: true,

@@ -5,11 +5,11 @@ use crate::state::Layout;
 /// What an effect can do, with any parameters and inputs, and how much room it needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Facts {
-    /// How many effects there are; a list counts them.
+    /// How many effects there are.
     pub count: usize,
-    /// Whether any can be switched off; a list says so.
+    /// Whether any can be switched off; set by the entry of a list.
     pub switched: bool,
-    /// How many inputs may be extrapolated; a list counts them.
+    /// How many inputs may be extrapolated; set by the entry of a list.
     pub extrapolated: usize,
     /// How many states of its own it has, at most [`MOST_OWN`](super::MOST_OWN): numbers that are integrated with the motion.
     pub own: usize,
@@ -17,7 +17,7 @@ pub struct Facts {
     pub loads: usize,
     /// How many [indicators](super::Effect::indicator) it has; one that has any keeps its branch in its [memory](super::Effect::memory).
     pub indicators: usize,
-    /// How many it is that may have a [partner](super::Effect::exchange), whose law it goes on with.
+    /// How many effects may have a [partner](super::Effect::exchange), whose law it goes on with.
     pub partners: usize,
     /// Whether its outputs are the velocity of a station.
     pub shows_velocity: bool,
@@ -45,7 +45,7 @@ pub struct Facts {
 
 impl Facts {
     /// Of nothing.
-    pub const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         count: 0,
         switched: false,
         extrapolated: 0,
@@ -93,6 +93,7 @@ impl Facts {
             tells_rates: self.tells_rates || other.tells_rates,
         }
     }
+
     /// Where everything stands in a state of `n` numbers of a rotor under these effects.
     #[inline(always)]
     pub const fn layout(&self, n: usize) -> Layout {

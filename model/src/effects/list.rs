@@ -3,6 +3,7 @@
 //! What every evaluation asks, the list sums up itself, so that it is compiled for just these effects. All else goes from
 //! [`Block`] to [`Block`].
 
+#[macro_use]
 mod block;
 mod member;
 

@@ -131,9 +131,9 @@ impl Effect for Rub {
         }),
     ];
 
+    // It touches, or it does not.
     const FACTS: Facts = Facts { indicators: 2, analytic: false, loads: 1, ..Facts::USUAL };
 
-    // It touches, or it does not.
     #[inline(always)]
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
         let Some((depth, outward)) = self.pressed(at) else { return [0.0; MOST_LOADS] };

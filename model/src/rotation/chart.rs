@@ -124,7 +124,7 @@ impl Chart {
     }
 
     /// The turns that φ from e gains beside φ in this chart, while γ \[rad] goes a way from one place to the next by less than
-    /// half a turn about the origin: those of 2β where its azimuth β passes its cut at ±π. None on a way that is not finite.
+    /// half a turn about the origin: those of 2β where its azimuth β passes its cut at ±π. 0 if the path is not finite.
     pub fn turns_gained(self, mut from: Vector2<f64>, way: impl IntoIterator<Item = Vector2<f64>>) -> f64 {
         if self == Chart::FromE {
             return 0.0;

@@ -9,7 +9,7 @@ use crate::state::Coordinates;
 use nalgebra::{Vector2, Vector3};
 
 impl<E: Effects> Rotor<'_, E> {
-    /// Where the loads of a state of N numbers stand among the groups.
+    /// Where the loads stand among the groups.
     const fn load_groups() -> std::ops::Range<usize> {
         let first = E::FACTS.own + RIGID;
         assert!(first + E::FACTS.loads <= MOST_GROUPS, "a system has at most MOST_GROUPS groups");

@@ -38,14 +38,14 @@ impl Display for Coupling {
         write!(
             f,
             "the exchange with the models at the ports is wrong at communication steps of {step:?} s: until t = {t:?} s the work of the loads \
-             was off by {:.0} % of the work exchanged",
+             was off by {:.1} % of the work exchanged",
             100.0 * wrong
         )?;
         if *growth > 0.0 {
             let (steps, [held, line, parabola]) = (if *lag == 1 { "step" } else { "steps" }, longest.map(shown));
             write!(
                 f,
-                ", and small motions grow by {:.1} % a step. The models answer like springs of {:.2e} N/m, {lag} {steps} late. The longest \
+                ", and small motions grow by {:.2} % a step. The models answer like springs of {:.2e} N/m, {lag} {steps} late. The longest \
                  steps at which nothing grows by more than 0.01 % a step: {held:?} s; with effects.extrapolation, its lag = {lag} and its order = 1: {line:?} s, order = 2: \
                  {parabola:?} s",
                 100.0 * growth,
@@ -72,7 +72,7 @@ impl Coupling {
         is_fed: bool,
     ) -> Self {
         // The balanced rotor: what an unbalance adds turns with it.
-        let Frame { body, chart, turns, .. } = rotor.frame;
+        let Frame { body, chart, turns } = rotor.frame;
         let equations = |effects: &E| linear(&Rotor::new(body.symmetric(), effects, chart, turns), t, y);
         let held = equations(rotor.effects);
         let mut found = Self { t, step, ..Self::default() };
@@ -125,7 +125,7 @@ pub struct Coupled {
     pub answered: [Linear; LAGS],
 }
 
-/// What grows by less than this in a step is not warned of \[1].
+/// What grows by less than this in a step is not warned of, unless the exchange feeds it \[1].
 const GROWS: f64 = 2e-3;
 
 /// What grows by less than this in a step may be rounding or a drift \[1].

@@ -80,7 +80,7 @@ impl Bounds {
     #[cold]
     #[inline(never)]
     fn judge<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
-        let Frame { body, chart, turns, .. } = rotor.frame;
+        let Frame { body, chart, turns } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
         let (jacobian, at) = (balanced.jacobian(t, y), E::layout::<N>().body(ROTOR));
         let (first, place) = (at.start, &y[at]);

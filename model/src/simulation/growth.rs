@@ -258,7 +258,7 @@ impl Watch {
     /// counts. What turns does so twice a revolution, so that the mean of φ = 0 and a quarter turn is without it.
     fn equations<E: Effects, const N: usize>(rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) -> Option<Equations> {
         // The balanced rotor: what an unbalance adds turns with it.
-        let Frame { body, chart, turns, .. } = rotor.frame;
+        let Frame { body, chart, turns } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
         let state = settled(&balanced, t, y);
         let uneven = |of: &Asymmetric| E::FACTS.shapes && of.excess.abs() > ASYMMETRIC * body.per_jt;

@@ -211,9 +211,17 @@ impl Partner {
         }
     }
 
-    /// Whether the coupling is to be looked at now.
-    pub fn is_due(&self) -> bool {
-        self.answered.is_power_of_two() && self.answered >= LOOKED_AT
+    /// Whether the coupling is to be looked at where it answered at the communication point `t` \[s]; at its first answer, to know with which
+    /// energy the motion began.
+    pub fn is_due(&self, t: f64) -> bool {
+        let is_time = self.answered == 1 || self.answered >= LOOKED_AT;
+        is_time && self.answered.is_power_of_two() && self.exchanges.t[0] == t
+    }
+
+    /// The time between its answers \[s], where a communication step takes `step` \[s]: it may answer seldom.
+    pub fn period(&self, step: f64) -> f64 {
+        let last = self.exchanges.t[0] - self.exchanges.t[1];
+        if self.exchanges.known > 1 && last > LONGER * step { last } else { step }
     }
 
     /// Whether it does much work too much or too little.

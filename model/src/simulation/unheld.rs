@@ -50,7 +50,7 @@ impl Unheld {
             return None;
         }
         // The balanced rotor: what an unbalance adds turns with it.
-        let Frame { body, chart, turns, .. } = rotor.frame;
+        let Frame { body, chart, turns } = rotor.frame;
         let balanced = Rotor::new(body.symmetric(), rotor.effects, chart, turns);
         let body = balanced.frame.body;
         let (about_axis, speed) = (1.0 / (body.spin + body.per_jt), rotor.motion(t, y).axial_rate());

@@ -10,7 +10,7 @@ use split_rotor_model::simulation::{Coupled, LAGS, LEAST_GROWTH, LINEAR};
 use split_rotor_model::variable::Place;
 use split_rotor_model::variables::Parameters;
 
-/// Steps are tried from this part of the fastest period to so many of the slowest \[1], each so many times the one before.
+/// Steps are tried from this part of the quickest period to so many of the slowest \[1], each so many times the one before.
 const SHORTEST: f64 = 1e-4;
 const LONGEST: f64 = 4.0;
 const RATIO: f64 = 1.15;
@@ -33,6 +33,8 @@ pub struct Linear {
     open: Square,
     /// [1/s].
     answered: Square,
+    /// The period that the largest eigenvalue would have if it swung \[s].
+    quickest: f64,
     /// The period of the fastest mode \[s].
     pub fastest: f64,
     /// The period of the slowest mode that swings \[s].
@@ -53,18 +55,21 @@ impl Linear {
         let answered = scaled(answers(pair, &space));
         let whole = scaled(space.a);
         let modes = space.steady.modes()?;
+        let swings = |least: f64| modes.iter().map(|mode| mode.eigenvalue.im).filter(move |swing| *swing > least);
         // What is damped so much that it does not swing limits the step too.
-        let fastest = modes.iter().map(|mode| mode.eigenvalue.modulus()).fold(0.0, f64::max);
-        let swings = modes.iter().map(|mode| mode.eigenvalue.im).filter(|swing| *swing > STILL * fastest);
-        let slowest = swings.fold(fastest, f64::min);
+        let quickest = modes.iter().map(|mode| mode.eigenvalue.modulus()).fold(0.0, f64::max);
+        let most = swings(0.0).fold(0.0, f64::max);
+        let fastest = if most > 0.0 { most } else { quickest };
+        let slowest = swings(STILL * most).fold(fastest, f64::min);
         let period = |rate: f64| std::f64::consts::TAU / rate;
-        Ok(Self { open: whole - answered, answered, fastest: period(fastest), slowest: period(slowest) })
+        let [quickest, fastest, slowest] = [quickest, fastest, slowest].map(period);
+        Ok(Self { open: whole - answered, answered, quickest, fastest, slowest })
     }
 
     /// The longest step \[s] with which nothing grows at this order; None where nothing does up to some periods of the slowest mode.
     pub fn longest(&self, scheme: Scheme, order: usize) -> Option<f64> {
         let grows = |step: f64| self.grows(step, scheme.lag() as usize, order);
-        let (mut short, last) = (SHORTEST * self.fastest, LONGEST * self.slowest);
+        let (mut short, last) = (SHORTEST * self.quickest, LONGEST * self.slowest);
         if grows(short) {
             return Some(0.0);
         }

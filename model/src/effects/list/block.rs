@@ -1,10 +1,9 @@
 //! An effect of a list without its type: what is not asked in every evaluation.
 
-use super::member::Member;
 use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
 use crate::effects::{
-    Doubt, Effect, Exchange, Facts, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name,
+    Doubt, Exchange, Facts, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name,
 };
 use crate::error::Invalid;
 use crate::signal::Signal;
@@ -24,7 +23,7 @@ pub struct Kind {
     pub index: u32,
     /// Its block of value references.
     pub block: u32,
-    /// What is said of its switch, if it has one.
+    /// The metadata of its switch, if it has one.
     pub switch: Meta,
     /// What it can do, and how much room it needs.
     pub facts: Facts,
@@ -51,57 +50,54 @@ impl Kind {
     }
 }
 
-/// Hooks of an effect that are passed on as they are: a new one stands in [`Effect`] and here.
-macro_rules! passed_on {
+/// The hooks of an effect that an entry of a list forwards unchanged; add a new one to `Effect` and here.
+macro_rules! hooks {
+    ($take:ident) => {
+        $take! {
+            fn shape(body: &mut Shape);
+            fn no_limit() -> Option<&'static str>;
+            fn works() -> bool;
+            fn is_analytic() -> bool;
+            fn follows_speed() -> bool;
+            fn is_doubtful() -> bool;
+            fn doubts(speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS];
+            fn has_events() -> bool;
+            fn own_at_start(start: &Motion<f64>) -> [f64; MOST_OWN];
+            fn own_decay() -> f64;
+            fn own_nominal() -> [f64; MOST_OWN];
+            fn is_answered(t: f64) -> bool;
+            fn exchange(motion: &Motion<f64>) -> Option<Exchange>;
+            fn acting(t: f64) -> [Loads; 3];
+            fn order() -> usize;
+            fn lag() -> Option<f64>;
+            mut:
+            fn begin(start: &Motion<f64>);
+            fn switch(positive: &[bool], motion: &Motion<f64>);
+            fn step_from(t: f64);
+            fn step_to(end: &Motion<f64>);
+            fn extrapolate(number: usize, signal: &mut Signal);
+            fn law_mut() -> Option<&mut Law>;
+        }
+    };
+}
+
+macro_rules! declared {
     (
         $(fn $asked:ident($($of:ident: $type:ty),*) $(-> $answer:ty)?;)*
         mut:
         $(fn $told:ident($($with:ident: $what:ty),*) $(-> $result:ty)?;)*
     ) => {
-        /// What is passed on to the effect.
+        /// What is forwarded to the effect.
         pub trait Hooks {
-            $(#[doc = concat!("[`Effect::", stringify!($asked), "`].")]
+            $(#[doc = concat!("[`crate::effects::Effect::", stringify!($asked), "`].")]
             fn $asked(&self, $($of: $type),*) $(-> $answer)?;)*
-            $(#[doc = concat!("[`Effect::", stringify!($told), "`].")]
+            $(#[doc = concat!("[`crate::effects::Effect::", stringify!($told), "`].")]
             fn $told(&mut self, $($with: $what),*) $(-> $result)?;)*
-        }
-
-        impl<M: Member> Hooks for M {
-            $(fn $asked(&self, $($of: $type),*) $(-> $answer)? {
-                self.effect().$asked($($of),*)
-            })*
-            $(fn $told(&mut self, $($with: $what),*) $(-> $result)? {
-                self.effect_mut().$told($($with),*)
-            })*
         }
     };
 }
 
-passed_on! {
-    fn shape(body: &mut Shape);
-    fn no_limit() -> Option<&'static str>;
-    fn works() -> bool;
-    fn is_analytic() -> bool;
-    fn follows_speed() -> bool;
-    fn is_doubtful() -> bool;
-    fn doubts(speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS];
-    fn has_events() -> bool;
-    fn own_at_start(start: &Motion<f64>) -> [f64; MOST_OWN];
-    fn own_decay() -> f64;
-    fn own_nominal() -> [f64; MOST_OWN];
-    fn is_answered(t: f64) -> bool;
-    fn exchange(motion: &Motion<f64>) -> Option<Exchange>;
-    fn acting(t: f64) -> [Loads; 3];
-    fn order() -> usize;
-    fn lag() -> Option<f64>;
-    mut:
-    fn begin(start: &Motion<f64>);
-    fn switch(positive: &[bool], motion: &Motion<f64>);
-    fn step_from(t: f64);
-    fn step_to(end: &Motion<f64>);
-    fn extrapolate(number: usize, signal: &mut Signal);
-    fn law_mut() -> Option<&mut Law>;
-}
+hooks!(declared);
 
 /// An effect of a list. Rows are those of its variables.
 pub trait Block: Hooks {

@@ -1,7 +1,9 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Effect, Entry, Facts, InputSet, Motion, Row};
+use super::super::{Doubt, Effect, Entry, Exchange, Facts, InputSet, Law, Loads, MOST_DOUBTS, MOST_OWN, Motion, Row};
+use super::block::Hooks;
 use super::{Block, Kind, Tangent};
+use crate::body::Shape;
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
@@ -170,6 +172,25 @@ fn changed<E: Effect>(before: &E, set: InputSet, change: &dyn Fn(&mut Signal)) -
     }
     Some((effect, changes))
 }
+
+macro_rules! forwarded {
+    (
+        $(fn $asked:ident($($of:ident: $type:ty),*) $(-> $answer:ty)?;)*
+        mut:
+        $(fn $told:ident($($with:ident: $what:ty),*) $(-> $result:ty)?;)*
+    ) => {
+        impl<M: Member> Hooks for M {
+            $(fn $asked(&self, $($of: $type),*) $(-> $answer)? {
+                self.effect().$asked($($of),*)
+            })*
+            $(fn $told(&mut self, $($with: $what),*) $(-> $result)? {
+                self.effect_mut().$told($($with),*)
+            })*
+        }
+    };
+}
+
+hooks!(forwarded);
 
 impl<M: Member> Block for M {
     fn kind(&self) -> &'static Kind {
