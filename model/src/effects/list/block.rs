@@ -2,9 +2,7 @@
 
 use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
-use crate::effects::{
-    Doubt, Exchange, Facts, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name,
-};
+use crate::effects::{Doubt, Exchange, Facts, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
 use crate::error::Invalid;
 use crate::signal::Signal;
 use crate::state::Rates;
