@@ -7,6 +7,7 @@
 mod act;
 mod doubt;
 mod facts;
+pub mod housing;
 mod list;
 pub mod load;
 mod motion;
@@ -56,6 +57,9 @@ pub const MOST_DOUBTS: usize = 3;
 pub trait Effect: Clone + Default + Send + 'static {
     /// Its variables, named within its block; new ones go to the end, for a value reference is a place in this list.
     const ROWS: &'static [Row<Self>];
+
+    /// Those of its [housing](housing::rows), from the row [`HOUSING`](variable::Place::HOUSING) on.
+    const HOUSING: &'static [Row<Self>] = &[];
 
     /// What it can do, and how much room it needs.
     const FACTS: Facts = Facts::USUAL;
@@ -225,6 +229,11 @@ pub trait Effect: Clone + Default + Send + 'static {
     }
 }
 
+/// The variables of an effect, each with its row.
+fn rows<E: Effect>() -> impl Iterator<Item = (usize, &'static Row<E>)> {
+    (0..).zip(E::ROWS).chain((variable::Place::HOUSING..).zip(E::HOUSING))
+}
+
 /// Why an axis may not come near −e: `no_limit!("drive.tau, which a joint passes on,")`.
 #[allow(unused_macros, reason = "a scene's effects may all have one")]
 macro_rules! no_limit {
@@ -273,8 +282,8 @@ pub struct Info {
     pub terminal: Option<Terminal>,
     /// The path of its type, for the list that build.rs writes.
     pub type_path: &'static str,
-    /// Its variables.
-    pub metas: fn() -> Vec<Meta>,
+    /// Its variables, each with its row.
+    pub metas: fn() -> Vec<(usize, Meta)>,
     /// Its law in one line.
     pub law: &'static str,
     /// What some of its variables are where a scene calls for it and gives none.
@@ -332,26 +341,22 @@ pub fn named(name: &str) -> Option<&'static Info> {
     CATALOGUE.iter().find(|info| info.name == name)
 }
 
-/// Declares the effects, those that build.rs lets be compiled: their number (never reused), module and type, with the number of
-/// its table's nodes where it may have one, and whether a scene may hold several.
+/// Declares the effects, those that build.rs lets be compiled: their number (never reused), module and type, whether it may stand in a
+/// housing and have a table, and whether a scene may hold several.
 macro_rules! catalogue {
-    ($($number:literal $module:ident $type:ident $(<$nodes:ident>)? $many:ident;)*) => {
+    ($($number:literal $module:ident $type:ident $(<$($of:ident)*>)? $many:ident;)*) => {
         $(
             #[cfg($module)]
             pub mod $module;
 
             #[cfg($module)]
-            impl $(<const $nodes: usize>)? Entry for $module::$type $(<$nodes>)? {
-                const NAME: &'static str = stringify!($module);
-                const NUMBER: u32 = $number;
-                const SEVERAL: bool = catalogue!(@several $many);
-                const SWITCH: Meta = switch(catalogue!(@switch $module));
-            }
+            catalogue!(@entry [$($($of)*)?] $module::$type, $number, stringify!($module), catalogue!(@several $many), catalogue!(@switch $module));
 
             #[cfg($module)]
             const _: () = {
-                type Largest = catalogue!(@largest $module $type $($nodes)?);
-                assert!(Largest::ROWS.len() <= variable::Place::SWITCH, "an effect has at most 255 variables");
+                type Largest = catalogue!(@largest $module $type $($($of)*)?);
+                let most = if Largest::HOUSING.is_empty() { variable::Place::SWITCH } else { variable::Place::HOUSING };
+                assert!(Largest::ROWS.len() <= most, "an effect has at most 255 variables, 192 beside those of a housing");
                 assert!(Largest::FACTS.own <= MOST_OWN, "an effect has at most MOST_OWN states of its own");
                 assert!(Largest::FACTS.loads <= MOST_LOADS, "an effect has at most MOST_LOADS loads");
             };
@@ -366,17 +371,17 @@ macro_rules! catalogue {
             switch: switch(catalogue!(@switch $module)),
             terminal: <$module::$type as Effect>::TERMINAL,
             type_path: concat!("split_rotor_model::effects::", stringify!($module), "::", stringify!($type)),
-            metas: || <catalogue!(@largest $module $type $($nodes)?)>::ROWS.iter().map(|row| row.meta).collect(),
+            metas: || rows::<catalogue!(@largest $module $type $($($of)*)?)>().map(|(number, row)| (number, row.meta)).collect(),
             law: <$module::$type as Effect>::LAW,
             where_empty: <$module::$type as Effect>::WHERE_EMPTY,
             facts: <$module::$type as Effect>::FACTS,
-            facts_with_table: <catalogue!(@largest $module $type $($nodes)?)>::FACTS,
+            facts_with_table: <catalogue!(@largest $module $type $($($of)*)?)>::FACTS,
             excludes: <$module::$type as Effect>::EXCLUDES,
         }),*];
 
         /// Every effect, each behind a switch.
         #[cfg(feature = "scenes")]
-        pub type All = catalogue!(@list $($module $type $(<$nodes>)? $many;)*);
+        pub type All = catalogue!(@list $($module $type $(<$($of)*>)? $many;)*);
 
         const _: () = {
             let numbers = [$($number),*];
@@ -395,15 +400,31 @@ macro_rules! catalogue {
     (@list $module:ident $type:ident one; $($rest:tt)*) => {
         (Switched<$module::$type, 1>, catalogue!(@list $($rest)*))
     };
-    (@list $module:ident $type:ident $(<$nodes:ident>)? several; $($rest:tt)*) => {
-        catalogue!(@four (catalogue!(@largest $module $type $($nodes)?)) $($rest)*)
+    (@list $module:ident $type:ident $(<$($of:ident)*>)? several; $($rest:tt)*) => {
+        catalogue!(@four (catalogue!(@largest $module $type $($($of)*)?)) $($rest)*)
     };
     (@four ($largest:ty) $($rest:tt)*) => {
         (Switched<$largest, 1>, (Switched<$largest, 2>, (Switched<$largest, 3>, (Switched<$largest, 4>,
             catalogue!(@list $($rest)*)))))
     };
     (@largest $module:ident $type:ident) => { $module::$type };
-    (@largest $module:ident $type:ident $nodes:ident) => { $module::$type<{ table::MOST_NODES }> };
+    (@largest $module:ident $type:ident HOUSING) => { $module::$type<housing::Moving> };
+    (@largest $module:ident $type:ident HOUSING NODES) => { $module::$type<housing::Moving, { table::MOST_NODES }> };
+    (@entry [] $type:ty, $($of:tt)*) => { catalogue!(@entry impl [] $type, $($of)*); };
+    (@entry [HOUSING] $module:ident::$type:ident, $($of:tt)*) => {
+        catalogue!(@entry impl [H: housing::Housing] $module::$type<H>, $($of)*);
+    };
+    (@entry [HOUSING NODES] $module:ident::$type:ident, $($of:tt)*) => {
+        catalogue!(@entry impl [H: housing::Housing, const NODES: usize] $module::$type<H, NODES>, $($of)*);
+    };
+    (@entry impl [$($generics:tt)*] $type:ty, $number:expr, $name:expr, $several:expr, $switch:expr) => {
+        impl<$($generics)*> Entry for $type {
+            const NAME: &'static str = $name;
+            const NUMBER: u32 = $number;
+            const SEVERAL: bool = $several;
+            const SWITCH: Meta = switch($switch);
+        }
+    };
     (@switch $module:ident) => {
         concat!("whether the effect ", stringify!($module), " acts; if false, it is not calculated and its outputs are 0")
     };
@@ -417,7 +438,7 @@ catalogue! {
     3 drive Drive one;
     4 asymmetry Asymmetry one;
     5 unbalance Unbalance several;
-    6 bearing Bearing<NODES> several;
+    6 bearing Bearing<HOUSING NODES> several;
     7 rotating_damping RotatingDamping one;
     8 drag Drag one;
     9 probe Probe several;
@@ -425,5 +446,5 @@ catalogue! {
     11 imposed_speed ImposedSpeed one;
     12 extrapolation Extrapolation one;
     13 motor Motor one;
-    14 rub Rub several;
+    14 rub Rub<HOUSING> several;
 }

@@ -212,17 +212,25 @@ impl Scene {
     pub fn list(&self) -> String {
         let member = if self.general { "Switched" } else { "Called" };
         self.effects.iter().rev().fold("()".to_owned(), |rest, (info, index)| {
-            let nodes = match self.nodes(Place::effect_block(info.number, *index)) {
-                0 => String::new(),
-                nodes => format!("<{nodes}>"),
+            let block = Place::effect_block(info.number, *index);
+            let of = match (self.is_housed(block), self.nodes(block)) {
+                (false, 0) => String::new(),
+                (false, nodes) => format!("<split_rotor_model::effects::housing::Fixed, {nodes}>"),
+                (true, 0) => "<split_rotor_model::effects::housing::Moving>".to_owned(),
+                (true, nodes) => format!("<split_rotor_model::effects::housing::Moving, {nodes}>"),
             };
-            format!("(split_rotor_model::effects::{member}<{}{nodes}, {index}>, {rest})", info.type_path)
+            format!("(split_rotor_model::effects::{member}<{}{of}, {index}>, {rest})", info.type_path)
         })
     }
 
     /// For how many start values a library of this list has room: those of all parameters and inputs.
     pub fn room(&self) -> usize {
         self.variables.iter().filter(|variable| variable.meta.has_start()).count()
+    }
+
+    /// Whether an effect stands in a housing that can move.
+    fn is_housed(&self, block: u32) -> bool {
+        self.variables.iter().any(|variable| variable.place.block == block && variable.place.is_of_housing())
     }
 
     /// How many nodes the table of an effect has; 0 where there is none.

@@ -154,6 +154,15 @@ impl Signal {
         }
     }
 
+    /// Goes on from the communication point `t` \[s] at the rate that another signal says, unless derivatives were sent there.
+    pub fn follow(&mut self, t: f64, rate: &Self) {
+        let (value, slope, curvature) = (self.at(t), rate.at(t), rate.rate_at(t));
+        let goes_on = self.rate_at::<f64>(t) == slope && self.curvature == curvature;
+        if !goes_on && !self.was_sent_derivatives_at(t) {
+            *self = Self { origin: t, value, slope, curvature, ..*self };
+        }
+    }
+
     /// What was set before the run counts from its start at `t` \[s].
     pub fn begin(&mut self, t: f64) {
         (self.origin, self.told) = (t, t);

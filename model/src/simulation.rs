@@ -302,6 +302,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         if is_set || self.partners.iter().any(Partner::follows_polynomial) {
             self.update_partners(t);
         }
+        if E::FACTS.extrapolates || E::FACTS.tells_rates {
+            let from = self.time().unwrap_or_default();
+            self.parameters.effects.step_from(from);
+        }
         if self.parameters.effects.extrapolates() {
             if let (true, Some(Run::Method(integration))) = (looks.looks(), &self.run) {
                 looks.look(integration, &self.parameters.effects, integration.time());
@@ -417,9 +421,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     /// Extrapolates inputs over the step that begins, where an effect does so.
     fn extrapolate(&mut self) {
         const { assert!(follows_all_inputs::<E>(), "extrapolation.rs: MOST is less than this list has inputs") };
-        let t = self.time().unwrap_or_default();
         let effects = &mut self.parameters.effects;
-        effects.step_from(t);
         let (mut extrapolated, mut number, mut changes) = (effects.clone(), 0, false);
         extrapolated.for_each_extrapolated(&mut |signal| {
             let before = *signal;

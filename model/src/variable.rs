@@ -48,6 +48,9 @@ impl Place {
     /// The last row of an effect's block, which is its switch's where it has one, and else nobody's.
     pub const SWITCH: usize = 255;
 
+    /// The first row of a housing, in the block of its effect.
+    pub const HOUSING: usize = 192;
+
     /// The block of the effect with this catalogue number (from 1), the `index`th of its kind (from 1).
     pub const fn effect_block(number: u32, index: u32) -> u32 {
         Self::FIRST_EFFECT + Self::OF_A_KIND * (number - 1) + (index - 1)
@@ -61,6 +64,11 @@ impl Place {
     /// The place behind a value reference.
     pub const fn of(value_reference: u32) -> Self {
         Self { block: value_reference >> 8, row: (value_reference & 0xff) as usize }
+    }
+
+    /// Whether the variable there is one of a housing.
+    pub fn is_of_housing(self) -> bool {
+        self.block >= Self::FIRST_EFFECT && (Self::HOUSING..Self::SWITCH).contains(&self.row)
     }
 
     /// The FMI value reference.

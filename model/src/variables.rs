@@ -606,10 +606,11 @@ impl<E: Effects> Parameters<E> {
     /// `sound`. That with the most extreme value, if it is one alone.
     #[cold]
     pub fn blamed(&self, sound: impl Fn(&Self) -> bool) -> Invalid {
-        const LAST: u32 = 1 << 8;
-        let metas = |block| (0..).map_while(move |row| Some((Place { block, row }, Self::meta(Place { block, row })?)));
+        let metas = |block| {
+            (0..Place::SWITCH).filter_map(move |row| Some((Place { block, row }, Self::meta(Place { block, row })?)))
+        };
         let is_given = |(_, meta): &(Place, &Meta)| meta.kind == Kind::Real && meta.has_start();
-        let given = (0..LAST).flat_map(metas).filter(is_given);
+        let given = (0..1 << 8).flat_map(metas).filter(is_given);
         let mut given: Vec<_> =
             given.filter_map(|(place, _)| Some((place, self.value::<WITH_WORK>(place, 0.0, None)?))).collect();
         let extremity = |value: f64| if value == 0.0 { 1.0 } else { value.abs().max(1.0 / value.abs()) };
@@ -670,15 +671,15 @@ pub struct Variable {
 pub fn of_scene(effects: &[(&'static Info, u32)]) -> Vec<Variable> {
     let could_work = effects.iter().any(|(info, _)| info.facts.could_work);
     let mut list = Vec::new();
-    let mut block = |block: u32, name: &dyn Fn(&str) -> String, metas: Vec<Meta>| {
-        let placed = metas.into_iter().enumerate().map(|(row, meta)| (Place { block, row }, meta));
+    let mut block = |block: u32, name: &dyn Fn(&str) -> String, metas: Vec<(usize, Meta)>| {
+        let placed = metas.into_iter().map(|(row, meta)| (Place { block, row }, meta));
         list.extend(placed.filter(|(place, _)| could_work || !is_of_work(*place)).map(|(place, meta)| Variable {
             name: name(meta.name),
             place,
             meta,
         }));
     };
-    let metas = |rows: &[AlwaysRow]| rows.iter().map(|row| row.meta).collect();
+    let metas = |rows: &[AlwaysRow]| (0..).zip(rows).map(|(number, row)| (number, row.meta)).collect();
     for (number, rows) in (0..).zip(BLOCKS).filter(|(number, _)| *number != SOLVER) {
         block(number, &str::to_owned, metas(rows));
     }

@@ -39,7 +39,7 @@ fn drawn_with(info: &Info, random: &mut Random, has_table: bool) -> Option<All> 
     let mut effects = All::default();
     let block = Place::effect_block(info.number, 1);
     effects.switch_on(block);
-    for (row, meta) in (info.metas)().into_iter().enumerate() {
+    for (row, meta) in (info.metas)() {
         let place = Place { block, row };
         // Often a part of the law is not there; a table is, or it is not.
         let is_absent = if meta.node().is_some() { !has_table } else { random.within(0.0, 1.0) < ABSENT };
@@ -76,11 +76,11 @@ fn asymmetric() -> Inertia {
     shape.inertia()
 }
 
-/// The same motion, its place moving with time.
+/// The same motion, its place and housings moving with time.
 fn moving(motion: &Kinematics<f64>) -> Kinematics<Tangent> {
     let at = &motion.at;
     let still = |v: &Vector3<f64>| v.map(|x| Tangent::along(x, 0.0));
-    Kinematics::new(
+    let moving = Kinematics::new(
         motion.body,
         motion.tilt.chart(),
         Coordinates {
@@ -90,7 +90,8 @@ fn moving(motion: &Kinematics<f64>) -> Kinematics<Tangent> {
             gamma: at.gamma.zip_map(&motion.gamma_rate(), Tangent::along),
             phi: Tangent::along(at.phi, motion.phi_rate()),
         },
-    )
+    );
+    Kinematics { t: Tangent::along(motion.t, 1.0), ..moving }
 }
 
 #[test]

@@ -59,7 +59,7 @@ mod tests {
         for info in CATALOGUE {
             for flow in info.terminal.map_or(&[] as &[_], |terminal| terminal.flows) {
                 let is_member = |role| !matches!(role, Role::Parameter { .. });
-                let found = (info.metas)().iter().any(|meta| meta.name == *flow && is_member(meta.role));
+                let found = (info.metas)().iter().any(|(_, meta)| meta.name == *flow && is_member(meta.role));
                 assert!(found, "{}.{flow}", info.name);
             }
         }

@@ -1,7 +1,8 @@
 //! `bearing`: linear springs and dampers at a station, with cross coupling; against the speed where a table is given.
 
+use super::housing::{self, Fixed, Housed, Housing, Moving};
 use super::table::Table;
-use super::{Act, Change, Doubt, Effect, Facts, MOST_DOUBTS, MOST_LOADS, Motion, Pose, Row, Wrench};
+use super::{Act, Change, Doubt, Effect, Facts, InputSet, MOST_DOUBTS, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{
@@ -11,9 +12,9 @@ use crate::variable::units::{
 use crate::variable::{Access, Bound, Meta, output, parameter};
 use nalgebra::Vector3;
 
-/// A bearing on the stator line, the x axis, with a table of so many nodes.
+/// A bearing on the stator line, the x axis, in a housing, with a table of so many nodes.
 #[derive(Clone, Debug, Default)]
-pub struct Bearing<const NODES: usize = 0> {
+pub struct Bearing<H: Housing = Fixed, const NODES: usize = 0> {
     /// Where it is, along t from c \[m].
     pub position: f64,
     /// Stiffness K [N/m]; a seal or a magnet may have a negative one.
@@ -42,9 +43,14 @@ pub struct Bearing<const NODES: usize = 0> {
     pub ct: f64,
     /// What K and C have besides against ω_φ: kyy, kyz, kzy, kzz, cyy, cyz, czy, czz of each node.
     table: Coefficients<NODES>,
-    /// [`Bearing::axial`] at the start \[m], and the number of the table's stretch.
-    memory: [f64; 2],
+    /// What it is fixed to.
+    pub housing: H,
+    /// Where [`Bearing::axial`] counts from \[m]; the number of the table's stretch; when the communication step began \[s].
+    memory: [f64; FROM + 1],
 }
+
+/// Where in the memory the start of a communication step is.
+const FROM: usize = 2;
 
 /// The columns of the table after that of the speeds.
 const COLUMNS: [&str; 8] = ["kyy", "kyz", "kzy", "kzz", "cyy", "cyz", "czy", "czz"];
@@ -80,7 +86,7 @@ fn matrix<S: Copy>(a: &[S]) -> Matrix<S> {
     [[a[0], a[1]], [a[2], a[3]]]
 }
 
-impl<const NODES: usize> Bearing<NODES> {
+impl<const NODES: usize> Bearing<Fixed, NODES> {
     /// A bearing at `position` along t from c \[m] with K [N/m] and C [N·s/m], each as rows that act on (y, z). What else it has is
     /// zero, and its table empty.
     pub fn new(position: f64, [[kyy, kyz], [kzy, kzz]]: Matrix<f64>, [[cyy, cyz], [czy, czz]]: Matrix<f64>) -> Self {
@@ -93,6 +99,15 @@ impl<const NODES: usize> Bearing<NODES> {
         Self { table, ..self }
     }
 
+    /// The same in a housing that moves.
+    pub fn in_housing(self, housing: Moving) -> Bearing<Moving, NODES> {
+        let Self { position, kyy, kyz, kzy, kzz, cyy, cyz, czy, czz, kxx, cxx, kt, ct, table, housing: _, memory } =
+            self;
+        Bearing { position, kyy, kyz, kzy, kzz, cyy, cyz, czy, czz, kxx, cxx, kt, ct, table, housing, memory }
+    }
+}
+
+impl<H: Housing, const NODES: usize> Bearing<H, NODES> {
     fn stiffness(&self) -> [f64; 4] {
         [self.kyy, self.kyz, self.kzy, self.kzz]
     }
@@ -101,16 +116,12 @@ impl<const NODES: usize> Bearing<NODES> {
         [self.cyy, self.cyz, self.czy, self.czz]
     }
 
-    /// Force by the displacement and force by the velocity across, as the table has them \[N].
+    /// Force by the displacement \[m] and force by the velocity [m/s] across, as the table has them at a speed [rad/s] \[N].
     #[inline(always)]
-    fn tabled<S: Scalar>(&self, motion: &Motion<S>) -> Option<[Vector3<S>; 2]> {
-        let (q, rate) = (motion.station(self.position), motion.station_velocity(self.position));
-        if NODES == 0 { None } else { self.tabled_at(motion.omega_phi(), q, rate) }
-    }
-
-    /// The same at a speed [rad/s], of a displacement \[m] and a velocity [m/s].
-    #[inline(always)]
-    fn tabled_at<S: Scalar>(&self, speed: S, q: Vector3<S>, rate: Vector3<S>) -> Option<[Vector3<S>; 2]> {
+    fn tabled<S: Scalar>(&self, speed: S, q: Vector3<S>, rate: Vector3<S>) -> Option<[Vector3<S>; 2]> {
+        if NODES == 0 {
+            return None;
+        }
         let table = self.table.at(speed)?;
         let across = |coefficients, v| -times(S::zero(), matrix(coefficients), v);
         // eq. 101: F = −K(ω_φ) q − C(ω_φ) dq/dt
@@ -130,36 +141,63 @@ impl<const NODES: usize> Bearing<NODES> {
         motion.r_c().x - motion.foreshortening() * S::constant(self.position)
     }
 
-    /// (x, q) of its station, x from its place at the start \[m].
+    /// (x, q) of its station relative to the housing, x from its place at the start \[m].
     #[inline(always)]
     fn displacement<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
         let station = motion.station(self.position);
-        Vector3::new(self.axial(motion) - S::constant(self.memory[0]), station.y, station.z)
+        let from_start = Vector3::new(self.axial(motion) - S::constant(self.memory[0]), station.y, station.z);
+        self.housing.relative(motion, from_start)
     }
 
+    /// Velocity of its station relative to the housing [m/s].
     #[inline(always)]
     fn velocity<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        motion.station_velocity(self.position)
+        self.housing.relative_velocity(motion, motion.station_velocity(self.position))
     }
 
-    /// Force of the springs on the rotor \[N].
+    /// Force on the rotor at the station \[N], which is so far from the housing \[m].
     #[inline(always)]
-    fn spring<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        // eq. 61: F = −(kxx x, K q)
-        -self.springs(self.displacement(motion))
-    }
-
-    /// Force of the dampers on the rotor \[N].
-    #[inline(always)]
-    fn damper<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        // eq. 61: F = −(cxx dx/dt, C dq/dt)
-        -self.dampers(self.velocity(motion))
+    fn force_at<S: Scalar>(&self, motion: &Motion<S>, q: Vector3<S>) -> Vector3<S> {
+        let rate = self.velocity(motion);
+        // eq. 61: F = −(kxx x, K q) − (cxx dx/dt, C dq/dt)
+        let force = -self.springs(q) + -self.dampers(rate);
+        self.tabled(motion.omega_phi(), q, rate).map_or(force, |[pull, drag]| force + pull + drag)
     }
 
     /// Force on the rotor at the station \[N].
     fn force<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
-        let force = self.spring(motion) + self.damper(motion);
-        self.tabled(motion).map_or(force, |[pull, drag]| force + pull + drag)
+        self.force_at(motion, self.displacement(motion))
+    }
+
+    /// What it does where its housing is the stator.
+    #[inline(always)]
+    fn act_in_housing<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
+        let (r, v) = (self.displacement(motion), self.velocity(motion));
+        let (lean, t_rate) = (motion.lean(), motion.axis_rate());
+        let at_station = |force| Wrench::at_station(motion, self.position, force);
+        let (springs, dampers) = (self.springs(r), self.dampers(v));
+        let linear = Act {
+            // eq. 61: F = −(kxx x, K q), M = −kt γ
+            load: at_station(-springs) + Wrench::against_lean(motion, self.kt),
+            // eq. 61: F = −(cxx dx/dt, C dq/dt), M = −ct t×(dt/dt)
+            damping: at_station(-dampers) + Wrench::against_turn(motion, self.ct),
+            // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
+            stored: (r.dot(&springs) + lean.dot(&lean) * S::constant(self.kt)) * S::constant(0.5),
+            // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
+            supply: motion.power_along(self.circulation(), r.y, v.z) - motion.power_along(self.circulation(), r.z, v.y),
+            // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
+            loss: motion.power(1.0, &v, &dampers) + motion.power(self.ct, &t_rate, &t_rate),
+            ..Act::none()
+        };
+        let Some([pull, drag]) = self.tabled(motion.omega_phi(), r, v) else { return linear };
+        Act {
+            load: linear.load + at_station(pull),
+            damping: linear.damping + at_station(drag),
+            // eq. 101: −dqᵀ/dt K q is supplied, dqᵀ/dt C dq/dt is lost
+            supply: linear.supply + v.dot(&pull),
+            loss: linear.loss - v.dot(&drag),
+            ..linear
+        }
     }
 
     /// (kxx x, K q).
@@ -234,7 +272,7 @@ macro_rules! rows {
     };
 }
 
-impl<const NODES: usize> Bearing<NODES> {
+impl<H: Housing, const NODES: usize> Bearing<H, NODES> {
     /// Its variables, and those of nodes that it may not have.
     const ALL: &'static [Row<Self>] = rows!([
         parameter!(position, &METRE, None, Bound::Finite, "axial position from the mass centre"),
@@ -292,14 +330,34 @@ impl<const NODES: usize> Bearing<NODES> {
     ], 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
 }
 
-impl<const NODES: usize> Effect for Bearing<NODES> {
+impl<H: Housing, const NODES: usize> Housed for Bearing<H, NODES> {
+    type Housing = H;
+
+    fn housing(&self) -> &H {
+        &self.housing
+    }
+
+    fn housing_mut(&mut self) -> &mut H {
+        &mut self.housing
+    }
+
+    fn force_on_housing<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S> {
+        let ahead = self.housing.ahead(motion, self.memory[FROM]);
+        -self.force_at(motion, self.displacement(motion) + self.velocity(motion) * ahead)
+    }
+}
+
+impl<H: Housing, const NODES: usize> Effect for Bearing<H, NODES> {
     const LAW: &'static str =
         "at the station, q = (y, z): F = −K q − C dq/dt, F_x = −kxx x − cxx dx/dt, M = −kt γ − ct t×dt/dt";
 
     const ROWS: &'static [Row<Self>] = Self::ALL.split_at(UNTABLED + OF_NODE * NODES).0;
 
+    const HOUSING: &'static [Row<Self>] = housing::rows::<Self>();
+
     const FACTS: Facts = Facts {
         loads: 1,
+        tells_rates: H::CAN_MOVE,
         // A node is passed.
         indicators: (NODES > 0) as usize,
         analytic: NODES == 0,
@@ -311,38 +369,14 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
     fn load_changes(&self, at: &Pose, change: &Change) -> [f64; MOST_LOADS] {
         let (q, rate) = (change.station(self.position), change.station_velocity(self.position));
         let force = -(self.springs(q) + self.dampers(rate));
-        let tabled = if NODES == 0 { None } else { self.tabled_at(at.speed, q, rate) };
-        let force = tabled.map_or(force, |[pull, drag]| force + pull + drag);
+        let force = self.tabled(at.speed, q, rate).map_or(force, |[pull, drag]| force + pull + drag);
         [force.norm_squared(), 0.0]
     }
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
-        let (r, v) = (self.displacement(motion), self.velocity(motion));
-        let (lean, t_rate) = (motion.lean(), motion.axis_rate());
-        let at_station = |force| Wrench::at_station(motion, self.position, force);
-        let springs = r.dot(&self.springs(r));
-        let linear = Act {
-            // eq. 61: M = −kt γ, M = −ct t×(dt/dt)
-            load: at_station(self.spring(motion)) + Wrench::against_lean(motion, self.kt),
-            damping: at_station(self.damper(motion)) + Wrench::against_turn(motion, self.ct),
-            // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
-            stored: (springs + lean.dot(&lean) * S::constant(self.kt)) * S::constant(0.5),
-            // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
-            supply: motion.power_along(self.circulation(), r.y, v.z) - motion.power_along(self.circulation(), r.z, v.y),
-            // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
-            loss: motion.power(1.0, &v, &self.dampers(v)) + motion.power(self.ct, &t_rate, &t_rate),
-            ..Act::none()
-        };
-        let Some([pull, drag]) = self.tabled(motion) else { return linear };
-        Act {
-            load: linear.load + at_station(pull),
-            damping: linear.damping + at_station(drag),
-            // eq. 101: −dqᵀ/dt K q is supplied, dqᵀ/dt C dq/dt is lost
-            supply: linear.supply + v.dot(&pull),
-            loss: linear.loss - v.dot(&drag),
-            ..linear
-        }
+        let act = self.act_in_housing(motion);
+        self.housing.supplying(motion, act, || self.force(motion))
     }
 
     fn follows_speed(&self) -> bool {
@@ -362,7 +396,7 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
 
     fn works(&self) -> bool {
         // What damps across gives no work, but is asked for only where something works.
-        self.circulation() != 0.0 || self.follows_speed()
+        self.circulation() != 0.0 || self.follows_speed() || self.housing.moves()
     }
 
     fn check(&self) -> Result<(), Invalid> {
@@ -392,8 +426,18 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
         [below, beyond, backward.then_some(Doubt::Backward { speed: low })]
     }
 
+    fn input_set(&mut self, before: &Self, set: InputSet) -> bool {
+        self.housing.input_set(&before.housing, set)
+    }
+
+    fn step_from(&mut self, t: f64) {
+        self.memory[FROM] = t;
+    }
+
     fn begin(&mut self, start: &Motion<f64>) {
-        self.memory[0] = self.axial(start);
+        self.housing.begin(start.t());
+        self.memory = [0.0, 0.0, housing::NO_STEP];
+        self.memory[0] = self.displacement(start).x;
         if NODES > 0 {
             self.memory[1] = self.table.follow(start.omega_phi(), None);
         }
@@ -414,7 +458,7 @@ impl<const NODES: usize> Effect for Bearing<NODES> {
     }
 
     fn memory(&mut self) -> &mut [f64] {
-        &mut self.memory[..1 + Self::FACTS.indicators]
+        &mut self.memory[..if H::CAN_MOVE { FROM + 1 } else { 1 + Self::FACTS.indicators }]
     }
 
     fn restored(&mut self) -> bool {

@@ -135,7 +135,7 @@ fn listed(parameters: &Parameters<All>, is_wanted: fn(Role) -> bool) -> Vec<List
             let place = Place { block, row };
             Some(Listed { place, meta: Parameters::<All>::meta(place)? })
         };
-        (0..Place::SWITCH).map_while(listed)
+        (0..Place::SWITCH).filter_map(listed)
     };
     let all = (0..Place::FIRST_EFFECT).chain(blocks).flat_map(rows);
     all.filter(|one| one.meta.kind == Kind::Real && is_wanted(one.meta.role)).collect()

@@ -334,7 +334,7 @@ fn is_of_effect(name: &str) -> bool {
 fn unit_of_effect(name: &str) -> Option<&'static Unit> {
     let (block, own) = name.split_once('.')?;
     let metas = effects::named(block.split('[').next()?)?.metas;
-    metas().into_iter().find(|meta| meta.name == own).map(|meta| meta.unit)
+    metas().into_iter().find(|(_, meta)| meta.name == own).map(|(_, meta)| meta.unit)
 }
 
 fn of_columns(heads: &[Head]) -> String {

@@ -133,12 +133,11 @@ impl Reader<'_> {
         let tolerance = tolerance.map_or(0.0, |variable| values.starts[&variable.place.value_reference()]);
         let experiment = self.experiment(root.get("experiment"), tolerance, &mut values);
         let unsure = values.unsure();
-        let Values { mut starts, places, columns, .. } = values;
-        let is_there = |variable: &Variable| columns.hold(variable);
-        variables.iter().filter(|variable| !is_there(variable)).for_each(|variable| {
-            starts.remove(&variable.place.value_reference());
-        });
-        variables.retain(is_there);
+        let absent: Vec<_> =
+            variables.iter().filter(|variable| !values.hold(variable)).map(|variable| variable.place).collect();
+        let Values { mut starts, places, .. } = values;
+        absent.iter().for_each(|place| _ = starts.remove(&place.value_reference()));
+        variables.retain(|variable| !absent.contains(&variable.place));
         let inputs = self.inputs(root, &variables);
         Found { title, general, effects, variables, starts, experiment, inputs, places, unsure }
     }
@@ -232,6 +231,7 @@ impl Reader<'_> {
                 self.wrong_type(value, &in_file, &format!("an array of numbers in {}", first.meta.unit.name))
             } else if values.settable().any(|variable| variable.name.starts_with(&format!("{name}."))) {
                 if value.get_ref().as_table().is_some() {
+                    values.call_housing(&name);
                     self.block(value, &name, &in_file, values);
                 } else {
                     let (keys, given) = (values.keys(&name), value.get_ref());

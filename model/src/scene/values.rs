@@ -23,14 +23,16 @@ pub(super) struct Values<'v> {
     /// What stands in the file, but not as it should: a misspelt key or section, or one of another type. It is not missing besides.
     pub(super) meant: Vec<String>,
     pub(super) columns: Columns,
+    /// The blocks of effects whose housing can move.
+    pub(super) housed: Vec<u32>,
     pub(super) moments: Vec<Moment>,
 }
 
 impl<'v> Values<'v> {
     pub(super) fn new(variables: &'v [Variable]) -> Self {
         let (starts, columns) = (defaults(variables), Columns::default());
-        let (places, refused, meant, moments) = Default::default();
-        Self { variables, starts, places, refused, meant, columns, moments }
+        let (places, refused, meant, housed, moments) = Default::default();
+        Self { variables, starts, places, refused, meant, columns, housed, moments }
     }
 
     /// What a file may give a value: parameters and inputs.
@@ -67,6 +69,20 @@ impl<'v> Values<'v> {
             None => self.refused.push(reference),
         }
         self.places.push((name.to_owned(), place));
+    }
+
+    /// Its effect has this housing, which moves unless the file says that it does not.
+    pub(super) fn call_housing(&mut self, prefix: &str) {
+        let Some(moves) = self.find(&format!("{prefix}.moves")).filter(|moves| moves.place.is_of_housing()) else {
+            return;
+        };
+        self.starts.insert(moves.place.value_reference(), 1.0);
+        self.housed.push(moves.place.block);
+    }
+
+    /// Whether there is such a variable: of a table so long, of a housing that the file names.
+    pub(super) fn hold(&self, variable: &Variable) -> bool {
+        self.columns.hold(variable) && (!variable.place.is_of_housing() || self.housed.contains(&variable.place.block))
     }
 
     /// Without a support its point a need not be told: it is c.

@@ -6,6 +6,7 @@ use crate::integrate::stiff::Differentiable;
 use crate::rotor::{Frame, Rotor};
 use crate::state::GAMMA;
 use crate::stored::stored;
+use crate::variable::Place;
 use std::fmt::{self, Display, Formatter};
 
 /// A motion that diverges, as it was when that was found.
@@ -99,7 +100,7 @@ impl Bounds {
 
 /// The positions and gaps of an effect \[m].
 fn lengths(block: &dyn Block) -> impl Iterator<Item = f64> {
-    let rows = (0..).map_while(|row| Some((row, (block.kind().meta)(row)?)));
+    let rows = (0..Place::SWITCH).filter_map(|row| Some((row, (block.kind().meta)(row)?)));
     let lengths = rows.filter(|(_, meta)| matches!(meta.name, "position" | "gap"));
     lengths.filter_map(|(row, _)| block.value(row, 0.0, None, None)).map(f64::abs)
 }

@@ -6,6 +6,7 @@ use crate::harness::{largest, within};
 use nalgebra::Vector3;
 use split_rotor_model::effects::Effect;
 use split_rotor_model::effects::bearing::Bearing;
+use split_rotor_model::effects::housing::Fixed;
 
 const SOLVER: &str = "[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n";
 
@@ -45,7 +46,7 @@ fn bearings_say_what_a_support_says() {
 
 #[test]
 fn springs_alone_give_no_work() {
-    let mut bearing = Bearing::<0>::default();
+    let mut bearing = Bearing::<Fixed>::default();
     (bearing.kyy, bearing.kzz, bearing.kxx, bearing.kt) = (1000.0, 2000.0, 500.0, 250.0);
     assert!(!bearing.works() && !bearing.follows_speed());
     // Springs that push round give work, whatever the speed.

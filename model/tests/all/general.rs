@@ -28,7 +28,7 @@ fn every_effect_has_its_switch() {
             assert!(switch.meta.kind == Kind::Boolean && matches!(switch.meta.role, Role::Parameter { .. }));
             let is_on = ["gravity", "support"].contains(&info.name);
             assert_eq!(rotor.get(&name), f64::from(is_on), "{name}");
-            let first = (info.metas)()[0].name;
+            let first = (info.metas)()[0].1.name;
             assert_eq!(rotor.place(&format!("{}.{first}", info.block_name(index))), Place { block, row: 0 });
         }
     }

@@ -27,6 +27,7 @@ mod general;
 mod growth;
 mod hard_starts;
 mod honest_tolerance;
+mod housing;
 mod imposed_speed;
 mod invariants;
 mod ledger;

@@ -76,7 +76,7 @@ fn tables_and_two_of_a_kind() {
     let none = [[0.0; 2]; 2];
     let mut tabled = Bearing::new(-0.2, none, none).with_table(Table::new([10.0, 40.0], [slow, fast]));
     (tabled.kxx, tabled.cxx) = (2e5, 300.0);
-    let plain = Bearing::<0>::new(0.25, [[3e5, 0.0], [0.0, 3e5]], [[300.0, 0.0], [0.0, 300.0]]);
+    let plain = Bearing::<_, 0>::new(0.25, [[3e5, 0.0], [0.0, 3e5]], [[300.0, 0.0], [0.0, 300.0]]);
     let drive = Drive::with(Signal::held(3.0));
     assert_given(
         &effects![gravity, drive, unbalance(), tabled => 1, plain => 2],
@@ -106,7 +106,7 @@ fn tables_and_two_of_a_kind() {
 #[test]
 fn a_state_of_an_effect_and_contact() {
     let motor = Motor { stall_torque: 2.0, synchronous_speed: 100.0, time_constant: 0.05, ..Motor::default() };
-    let bearing = Bearing::<0>::new(0.0, [[4e5, 0.0], [0.0, 4e5]], [[90.0, 0.0], [0.0, 90.0]]);
+    let bearing = Bearing::<_, 0>::new(0.0, [[4e5, 0.0], [0.0, 4e5]], [[90.0, 0.0], [0.0, 90.0]]);
     let mut rub = Rub::new(0.0, 2e-6, 1e6);
     (rub.damping, rub.friction, rub.radius) = (50.0, 0.1, 0.02);
     assert_same::<_, 15>(

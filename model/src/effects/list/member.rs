@@ -1,6 +1,8 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
-use super::super::{Doubt, Effect, Entry, Exchange, Facts, InputSet, Law, Loads, MOST_DOUBTS, MOST_OWN, Motion, Row};
+use super::super::{
+    Doubt, Effect, Entry, Exchange, Facts, InputSet, Law, Loads, MOST_DOUBTS, MOST_OWN, Motion, Row, rows,
+};
 use super::block::Hooks;
 use super::{Block, Kind, Tangent};
 use crate::body::Shape;
@@ -69,7 +71,7 @@ pub trait Member: Block + Clone + Default + Send + Stored + 'static {
             Facts { switched: Self::SWITCHED, extrapolated, follows_phi, ..facts }
         },
         excludes: Self::Effect::EXCLUDES,
-        meta: |row| Self::Effect::ROWS.get(row).map(|row| &row.meta),
+        meta: |number| row::<Self::Effect>(number).map(|row| &row.meta),
     };
 }
 
@@ -131,7 +133,7 @@ impl<E: Entry, const INDEX: u32> Stored for Switched<E, INDEX> {
 }
 
 fn walk_rows<E: Effect>(effect: &mut E, walk: &mut impl Walk) -> Result<(), Damaged> {
-    for row in E::ROWS {
+    for (_, row) in rows::<E>() {
         match row.access {
             Access::Parameter { get, set } => {
                 let mut value = get(effect);
@@ -146,7 +148,7 @@ fn walk_rows<E: Effect>(effect: &mut E, walk: &mut impl Walk) -> Result<(), Dama
     if effect.restored() { Ok(()) } else { Err(Damaged) }
 }
 
-/// How many inputs an effect has.
+/// How many inputs an effect has, beside those of a housing.
 const fn inputs<E: Effect>() -> usize {
     let (mut row, mut inputs) = (0, 0);
     while row < E::ROWS.len() {
@@ -156,8 +158,14 @@ const fn inputs<E: Effect>() -> usize {
     inputs
 }
 
-fn access<E: Effect>(row: usize) -> Option<&'static Access<E, super::super::Seen>> {
-    E::ROWS.get(row).map(|row: &'static Row<E>| &row.access)
+/// The variable in this row.
+fn row<E: Effect>(number: usize) -> Option<&'static Row<E>> {
+    let of_housing = || E::HOUSING.get(number.checked_sub(Place::HOUSING)?);
+    E::ROWS.get(number).or_else(of_housing)
+}
+
+fn access<E: Effect>(number: usize) -> Option<&'static Access<E, super::super::Seen>> {
+    row::<E>(number).map(|row| &row.access)
 }
 
 /// An effect of which an input was changed, and whether that changes how anything goes on.
@@ -207,7 +215,7 @@ impl<M: Member> Block for M {
 
     fn check(&self) -> Result<(), Invalid> {
         let effect = self.effect();
-        for row in M::Effect::ROWS {
+        for (_, row) in rows::<M::Effect>() {
             if let Access::Parameter { get, .. } = row.access {
                 row.meta.check(|| M::KIND.full_name(row.meta.name), get(effect))?;
             }
@@ -217,7 +225,7 @@ impl<M: Member> Block for M {
     }
 
     fn for_each_signal(&mut self, act: &mut dyn FnMut(&mut Signal)) {
-        for row in M::Effect::ROWS {
+        for (_, row) in rows::<M::Effect>() {
             if let Access::Input { get_mut, .. } = row.access {
                 act(get_mut(self.effect_mut()));
             }

@@ -1,0 +1,225 @@
+//! The housing of a bearing or a ring: fixed to the stator, or moved by another model.
+
+use super::{Act, Effect, InputSet, Motion, Row};
+use crate::scalar::Scalar;
+use crate::signal::Signal;
+use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, ONE};
+use crate::variable::{Access, Bound, Kind, Meta, Place, Role, output};
+use nalgebra::Vector3;
+
+/// What a bearing or a ring is fixed to.
+pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
+    /// Whether it can move.
+    const CAN_MOVE: bool;
+
+    /// It, where it can move.
+    fn moving(&self) -> Option<&Moving>;
+
+    /// It, where it can move.
+    fn moving_mut(&mut self) -> Option<&mut Moving>;
+
+    /// Whether it moves.
+    #[inline(always)]
+    fn moves(&self) -> bool {
+        self.moving().is_some_and(|housing| housing.moves)
+    }
+
+    /// Its place \[m] and velocity [m/s]; None where it stands still.
+    #[inline(always)]
+    fn motion<S: Scalar>(&self, motion: &Motion<S>) -> Option<[Vector3<S>; 2]> {
+        let housing = self.moving().filter(|housing| housing.moves)?;
+        Some([&housing.r, &housing.v].map(|of| of.map(|signal| motion.input(&signal))))
+    }
+
+    /// A place relative to it \[m].
+    #[inline(always)]
+    fn relative<S: Scalar>(&self, motion: &Motion<S>, place: Vector3<S>) -> Vector3<S> {
+        self.motion(motion).map_or(place, |[r, _]| place - r)
+    }
+
+    /// A velocity relative to it [m/s].
+    #[inline(always)]
+    fn relative_velocity<S: Scalar>(&self, motion: &Motion<S>, velocity: Vector3<S>) -> Vector3<S> {
+        self.motion(motion).map_or(velocity, |[_, v]| velocity - v)
+    }
+
+    /// Its place \[m] and velocity [m/s] where they were last set: within a step, errors count beside these.
+    #[inline(always)]
+    fn last_set(&self) -> [Vector3<f64>; 2] {
+        let Some(housing) = self.moving().filter(|housing| housing.moves) else { return [Vector3::zeros(); 2] };
+        [&housing.r, &housing.v].map(|of| of.map(|signal| signal.at(signal.since())))
+    }
+
+    /// What acts on the rotor, with the power that it supplies; `force` is that at the station \[N].
+    #[inline(always)]
+    fn supplying<S: Scalar>(&self, motion: &Motion<S>, act: Act<S>, force: impl FnOnce() -> Vector3<S>) -> Act<S> {
+        let Some([_, v]) = self.motion(motion) else { return act };
+        // eq. 128: P = F·v_h
+        Act { supply: act.supply + motion.power(1.0, &force(), &v), ..act }
+    }
+
+    /// By how much its load is shown ahead at the end of a communication step that began at `from` \[s].
+    fn ahead<S: Scalar>(&self, motion: &Motion<S>, from: f64) -> S {
+        let Some(housing) = self.moving().filter(|_| from.is_finite()) else { return S::zero() };
+        (motion.t() - S::constant(from)) * S::constant(housing.ahead)
+    }
+
+    /// Hears that the motion begins at time `t` \[s].
+    fn begin(&mut self, t: f64) {
+        if let Some(housing) = self.moving_mut() {
+            (0..3).for_each(|axis| housing.go_on(t, axis));
+        }
+    }
+
+    /// Hears that an input of its effect was set, which has no others, of what it was `before`; whether that changes how it goes on.
+    fn input_set(&mut self, before: &Self, set: InputSet) -> bool {
+        let (Some(housing), Some(before)) = (self.moving_mut(), before.moving()) else { return !set.goes_on };
+        // r, then v, stand behind whether it moves.
+        housing.go_on(set.t, (set.row - Place::HOUSING - 1) % 3);
+        !(set.goes_on && housing.r == before.r)
+    }
+}
+
+/// The housing is a part of the stator.
+#[derive(Clone, Debug, Default)]
+pub struct Fixed;
+
+impl Housing for Fixed {
+    const CAN_MOVE: bool = false;
+
+    #[inline(always)]
+    fn moving(&self) -> Option<&Moving> {
+        None
+    }
+
+    fn moving_mut(&mut self) -> Option<&mut Moving> {
+        None
+    }
+}
+
+/// The housing moves as inputs say, and does not turn.
+#[derive(Clone, Debug, Default)]
+pub struct Moving {
+    /// Whether it does.
+    pub moves: bool,
+    /// How far it is from where it stands in the scene \[m].
+    pub r: Vector3<Signal>,
+    /// Its velocity, by which the place goes on between communication points [m/s].
+    pub v: Vector3<Signal>,
+    /// By what part of the last communication step its load is shown ahead \[1].
+    pub ahead: f64,
+}
+
+impl Housing for Moving {
+    const CAN_MOVE: bool = true;
+
+    #[inline(always)]
+    fn moving(&self) -> Option<&Moving> {
+        Some(self)
+    }
+
+    fn moving_mut(&mut self) -> Option<&mut Moving> {
+        Some(self)
+    }
+}
+
+impl Moving {
+    /// The place along an axis goes on by the velocity from the communication point `t` \[s] on, where no derivatives of it were sent.
+    fn go_on(&mut self, t: f64, axis: usize) {
+        self.r[axis].follow(t, &self.v[axis]);
+    }
+}
+
+/// When a communication step began, of who knows of none.
+pub const NO_STEP: f64 = f64::INFINITY;
+
+/// An effect in a housing.
+pub trait Housed: Effect {
+    /// What it is fixed to.
+    type Housing: Housing;
+
+    /// See there.
+    fn housing(&self) -> &Self::Housing;
+
+    /// See there.
+    fn housing_mut(&mut self) -> &mut Self::Housing;
+
+    /// The force on the housing, as it is shown \[N].
+    fn force_on_housing<S: Scalar>(&self, motion: &Motion<S>) -> Vector3<S>;
+}
+
+/// The variables of the housing of an effect.
+pub const fn rows<E: Housed>() -> &'static [Row<E>] {
+    if E::Housing::CAN_MOVE { Rows::<E>::ALL } else { &[] }
+}
+
+/// Only a housing that can move has variables.
+const CAN_MOVE: &str = "it can move";
+
+fn moving<E: Housed>(effect: &E) -> &Moving {
+    effect.housing().moving().expect(CAN_MOVE)
+}
+
+fn moving_mut<E: Housed>(effect: &mut E) -> &mut Moving {
+    effect.housing_mut().moving_mut().expect(CAN_MOVE)
+}
+
+/// An input: a signal of [`Moving`].
+macro_rules! signal {
+    ($of:ident.$axis:ident, $unit:expr, $description:literal) => {
+        Row {
+            meta: Meta::real(
+                concat!("housing.", stringify!($of), ".", stringify!($axis)),
+                $unit,
+                Role::Input { start: 0.0 },
+                concat!($description, ", ", stringify!($axis)),
+            ),
+            access: Access::Input {
+                get: |effect| &moving(effect).$of.$axis,
+                get_mut: |effect| &mut moving_mut(effect).$of.$axis,
+            },
+        }
+    };
+}
+
+struct Rows<E>(std::marker::PhantomData<E>);
+
+impl<E: Housed> Rows<E> {
+    const ALL: &'static [Row<E>] = &[
+        Row {
+            meta: Meta {
+                name: "housing.moves",
+                description: "whether the housing moves as its inputs say; if not, it stands still",
+                unit: &ONE,
+                kind: Kind::Boolean,
+                role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
+            },
+            access: Access::Parameter {
+                get: |effect| f64::from(moving(effect).moves),
+                set: |effect, value| moving_mut(effect).moves = value != 0.0,
+            },
+        },
+        signal!(r.x, &METRE, "displacement of the housing"),
+        signal!(r.y, &METRE, "displacement of the housing"),
+        signal!(r.z, &METRE, "displacement of the housing"),
+        signal!(v.x, &METRE_PER_SECOND, "velocity of the housing, by which its displacement goes on"),
+        signal!(v.y, &METRE_PER_SECOND, "velocity of the housing, by which its displacement goes on"),
+        signal!(v.z, &METRE_PER_SECOND, "velocity of the housing, by which its displacement goes on"),
+        output!("housing.F.x", &NEWTON, "force on the housing, x", |e, m| e.force_on_housing(m).x),
+        output!("housing.F.y", &NEWTON, "force on the housing, y", |e, m| e.force_on_housing(m).y),
+        output!("housing.F.z", &NEWTON, "force on the housing, z", |e, m| e.force_on_housing(m).z),
+        Row {
+            meta: Meta::parameter(
+                "housing.ahead",
+                &ONE,
+                Some(0.0),
+                Bound::Within(-1.0, 2.0),
+                "the force on the housing is shown ahead by this part of the last communication step, for a partner that holds it",
+            ),
+            access: Access::Parameter {
+                get: |effect| moving(effect).ahead,
+                set: |effect, value| moving_mut(effect).ahead = value,
+            },
+        },
+    ];
+}
