@@ -4,7 +4,7 @@
     cargo xtask package rotor
     python examples/cosim/cosim.py target/fmu/rotor.fmu linear libcosim 1e-3 2e-4 1e-4
 
-The pair is one of linear, journal, pedestal, magnetic, motor, two_rotors (pairs.py); the master plain, fresh, gauss_seidel, iterated, ssp,
+The pair is one of linear, journal, pedestal, housing, magnetic, motor, two_rotors (pairs.py); the master plain, fresh, gauss_seidel, iterated, ssp,
 libcosim, osp, ecos, cofmupy, or cofmupy_seidel (masters/; by_cofmupy.py says how to install those two); then come communication steps [s].
 Printed for each: the largest error of what is watched over the last tenth of the run, relative to the largest motion, where the rotor holds its
 inputs, where nothing is set, and with what docs/cosimulation.md advises for the pair.

@@ -1,4 +1,4 @@
-"""Six pairs of a rotor and models of another tool, and what is right of each: by the FMU's own bearings, by equations, or by a master of our
+"""Seven pairs of a rotor and models of another tool, and what is right of each: by the FMU's own bearings, by equations, or by a master of our
 own with much shorter steps."""
 
 import sys
@@ -80,12 +80,30 @@ def own_bearings(paths, step, _):
     return by_fmpy.plain({"rotor": (paths["rotor"], values)}, (), PROBE, step, round(0.05 / step))
 
 
-def finely(name):
-    """A pair with short steps, each partner answering at once."""
+def housed():
+    """The turbo rotor in bearings of its own, in housings that two pedestals move."""
+    names, axes = ("first", "second"), "yz"
+    own = {"kyy": 1e7, "kzz": 1e7, "cyy": 1e3, "czz": 1e3, "housing.moves": True}
+    of_rotor = {
+        name: value
+        for n, place in enumerate(PLACES, 1)
+        for name, value in ((f"effects.bearing[{n}]", True), (f"bearing[{n}].position", place))
+    }
+    of_rotor |= {f"bearing[{n}].{name}": value for n in (1, 2) for name, value in own.items()}
+    ends = [(f"rotor.bearing[{n}].housing", name, axis) for n, name in enumerate(names, 1) for axis in axes]
+    links = [(f"{housing}.F.{axis}", f"{name}.f{axis}") for housing, name, axis in ends]
+    links += [(f"{name}.{of}{axis}", f"{housing}.{of}.{axis}") for housing, name, axis in ends for of in "rv"]
+    models = {"rotor": ("rotor", TURBO | of_rotor)} | {name: ("housing", {}) for name in names}
+    advised = {f"bearing[{n}].housing.ahead": 0.5 for n in (1, 2)}
+    return Pair(models, tuple(links), PROBE, 0.05, finely("housing", advised), advised=advised)
+
+
+def finely(name, values=None):
+    """A pair with short steps, each partner answering at once; loads are held unless other values are given."""
 
     def exact(paths, step, fine):
         pair = PAIRS[name]
-        every, models = round(step / fine), with_paths(pair, paths, pair.held)
+        every, models = round(step / fine), with_paths(pair, paths, values or pair.held)
         return by_fmpy.fresh(models, pair.links, pair.watched, fine, round(pair.span / fine))[every - 1 :: every]
 
     return exact
@@ -174,6 +192,7 @@ PAIRS = {
             for name, value in {"kyy": 1e7, "kzz": 1e7, "cyy": 1e3, "czz": 1e3, "ahead": 0.5}.items()
         },
     ),
+    "housing": housed(),
     "magnetic": turbo(
         "magnetic",
         ({}, {}),
