@@ -9,8 +9,8 @@ from lxml import etree
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 
-FLANGE = {"tau": "inflow", "phi": "signal", "w": "signal", "a": "signal"}
-"""The members of `drive`, with the names of Modelica's adaptors between flanges and signals."""
+FLANGE = {"tau": "inflow", "phi": "signal", "w": "signal", "a": "signal", "energy_error": "signal"}
+"""The members of `drive`, with the names of Modelica's adaptors between flanges and signals, and one beside them."""
 
 
 @pytest.fixture

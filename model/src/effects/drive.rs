@@ -5,7 +5,7 @@ use super::{Act, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
-    NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, ONE, RADIAN, RADIAN_PER_SECOND,
+    JOULE, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN, ONE, RADIAN, RADIAN_PER_SECOND,
     RADIAN_PER_SECOND_SQUARED,
 };
 use crate::variable::{Bound, input, output, parameter};
@@ -95,6 +95,12 @@ impl Effect for Drive {
             Bound::Within(-1.0, 2.0),
             "phi is shown ahead by this part of the last communication step, for a partner that holds it"
         ),
+        output!(
+            "energy_error",
+            &JOULE,
+            "energy that the exchange brought in so far: work of the torque beyond that of the partner's answers, which lines or a law join",
+            |d, _| Scalar::constant(d.law.error)
+        ),
     ];
 
     const EXCLUDES: &'static [&'static str] = &["imposed_speed"];
@@ -122,7 +128,7 @@ impl Effect for Drive {
     }
 
     fn is_answered(&self, t: f64) -> bool {
-        (self.is_known() || self.ahead != 0.0) && self.tau.set_at(t).is_some() && !self.tau.was_sent_derivatives_at(t)
+        self.tau.set_at(t).is_some() && !self.tau.was_sent_derivatives_at(t)
     }
 
     fn exchange(&self, motion: &Motion<f64>) -> Option<Exchange> {
@@ -132,6 +138,14 @@ impl Effect for Drive {
         let [yielding, gyration] = motion.yielding(0.0);
         let given = self.is_known().then_some(slopes);
         Some(Exchange { at, loads, given, turns_along: true, learns: false, ahead: self.ahead, yielding, gyration })
+    }
+
+    fn acting(&self, t: f64) -> [Loads; 3] {
+        [0, 1, 2].map(|power| {
+            let mut loads = Loads::zeros();
+            loads[0] = self.tau.coefficient(t, power);
+            loads
+        })
     }
 
     fn law_mut(&mut self) -> Option<&mut Law> {

@@ -99,3 +99,11 @@ pub struct Exchange {
     /// Radius of gyration √(Jt/m) \[m]: leans times this count as ways, moments over this as forces.
     pub gyration: f64,
 }
+
+impl Exchange {
+    /// How many communication steps the partner itself is late, where it answers what was shown so many before.
+    pub fn late(&self, lag: usize) -> usize {
+        // A partner that holds what it is shown has states of its own, and answers with those of now.
+        if self.ahead == 0.0 { lag } else { 0 }
+    }
+}

@@ -26,7 +26,7 @@ pub(super) struct Partner {
     /// Whether the law was given.
     is_given: bool,
     work: Work,
-    /// How often it answered.
+    /// How often it answered, where it is watched.
     answered: u32,
     /// Energy of the motion without the spin, and what the exchange had brought in, when that was last looked at \[J].
     energies: [f64; 2],
@@ -53,6 +53,8 @@ struct Exchanges {
     /// When they were \[s].
     t: [f64; POINTS],
     shown: [Shown; POINTS],
+    /// By how much places were shown ahead \[s].
+    ahead: [f64; POINTS],
     /// By their [measures](Measures).
     loads: [Loads; POINTS],
 }
@@ -64,6 +66,7 @@ impl Stored for Exchanges {
         self.known = known as usize;
         self.t.walk(walk)?;
         self.shown.walk(walk)?;
+        self.ahead.walk(walk)?;
         self.loads.walk(walk)?;
         if self.known <= POINTS { Ok(()) } else { Err(Damaged) }
     }
@@ -168,30 +171,37 @@ impl Partner {
             return;
         }
         let measures = Measures::of(exchange);
-        if self.exchanges.add(t, self.law.shows(exchange.at), exchange, &measures) {
+        if self.exchanges.add(t, &self.law, exchange, &measures) {
             (self.fits, self.polynomials) = Default::default();
             self.work.forget();
             self.answered = 0;
         }
-        self.answered = self.answered.saturating_add(1);
         let known = self.exchanges.known;
-        for (degree, missed) in self.polynomials.iter_mut().enumerate() {
-            // No polynomial goes through more points than there are.
-            let points = (degree + 1).min(known - 1);
-            *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
-        }
         let lags = told.lags(exchange);
         let given = exchange.given.map(|slopes| measures.measured(&slopes));
-        for lag in lags.clone().filter(|_| known > 1) {
-            self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
+        // Of a drive nothing is learnt, and it is not watched.
+        if !exchange.turns_along {
+            self.answered = self.answered.saturating_add(1);
+            for (degree, missed) in self.polynomials.iter_mut().enumerate() {
+                // No polynomial goes through more points than there are.
+                let points = (degree + 1).min(known - 1);
+                *missed = FORGETS * *missed + if points > 0 { self.exchanges.off(points) } else { 0.0 };
+            }
+            for lag in lags.clone().filter(|_| known > 1) {
+                self.exchanges.fit(lag, given, &measures, &mut self.fits[lag]);
+            }
         }
         let mut error = self.law.error;
-        // Of what a drive does nobody here knows the work.
-        if known > 1 && !exchange.turns_along {
+        if known > 1 {
             // A law is the answer to what its own lag says.
             let of_law = || self.best(lags.clone(), |_| true).map(|(lag, _)| lag).filter(|_| self.law.is_on);
             let lag = told.lag.or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
-            error += self.work.count(&self.exchanges, &self.law, &measures.loads, lag);
+            let late = exchange.late(lag);
+            let [excess, exchanged] = self.work.count(&self.exchanges, &self.law, &measures.loads, [lag, late]);
+            error += excess;
+            if !exchange.turns_along {
+                self.work.sum(excess, exchanged);
+            }
         }
         let ahead = if known > 1 { exchange.ahead * step } else { 0.0 };
         let law = self.chosen(told, exchange, &measures).unwrap_or_default();
@@ -306,9 +316,7 @@ impl Partner {
         };
         let leans = TURNS.iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
         let turns = leans || slopes.fixed_rows::<2>(3).iter().any(|slope| *slope != 0.0);
-        let shown = self.exchanges.shown[lag];
-        // A partner that holds what it is shown has states of its own, and answers with those of now.
-        let late = if exchange.ahead == 0.0 { lag } else { 0 };
+        let (shown, late) = (self.exchanges.shown[lag], exchange.late(lag));
         let rest = match order.min((self.exchanges.known - 1).saturating_sub(late)).min(POINTS - 1 - lag) {
             0 if exchange.turns_along => {
                 // g = −J v_s s
@@ -355,16 +363,19 @@ impl Told {
 
 impl Exchanges {
     /// Adds one; returns whether those before say nothing of the partner.
-    fn add(&mut self, t: f64, shown: Shown, exchange: &Exchange, measures: &Measures) -> bool {
+    fn add(&mut self, t: f64, law: &Law, exchange: &Exchange, measures: &Measures) -> bool {
+        let shown = law.shows(exchange.at);
         let loads = exchange.loads.component_mul(&measures.loads);
         if self.known == 0 {
             // Before the first exchange all was as it is there.
             (self.t, self.shown, self.loads) = ([t; POINTS], [shown; POINTS], [loads; POINTS]);
+            self.ahead = [law.ahead; POINTS];
         }
         self.t.rotate_right(1);
         self.shown.rotate_right(1);
+        self.ahead.rotate_right(1);
         self.loads.rotate_right(1);
-        (self.t[0], self.shown[0], self.loads[0]) = (t, shown, loads);
+        (self.t[0], self.shown[0], self.ahead[0], self.loads[0]) = (t, shown, law.ahead, loads);
         self.known = (self.known + 1).min(POINTS);
         if exchange.given.is_some() {
             return false;
@@ -382,9 +393,15 @@ impl Exchanges {
         stays || begins_to_turn
     }
 
+    /// Place and motion, without what is shown ahead.
+    fn at(&self, n: usize) -> Shown {
+        let shown = &self.shown[n];
+        Shown::from_fn(|m, _| if m < LOADS { shown[m] - self.ahead[n] * shown[LOADS + m] } else { shown[m] })
+    }
+
     /// The way to this one from the one before.
     fn path(&self, to: usize) -> Path {
-        Path { from: self.shown[to + 1], to: self.shown[to], step: self.t[to] - self.t[to + 1] }
+        Path { from: self.at(to + 1), to: self.at(to), step: self.t[to] - self.t[to + 1] }
     }
 
     /// How what a law leaves of the loads goes on, which is so much at the last exchanges, late by so many communication steps: by powers of the

@@ -62,6 +62,79 @@ fn exact_the_energy_error_is_what_an_undamped_pair_gains() {
     }
 }
 
+/// Two rotors on an undamped torsion spring, both by their drives: what the exchange brings in at both, their energy gains, at each order, fresh
+/// and late. A heavy partner is the ground.
+#[test]
+fn exact_the_energy_errors_of_drives_are_what_an_undamped_pair_gains() {
+    const STEPS: usize = 400;
+    let (k, start): (f64, f64) = (2e4, 1e-3);
+    for (name, inertias, speed) in [("two rotors", [0.08, 0.05], 100.0), ("ground", [0.08, 1e12], 0.0)] {
+        let swing = (k / inertias[0] + k / inertias[1]).sqrt();
+        for (order, h) in [(0, 0.02 / swing), (1, 0.2 / swing), (2, 0.2 / swing)] {
+            for lag in [0, 1] {
+                let mut rotors = [0, 1].map(|n| {
+                    let (inertia, phi) = (inertias[n], if n == 0 { start } else { 0.0 });
+                    Named::started(&format!(
+                        "[rotor]\nm = 2.0\nJa = {inertia:?}\nJt = {inertia:?}\n[start]\nomega.x = {speed:?}\nphi = {phi:?}\n[effects.drive]\n\
+                         [effects.extrapolation]\norder = {order}\nlag = {lag}.0\n"
+                    ))
+                });
+                let place = rotors[0].place("drive.tau");
+                let (mut shown, mut energies) = (vec![start; lag + 1], Vec::new());
+                for n in 0..=STEPS {
+                    let [phi, w] = ["phi", "w"].map(|of| rotors.each_mut().map(|one| one.get(&format!("drive.{of}"))));
+                    let twist = phi[0] - phi[1];
+                    let moving = 0.5 * (inertias[0] * w[0] * w[0] + inertias[1] * w[1] * w[1]);
+                    energies.push(moving + 0.5 * k * twist * twist);
+                    shown.push(twist);
+                    let tau = -k * shown[shown.len() - 1 - lag];
+                    for (one, tau) in rotors.iter_mut().zip([tau, -tau]) {
+                        one.simulation.set_input(place, tau);
+                        one.simulation.advance((n + 1) as f64 * h).expect("a possible motion");
+                    }
+                }
+                let gained = energies[STEPS - lag] - energies[0];
+                let told: f64 = rotors.iter_mut().map(|one| one.get("drive.energy_error")).sum();
+                println!("{name}, order {order}, lag {lag}: {told:e} J of {gained:e} J, at first {:e} J", energies[0]);
+                within(&format!("{name}, order {order}, lag {lag}"), (told / gained - 1.0).abs(), 0.2);
+            }
+        }
+    }
+}
+
+/// A flywheel on an undamped torsion spring, a partner that holds the drive's angle over its steps, is shown it ahead: what held torques bring in, the
+/// whole energy gains. The law that goes with `ahead` brings in the work of the torque about where the rotor is, not about where it was shown.
+#[test]
+fn exact_the_energy_error_of_a_drive_that_is_shown_ahead() {
+    const STEPS: usize = 1000;
+    let (inertia, flywheel, k, h): (f64, f64, f64, f64) = (0.08, 0.05, 2e4, 2e-5);
+    let swing = (k / flywheel).sqrt();
+    for lag in [0, 1] {
+        let text = format!(
+            "[rotor]\nm = 2.0\nJa = {inertia:?}\nJt = {inertia:?}\n[start]\nphi = 1e-3\n[effects.drive]\nk = {k:?}\nahead = 0.5\n\
+             [effects.extrapolation]\nlag = {lag}.0\n"
+        );
+        let mut named = Named::started(&text);
+        let place = named.place("drive.tau");
+        let (mut partner, mut shown, mut energies) = ([0.0, 0.0], vec![named.get("drive.phi"); lag], Vec::new());
+        for n in 0..=STEPS {
+            let [phi, w, ahead] = ["phi", "drive.w", "drive.phi"].map(|name| named.get(name));
+            let [at, speed] = partner;
+            let twist = phi - at;
+            energies.push(0.5 * (inertia * w * w + flywheel * speed * speed + k * twist * twist));
+            shown.push(ahead);
+            named.simulation.set_input(place, k * (at - shown[n]));
+            named.simulation.advance((n + 1) as f64 * h).expect("a possible motion");
+            // It swings about the angle that it holds.
+            let ([cos, sin], off) = ([libm::cos(swing * h), libm::sin(swing * h)], at - ahead);
+            partner = [ahead + off * cos + speed / swing * sin, speed * cos - off * swing * sin];
+        }
+        let (gained, told) = (energies[STEPS] - energies[0], named.get("drive.energy_error"));
+        println!("lag {lag}: {told:e} J of {gained:e} J, at first {:e} J", energies[0]);
+        within(&format!("lag {lag}"), (told / gained - 1.0).abs(), 0.2);
+    }
+}
+
 /// Whether a run that is off by so much was warned of where it should not be, or not where it should; one that ends in an error is not silent.
 fn judged(off: f64, found: bool) -> [u32; 2] {
     [off > WRONG && off.is_finite() && !found, off < RIGHT && found].map(u32::from)

@@ -53,10 +53,10 @@ impl Work {
         }
     }
 
-    /// Counts the communication step that ends with the latest of these exchanges, under this law; the measures of `loads`, whose
-    /// answers are late by `lag` steps. Returns by how much loads did more than the answers would have done in the last step of which that
-    /// is known \[J].
-    pub fn count(&mut self, exchanges: &Exchanges, law: &Law, loads: &Loads, lag: usize) -> f64 {
+    /// Counts the communication step that ends with the latest of these exchanges, under this law; the measures of `loads`, which
+    /// answer what was shown `lag` steps before, with what the partner was `late` steps before. Returns by how much loads did more than the
+    /// answers would have done in the last step of which that is known, and how much went through \[J].
+    pub fn count(&mut self, exchanges: &Exchanges, law: &Law, loads: &Loads, [lag, late]: [usize; 2]) -> [f64; 2] {
         let over = |from: usize, power: &dyn Fn(f64, &Path) -> f64| {
             let path = exchanges.path(from);
             NODES.iter().map(|[part, weight]| weight * path.step * power(*part, &path)).sum::<f64>()
@@ -75,22 +75,29 @@ impl Work {
         all.as_mut_slice().rotate_right(1);
         all[0] = done;
         if exchanges.known < lag + 2 {
-            return 0.0;
+            return [0.0; 2];
         }
-        let [to, from] = [exchanges.loads[0], exchanges.loads[1]];
+        // The answer to where the place was, if it was shown ahead
+        let [to, from] = [0, 1].map(|n| {
+            exchanges.loads[n].component_div(loads) + law.slopes * (exchanges.at(n + late) - exchanges.shown[n + lag])
+        });
         let answered = |part: f64, path: &Path| {
-            let mut force = (from + (to - from) * part).component_div(loads);
+            let mut force = from + (to - from) * part;
             if law.is_on {
                 force += law.slopes * (path.at(part) - path.from - (path.to - path.from) * part);
             }
             force.dot(&path.velocity(part))
         };
         // eq. 126: ΔW = ∫ (f − a)·v dt
-        let excess = self.done[lag] - over(lag, &answered);
-        let exchanged = over(lag, &|part, path| answered(part, path).abs());
+        let excess = self.done[late] - over(late, &answered);
+        let exchanged = over(late, &|part, path| answered(part, path).abs());
+        [excess, exchanged]
+    }
+
+    /// Adds a step that was counted.
+    pub fn sum(&mut self, excess: f64, exchanged: f64) {
         (self.excess, self.exchanged) = (FADES * self.excess + excess, FADES * self.exchanged + exchanged);
         self.steps += 1;
-        excess
     }
 
     /// The part by which the coupling does too much or too little work, of what goes through \[1]; 0 where that is not known yet.
