@@ -83,6 +83,8 @@ def complete(xml, model):
     outputs = [name for name, variable in causality.items() if variable.get("causality") == "output"]
     calculated = [name for name in outputs if causality[name].get("initial") == "calculated"]
     for element, names in (("Outputs", outputs), ("InitialUnknowns", calculated)):
+        if not names:
+            continue
         unknowns = SubElement(structure, element)
         for name in names:
             depends = " ".join(str(index[other]) for other in model.declared[name][1])

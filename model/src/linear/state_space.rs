@@ -126,16 +126,21 @@ struct Listed {
     meta: &'static Meta,
 }
 
-/// The Real variables that are always there and those of what acts but drives nothing, in the order of the list.
+/// The Real variables that are always there and those of what acts but drives nothing, in the order of the list; of housings where they move.
 fn listed(parameters: &Parameters<All>, is_wanted: fn(Role) -> bool) -> Vec<Listed> {
     let acting = parameters.effects.active().map(|block| block.kind());
     let blocks = acting.filter(|kind| !DRIVES.contains(&kind.name)).map(|kind| kind.block);
+    let moves = |block| {
+        let moves = parameters.value(Place { block, row: Place::HOUSING }, 0.0, None::<&Instant<N>>);
+        moves == Some(1.0)
+    };
     let rows = |block| {
+        let most = if moves(block) { Place::SWITCH } else { Place::HOUSING };
         let listed = move |row| {
             let place = Place { block, row };
             Some(Listed { place, meta: Parameters::<All>::meta(place)? })
         };
-        (0..Place::SWITCH).filter_map(listed)
+        (0..most).filter_map(listed)
     };
     let all = (0..Place::FIRST_EFFECT).chain(blocks).flat_map(rows);
     all.filter(|one| one.meta.kind == Kind::Real && is_wanted(one.meta.role)).collect()
