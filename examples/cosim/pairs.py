@@ -91,7 +91,7 @@ def housed():
     }
     of_rotor |= {f"bearing[{n}].{name}": value for n in (1, 2) for name, value in own.items()}
     ends = [(f"rotor.bearing[{n}].housing", name, axis) for n, name in enumerate(names, 1) for axis in axes]
-    links = [(f"{housing}.F.{axis}", f"{name}.f{axis}") for housing, name, axis in ends]
+    links = [(f"{housing}.F.{axis}", f"{name}.F{axis}") for housing, name, axis in ends]
     links += [(f"{name}.{of}{axis}", f"{housing}.{of}.{axis}") for housing, name, axis in ends for of in "rv"]
     models = {"rotor": ("rotor", TURBO | of_rotor)} | {name: ("housing", {}) for name in names}
     advised = {f"bearing[{n}].housing.ahead": 0.5 for n in (1, 2)}

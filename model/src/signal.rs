@@ -163,6 +163,16 @@ impl Signal {
         }
     }
 
+    /// Whether derivatives were sent of it after anything was said of the other, or the other is zero.
+    pub fn has_later_derivatives_than(&self, other: &Self) -> bool {
+        self.source == Source::Derivatives && (other.told < self.told || other.is_zero())
+    }
+
+    /// Its rate as a signal.
+    pub fn rate(&self) -> Self {
+        Self { value: self.slope, slope: self.curvature, curvature: 0.0, seed: 0.0, ..*self }
+    }
+
     /// What was set before the run counts from its start at `t` \[s].
     pub fn begin(&mut self, t: f64) {
         (self.origin, self.told) = (t, t);

@@ -44,7 +44,9 @@ def test_exact_a_drive_is_a_terminal(fmu, root):
     named = {terminal.get("name"): terminal for terminal in root.findall("Terminals/Terminal")}
     ports = [name for name in named if re.fullmatch(r"port\[\d\]", name)]
     assert set(ports) == {name.partition(".")[0] for name in fmu.variables if name.startswith("port[")}
-    assert set(named) - set(ports) == {"drive", "imposed_speed"} & {name.partition(".")[0] for name in fmu.variables}
+    housings = [name for name in named if name.endswith(".housing")]
+    assert set(housings) == {name.partition(".moves")[0] for name in fmu.variables if name.endswith(".housing.moves")}
+    assert set(named) - set(ports) - set(housings) == {"drive", "imposed_speed"} & {name.partition(".")[0] for name in fmu.variables}
     terminals = [terminal for name, terminal in named.items() if name == "drive"]
     for terminal in terminals:
         members = {m.get("memberName"): m.get("variableKind") for m in terminal.findall("TerminalMemberVariable")}

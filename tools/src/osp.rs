@@ -1,7 +1,7 @@
 //! OspModelDescription.xml: the terminals of a scene as groups of variables, each of which a tool of the Open Simulation Platform connects
 //! by its name (OSP-IS 1.0.1).
 
-use crate::{scenes, templates};
+use crate::{templates, terminals};
 use anyhow::Result;
 use minijinja::{Value, context};
 use split_rotor_model::scene::Scene;
@@ -36,10 +36,7 @@ struct Group<'v> {
 
 /// The scene's OspModelDescription.xml. Each terminal is a group of all its quantities, and a mechanical port of each load and its velocity.
 pub fn osp_model_description(scene: &Scene) -> Result<String> {
-    let terminals = scene.effects.iter().filter(|(info, _)| info.terminal.is_some());
-    let terminals: Vec<_> = terminals
-        .map(|(info, index)| (info.block_name(*index), groups(scenes::variables_of(scene, info, *index))))
-        .collect();
+    let terminals: Vec<_> = terminals::of_scene(scene).map(|of| (of.name, groups(of.variables.into_iter()))).collect();
     let whole = terminals.iter().map(|(name, groups)| nest("Generic", name, groups));
     let ports = PORTS.iter().flat_map(|&(kind, name, members)| {
         terminals.iter().filter_map(move |(terminal, groups)| {
@@ -88,6 +85,7 @@ fn nest(kind: &str, name: &str, groups: &[Group]) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenes;
     use std::collections::BTreeSet;
 
     /// The values of an attribute, in order.

@@ -3,32 +3,58 @@
 use crate::{scenes, templates};
 use anyhow::Result;
 use minijinja::{Value, context};
-use split_rotor_model::effects::Terminal;
+use split_rotor_model::effects::{Terminal, housing};
 use split_rotor_model::scene::Scene;
 use split_rotor_model::variable::Role;
 use split_rotor_model::variables::Variable;
 
+/// Where other models are connected to a scene.
+pub struct Connector<'s> {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub terminal: Terminal,
+    /// Its variables.
+    pub variables: Vec<&'s Variable>,
+    /// Booleans that make it act in a general scene.
+    pub switches: Vec<String>,
+}
+
+/// The terminals of a scene: those of its effects, and of their housings.
+pub fn of_scene(scene: &Scene) -> impl Iterator<Item = Connector<'_>> {
+    scene.effects.iter().flat_map(|(info, index)| {
+        let (name, switch) = (info.block_name(*index), info.switch_name(*index));
+        let all = scenes::variables_of(scene, info, *index);
+        let (of_housing, variables): (Vec<_>, Vec<_>) = all.partition(|variable| variable.place.is_of_housing());
+        let housing = (!of_housing.is_empty()).then(|| Connector {
+            name: format!("{name}.housing"),
+            terminal: housing::TERMINAL,
+            variables: of_housing,
+            switches: vec![switch.clone(), format!("{name}.housing.moves")],
+        });
+        let own = info.terminal.map(|terminal| Connector { name, terminal, variables, switches: vec![switch] });
+        own.into_iter().chain(housing)
+    })
+}
+
 /// The scene's terminalsAndIcons.xml.
 pub fn terminals_and_icons(scene: &Scene) -> Result<String> {
-    let called = scene.effects.iter().filter_map(|(info, index)| {
-        let variables: Vec<_> = scenes::variables_of(scene, info, *index).collect();
-        info.terminal.map(|terminal| described(terminal, &info.block_name(*index), &variables))
-    });
-    render(called.collect())
+    render(of_scene(scene).map(|of| described(of.terminal, &of.name, &of.variables)).collect())
 }
 
 fn render(terminals: Vec<Value>) -> Result<String> {
     templates::render("terminalsAndIcons/terminalsAndIcons.xml", context! { terminals })
 }
 
-/// A terminal of this name, of these variables of an effect: all but its parameters.
+/// A terminal of this name, of these variables: all but parameters.
 fn described(terminal: Terminal, name: &str, variables: &[&Variable]) -> Value {
     let members: Vec<_> = variables
         .iter()
         .filter(|variable| !matches!(variable.meta.role, Role::Parameter { .. }))
         .map(|variable| {
-            let kind = if terminal.flows.contains(&variable.meta.name) { "inflow" } else { "signal" };
-            context! { variable => &variable.name, name => variable.meta.name, kind }
+            let member = &variable.name[name.len() + 1..];
+            let kind = if terminal.flows.contains(&member) { "inflow" } else { "signal" };
+            context! { variable => &variable.name, name => member, kind }
         })
         .collect();
     context! { name, kind => terminal.kind, members }

@@ -10,6 +10,7 @@ use model::Model;
 use split_rotor_model::scene::Scene;
 use split_rotor_model::xml;
 use split_rotor_tools::archive::archive;
+use split_rotor_tools::terminals;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -87,8 +88,7 @@ impl Package {
         for (n, (partner, name)) in partners.iter().zip(component_names(partners)).enumerate() {
             let Partner { terminal, fmu } = partner;
             let in_words = || format!("--partner {terminal}={}", fmu.display());
-            let switch = switch(scene, terminal).with_context(in_words)?;
-            on.extend(switch);
+            on.extend(switches(scene, terminal).with_context(in_words)?);
             ensure!(
                 partners[..n].iter().all(|other| other.terminal != *terminal),
                 "{}: {terminal} already has a partner; each terminal takes one",
@@ -132,16 +132,19 @@ impl Package {
     }
 }
 
-/// The switch of the effect with this terminal, if it has one.
-fn switch(scene: &Scene, terminal: &str) -> Result<Option<String>> {
-    let terminals = scene.effects.iter().filter(|(info, _)| info.terminal.is_some());
-    let names: Vec<_> = terminals.clone().map(|(info, index)| info.block_name(*index)).collect();
-    match terminals.into_iter().find(|(info, index)| info.block_name(*index) == terminal) {
-        Some((info, index)) => Ok(scene.general.then(|| info.switch_name(*index))),
-        None if names.is_empty() => {
+/// What makes this terminal act, where the scene leaves that to its user.
+fn switches(scene: &Scene, terminal: &str) -> Result<Vec<String>> {
+    let mut terminals: Vec<_> = terminals::of_scene(scene).collect();
+    match terminals.iter().position(|of| of.name == terminal) {
+        Some(n) if scene.general => Ok(terminals.swap_remove(n).switches),
+        Some(_) => Ok(Vec::new()),
+        None if terminals.is_empty() => {
             bail!("{} has no terminal: add [[effects.port]] or [effects.drive] to the scene", scene.name)
         }
-        None => bail!("{} has no terminal {terminal}, only {}", scene.name, names.join(", ")),
+        None => {
+            let names: Vec<_> = terminals.into_iter().map(|of| of.name).collect();
+            bail!("{} has no terminal {terminal}, only {}", scene.name, names.join(", "))
+        }
     }
 }
 
@@ -205,9 +208,11 @@ mod tests {
     #[test]
     fn a_general_scene_has_switches_and_others_have_none() {
         let find = |name: &str| scenes::find(name).unwrap();
-        assert_eq!(switch(&find("rotor"), "port[2]").unwrap().as_deref(), Some("effects.port[2]"));
-        assert_eq!(switch(&find("coupled"), "port[2]").unwrap(), None);
-        let refused = |scene: &str, terminal: &str| switch(&find(scene), terminal).unwrap_err().to_string();
+        assert_eq!(switches(&find("rotor"), "port[2]").unwrap(), ["effects.port[2]"]);
+        let housing = ["effects.bearing[2]", "bearing[2].housing.moves"];
+        assert_eq!(switches(&find("rotor"), "bearing[2].housing").unwrap(), housing);
+        assert!(switches(&find("coupled"), "port[2]").unwrap().is_empty());
+        let refused = |scene: &str, terminal: &str| switches(&find(scene), terminal).unwrap_err().to_string();
         assert_eq!(refused("coupled", "drive"), "coupled has no terminal drive, only port[1], port[2]");
         let expected = "paper has no terminal: add [[effects.port]] or [effects.drive] to the scene";
         assert_eq!(refused("paper", "drive"), expected);

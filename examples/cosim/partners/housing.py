@@ -14,7 +14,7 @@ class Housing(Fmi2Slave):
         parameter(self, "cf", "N.s/m", 2000.0, "damping of the foundation")
         parameter(self, "inner", "s", 5e-6, "step of the integration within")
         for axis in "yz":
-            shown(self, f"f{axis}", "N", "force on the housing")
+            shown(self, f"F{axis}", "N", "force on the housing")
             state(self, f"r{axis}", "m", "position of the housing")
             state(self, f"v{axis}", "m/s", "velocity of the housing")
 
@@ -25,7 +25,7 @@ class Housing(Fmi2Slave):
         steps = max(1, round(step_size / self.inner))
         h = step_size / steps
         for axis in "yz":
-            f, r, v = (getattr(self, name + axis) for name in "frv")
+            f, r, v = (getattr(self, name + axis) for name in "Frv")
             for _ in range(steps):
                 half = v + 0.5 * h * (f - self.kf * r - self.cf * v) / self.m
                 v += h * (f - self.kf * (r + 0.5 * h * v) - self.cf * half) / self.m

@@ -1,6 +1,6 @@
 //! The housing of a bearing or a ring: fixed to the stator, or moved by another model.
 
-use super::{Act, Effect, InputSet, Motion, Row};
+use super::{Act, Effect, InputSet, Motion, Row, Terminal};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, ONE};
@@ -28,7 +28,7 @@ pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
     #[inline(always)]
     fn motion<S: Scalar>(&self, motion: &Motion<S>) -> Option<[Vector3<S>; 2]> {
         let housing = self.moving().filter(|housing| housing.moves)?;
-        Some([&housing.r, &housing.v].map(|of| of.map(|signal| motion.input(&signal))))
+        Some([housing.r, housing.velocity()].map(|of| of.map(|signal| motion.input(&signal))))
     }
 
     /// A place relative to it \[m].
@@ -47,7 +47,7 @@ pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
     #[inline(always)]
     fn last_set(&self) -> [Vector3<f64>; 2] {
         let Some(housing) = self.moving().filter(|housing| housing.moves) else { return [Vector3::zeros(); 2] };
-        [&housing.r, &housing.v].map(|of| of.map(|signal| signal.at(signal.since())))
+        [housing.r, housing.velocity()].map(|of| of.map(|signal| signal.at(signal.since())))
     }
 
     /// What acts on the rotor, with the power that it supplies; `force` is that at the station \[N].
@@ -104,7 +104,7 @@ pub struct Moving {
     pub moves: bool,
     /// How far it is from where it stands in the scene \[m].
     pub r: Vector3<Signal>,
-    /// Its velocity, by which the place goes on between communication points [m/s].
+    /// Its velocity, by which the place goes on between communication points; where derivatives of the place are sent alone, they tell it [m/s].
     pub v: Vector3<Signal>,
     /// By what part of the last communication step its load is shown ahead \[1].
     pub ahead: f64,
@@ -124,6 +124,11 @@ impl Housing for Moving {
 }
 
 impl Moving {
+    #[inline(always)]
+    fn velocity(&self) -> Vector3<Signal> {
+        self.r.zip_map(&self.v, |r, v| if r.has_later_derivatives_than(&v) { r.rate() } else { v })
+    }
+
     /// The place along an axis goes on by the velocity from the communication point `t` \[s] on, where no derivatives of it were sent.
     fn go_on(&mut self, t: f64, axis: usize) {
         self.r[axis].follow(t, &self.v[axis]);
@@ -152,6 +157,9 @@ pub trait Housed: Effect {
 pub const fn rows<E: Housed>() -> &'static [Row<E>] {
     if E::Housing::CAN_MOVE { Rows::<E>::ALL } else { &[] }
 }
+
+/// Where a model of it is connected. What it shows is the load on the housing, which flows out of the rotor.
+pub const TERMINAL: Terminal = Terminal { kind: "split-rotor.Housing", flows: &[] };
 
 /// Only a housing that can move has variables.
 const CAN_MOVE: &str = "it can move";

@@ -55,6 +55,30 @@ fn exact_a_housing_that_moves_steadily_is_another_frame() {
     }
 }
 
+/// Derivatives of the place alone tell the velocity too.
+#[test]
+fn exact_derivatives_of_the_place_are_its_velocity() {
+    let text = machine("dop853", "housing = {}\n", [0.0, 0.2, 0.0]);
+    let [mut both, mut alone] = [(); 2].map(|()| Named::started(&text));
+    for n in 0..20 {
+        let t = f64::from(n) * 1e-3;
+        let [place, velocity] = [1e-3 * libm::sin(300.0 * t), 0.3 * libm::cos(300.0 * t)];
+        for block in ["bearing[1]", "rub[1]"] {
+            for named in [&mut both, &mut alone] {
+                named.set(&format!("{block}.housing.r.y"), place);
+            }
+            both.set(&format!("{block}.housing.v.y"), velocity);
+            let at = alone.place(&format!("{block}.housing.r.y"));
+            assert!(alone.simulation.set_input_derivative(at, 1, velocity));
+        }
+        [&mut both, &mut alone].into_iter().for_each(|named| named.simulation.advance(t + 1e-3).expect("a motion"));
+        for name in ["r_c.x", "r_c.y", "v_c.z", "bearing[1].F.y", "energy.supplied"] {
+            assert_eq!(both.get(name).to_bits(), alone.get(name).to_bits(), "{name} at {t} s");
+        }
+    }
+    within("balance", alone.get("energy.residual").abs(), 1e-8);
+}
+
 /// A rotor on a spring whose other end is a free mass, as a master steps both that sets each from what the other showed before: by how much
 /// the energy grows in a second [1/s].
 fn growth_of_a_free_pair(h: f64, ahead: f64, damping: f64) -> f64 {
