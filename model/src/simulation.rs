@@ -302,10 +302,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         if is_set || self.partners.iter().any(Partner::follows_polynomial) {
             self.update_partners(t);
         }
-        if E::FACTS.extrapolates || E::FACTS.tells_rates {
-            let from = self.time().unwrap_or_default();
-            self.parameters.effects.step_from(from);
-        }
+        let from = self.time().unwrap_or_default();
+        self.parameters.effects.step_from(from);
         if self.parameters.effects.extrapolates() {
             if let (true, Some(Run::Method(integration))) = (looks.looks(), &self.run) {
                 looks.look(integration, &self.parameters.effects, integration.time());

@@ -25,6 +25,8 @@ PAIRS = [
     ("pedestal", "fresh", 1e-4, 0.2, 0.1, 0.05),  # 0.38, 0.060, 0.019
     ("pedestal", "libcosim", 1e-4, 1.0, 0.1, 0.05),  # 2.6, 0.049, 0.019
     ("pedestal", "iterated", 1e-4, 0.0, 0.02, None),  # 7.7e-3
+    ("housing", "libcosim", 1e-4, 0.05, 0.1, 0.04),  # 0.089, 0.089, 0.030
+    ("housing", "gauss_seidel", 1e-4, 0.05, 0.1, 0.01),  # 0.076, 0.076, 5.3e-3
     ("magnetic", "libcosim", 1e-4, 0.0, 0.01, None),  # 7.9e-3, 2.5e-3
 ]
 # Steps of the references that are no exact ones [s].

@@ -169,37 +169,6 @@ impl<H: Housing, const NODES: usize> Bearing<H, NODES> {
         self.force_at(motion, self.displacement(motion))
     }
 
-    /// What it does where its housing is the stator.
-    #[inline(always)]
-    fn act_in_housing<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
-        let (r, v) = (self.displacement(motion), self.velocity(motion));
-        let (lean, t_rate) = (motion.lean(), motion.axis_rate());
-        let at_station = |force| Wrench::at_station(motion, self.position, force);
-        let (springs, dampers) = (self.springs(r), self.dampers(v));
-        let linear = Act {
-            // eq. 61: F = −(kxx x, K q), M = −kt γ
-            load: at_station(-springs) + Wrench::against_lean(motion, self.kt),
-            // eq. 61: F = −(cxx dx/dt, C dq/dt), M = −ct t×(dt/dt)
-            damping: at_station(-dampers) + Wrench::against_turn(motion, self.ct),
-            // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
-            stored: (r.dot(&springs) + lean.dot(&lean) * S::constant(self.kt)) * S::constant(0.5),
-            // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
-            supply: motion.power_along(self.circulation(), r.y, v.z) - motion.power_along(self.circulation(), r.z, v.y),
-            // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
-            loss: motion.power(1.0, &v, &dampers) + motion.power(self.ct, &t_rate, &t_rate),
-            ..Act::none()
-        };
-        let Some([pull, drag]) = self.tabled(motion.omega_phi(), r, v) else { return linear };
-        Act {
-            load: linear.load + at_station(pull),
-            damping: linear.damping + at_station(drag),
-            // eq. 101: −dqᵀ/dt K q is supplied, dqᵀ/dt C dq/dt is lost
-            supply: linear.supply + v.dot(&pull),
-            loss: linear.loss - v.dot(&drag),
-            ..linear
-        }
-    }
-
     /// (kxx x, K q).
     #[inline(always)]
     fn springs<S: Scalar>(&self, v: Vector3<S>) -> Vector3<S> {
@@ -375,8 +344,35 @@ impl<H: Housing, const NODES: usize> Effect for Bearing<H, NODES> {
 
     #[inline(always)]
     fn act<S: Scalar>(&self, motion: &Motion<S>) -> Act<S> {
-        let act = self.act_in_housing(motion);
-        self.housing.supplying(motion, act, || self.force(motion))
+        let (r, v) = (self.displacement(motion), self.velocity(motion));
+        let (lean, t_rate) = (motion.lean(), motion.axis_rate());
+        let at_station = |force| Wrench::at_station(motion, self.position, force);
+        let springs = r.dot(&self.springs(r));
+        let linear = Act {
+            // eq. 61: F = −(kxx x, K q), M = −kt γ
+            load: at_station(-self.springs(r)) + Wrench::against_lean(motion, self.kt),
+            // eq. 61: F = −(cxx dx/dt, C dq/dt), M = −ct t×(dt/dt)
+            damping: at_station(-self.dampers(v)) + Wrench::against_turn(motion, self.ct),
+            // eq. 62: V = ½ (kxx x² + qᵀK q + kt |γ|²); of K only the symmetric part counts
+            stored: (springs + lean.dot(&lean) * S::constant(self.kt)) * S::constant(0.5),
+            // eq. 63: −dqᵀ/dt K_skew q = ½ (kyz − kzy) e·(q×dq/dt)
+            supply: motion.power_along(self.circulation(), r.y, v.z) - motion.power_along(self.circulation(), r.z, v.y),
+            // eq. 62: P = cxx (dx/dt)² + dqᵀ/dt C dq/dt + ct |dt/dt|²; of C only the symmetric part counts
+            loss: motion.power(1.0, &v, &self.dampers(v)) + motion.power(self.ct, &t_rate, &t_rate),
+            ..Act::none()
+        };
+        let Some([pull, drag]) = self.tabled(motion.omega_phi(), r, v) else {
+            return self.housing.supplying(motion, linear, || self.force(motion));
+        };
+        let tabled = Act {
+            load: linear.load + at_station(pull),
+            damping: linear.damping + at_station(drag),
+            // eq. 101: −dqᵀ/dt K q is supplied, dqᵀ/dt C dq/dt is lost
+            supply: linear.supply + v.dot(&pull),
+            loss: linear.loss - v.dot(&drag),
+            ..linear
+        };
+        self.housing.supplying(motion, tabled, || self.force(motion))
     }
 
     fn follows_speed(&self) -> bool {

@@ -28,7 +28,10 @@ pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
     #[inline(always)]
     fn motion<S: Scalar>(&self, motion: &Motion<S>) -> Option<[Vector3<S>; 2]> {
         let housing = self.moving().filter(|housing| housing.moves)?;
-        Some([housing.r, housing.velocity()].map(|of| of.map(|signal| motion.input(&signal))))
+        if S::SERIES {
+            return Some([housing.r, housing.velocity()].map(|of| of.map(|signal| motion.input(&signal))));
+        }
+        Some(housing.at(motion.t()))
     }
 
     /// A place relative to it \[m].
@@ -127,6 +130,12 @@ impl Moving {
     #[inline(always)]
     fn velocity(&self) -> Vector3<Signal> {
         self.r.zip_map(&self.v, |r, v| if r.has_later_derivatives_than(&v) { r.rate() } else { v })
+    }
+
+    /// Place and velocity at time `t` \[s]: called, so that a housing that stands still costs little.
+    #[inline(never)]
+    fn at<S: Scalar>(&self, t: S) -> [Vector3<S>; 2] {
+        [self.r, self.velocity()].map(|of| of.map(|signal| signal.at(t)))
     }
 
     /// The place along an axis goes on by the velocity from the communication point `t` \[s] on, where no derivatives of it were sent.

@@ -56,6 +56,12 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Whether any of them shows the velocity of a station.
     fn shows_velocity(&self) -> bool;
 
+    /// Whether the law of any of them may be doubtful at some speeds.
+    fn is_doubtful(&self) -> bool;
+
+    /// Hear that a communication step begins at time `t` \[s].
+    fn step_from(&mut self, t: f64);
+
     /// The ω_φ that one of them imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²].
     fn imposed<S: Scalar>(&self, t: S) -> Option<[S; 2]>;
 
@@ -195,15 +201,6 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
                 block.step_to(&Motion::new(end, &own[from..to]));
             }
             from = to;
-        });
-    }
-
-    /// Hear that a communication step begins at time `t` \[s].
-    fn step_from(&mut self, t: f64) {
-        self.for_each(|block| {
-            if block.is_active() {
-                block.step_from(t);
-            }
         });
     }
 
@@ -362,6 +359,14 @@ impl Effects for () {
     }
 
     #[inline(always)]
+    fn is_doubtful(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn step_from(&mut self, _t: f64) {}
+
+    #[inline(always)]
     fn imposed<S: Scalar>(&self, _t: S) -> Option<[S; 2]> {
         None
     }
@@ -463,6 +468,19 @@ impl<H: Member, T: Effects> Effects for (H, T) {
     #[inline(always)]
     fn shows_velocity(&self) -> bool {
         (H::Effect::FACTS.shows_velocity && self.0.active().is_some()) || self.1.shows_velocity()
+    }
+
+    #[inline(always)]
+    fn is_doubtful(&self) -> bool {
+        self.0.active().is_some_and(|effect| effect.is_doubtful()) || self.1.is_doubtful()
+    }
+
+    #[inline(always)]
+    fn step_from(&mut self, t: f64) {
+        if self.0.active().is_some() {
+            self.0.effect_mut().step_from(t);
+        }
+        self.1.step_from(t);
     }
 
     #[inline(always)]

@@ -216,7 +216,6 @@ impl<H: Housing> Effect for Rub<H> {
         }
         let contact = self.contact(motion);
         let Contact { depth, rate, normal, sliding, part, .. } = contact;
-        let force = self.force(&contact);
         let friction = normal * part * S::constant(self.friction);
         // eq. 98: M = −μ N R tanh(v_t/v₀) n
         let couple = Wrench::along_joint(motion, friction * S::constant(-self.radius));
@@ -224,14 +223,14 @@ impl<H: Housing> Effect for Rub<H> {
         let within = depth.positive_part();
         let pressed = S::zero().where_less(S::constant(self.memory[0]), depth, within);
         let act = Act {
-            load: Wrench::at_station(motion, self.position, force) + couple,
+            load: Wrench::at_station(motion, self.position, self.force(&contact)) + couple,
             // eq. 99: V = ½ k δ² where δ > 0
             stored: within * within * (stiffness * S::constant(0.5)),
             // eq. 99: P = (N − k δ) dδ/dt + μ N v_t tanh(v_t/v₀)
             loss: (normal - pressed * stiffness) * rate + friction * sliding,
             ..Act::none()
         };
-        self.housing.supplying(motion, act, || force)
+        self.housing.supplying(motion, act, || self.force(&contact))
     }
 
     fn indicator(&self, n: usize, motion: &Motion<f64>) -> f64 {

@@ -423,7 +423,7 @@ impl<const N: usize> Integration<N> {
         self.watch.look(&self.bodies.under(effects), self.method.time(), self.method.state());
         self.bounds.look(&self.bodies.under(effects), self.method.time(), self.method.state());
         self.t = t;
-        if Met::is_due(effects) {
+        if effects.is_doubtful() {
             let (y, chart, _) = self.shown(effects);
             self.met = self.met.with(self.motion_in(effects, chart, &y).axial_rate());
         }

@@ -18,15 +18,9 @@ impl Met {
         self.speeds
     }
 
-    /// Whether speeds matter under these effects.
-    #[inline(always)]
-    pub fn is_due<E: Effects>(effects: &E) -> bool {
-        E::FACTS.may_be_doubted && effects.active().any(|block| block.is_doubtful())
-    }
-
     /// Looks at the rotor at time `t` \[s] and state `y`.
     pub fn look<E: Effects, const N: usize>(&mut self, rotor: &Rotor<'_, E>, t: f64, y: &[f64; N]) {
-        if Self::is_due(rotor.effects) {
+        if rotor.effects.is_doubtful() {
             *self = self.with(rotor.motion(t, y).axial_rate());
         }
     }

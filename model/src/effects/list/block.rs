@@ -57,7 +57,6 @@ macro_rules! hooks {
             fn works() -> bool;
             fn is_analytic() -> bool;
             fn follows_speed() -> bool;
-            fn is_doubtful() -> bool;
             fn doubts(speeds: [f64; 2]) -> [Option<Doubt>; MOST_DOUBTS];
             fn has_events() -> bool;
             fn own_at_start(start: &Motion<f64>) -> [f64; MOST_OWN];
@@ -71,7 +70,6 @@ macro_rules! hooks {
             mut:
             fn begin(start: &Motion<f64>);
             fn switch(positive: &[bool], motion: &Motion<f64>);
-            fn step_from(t: f64);
             fn step_to(end: &Motion<f64>);
             fn extrapolate(number: usize, signal: &mut Signal);
             fn law_mut() -> Option<&mut Law>;
