@@ -401,7 +401,8 @@ impl Instance {
     /// nobody connected.
     fn warn_of_zeros(&mut self) {
         let memory = &self.memory;
-        if memory.warned[warned::OF_ZEROS] || memory.simulation.time() != Some(memory.experiment.start) {
+        let begins = memory.simulation.time() == Some(memory.experiment.start);
+        if memory.warned[warned::OF_ZEROS] || !begins || !memory.simulation.parameters().effects.have_inputs() {
             return;
         }
         let is_input =

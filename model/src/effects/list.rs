@@ -146,6 +146,11 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         }
     }
 
+    /// Whether any of those that act has inputs.
+    fn have_inputs(&self) -> bool {
+        self.active().any(|block| block.kind().facts.extrapolated > 0 || block.kind().facts.tells_rates)
+    }
+
     /// Whether any of them extrapolates inputs.
     #[inline(always)]
     fn extrapolates(&self) -> bool {

@@ -12,11 +12,13 @@ pub struct Active {
     events: u32,
     /// Whether one of them follows φ.
     pub follows_phi: bool,
+    /// Whether one of them has loads whose errors count.
+    pub has_loads: bool,
     /// How many own states the effects have that are switched off.
     pub idle: u32,
 }
 
-stored!(Active { works, events, follows_phi, idle });
+stored!(Active { works, events, follows_phi, has_loads, idle });
 
 impl Active {
     /// Asks these effects.
@@ -30,8 +32,13 @@ impl Active {
             }
             first += count;
         }
-        let (works, follows_phi) = (effects.works(), effects.follows_phi());
-        Self { works, events, follows_phi, idle: (E::FACTS.own - active) as u32 }
+        Self {
+            works: effects.works(),
+            events,
+            follows_phi: effects.follows_phi(),
+            has_loads: effects.active().any(|block| block.kind().facts.loads > 0),
+            idle: (E::FACTS.own - active) as u32,
+        }
     }
 
     /// Whether one of them has events.

@@ -320,7 +320,7 @@ impl<E: Effects, const N: usize> Analytic<N> for Rotor<'_, E> {
             layout.write_work(&mut change, [of[OWN + own], of[OWN + own + 1]]);
         }
         let mut parts = self.parts_of_motion(y, &change);
-        if E::FACTS.loads > 0 {
+        if self.has_loads() {
             let axis_rate = vector(&above[AXIS..]) * next;
             let speed = coordinates.k.dot(&start) * (self.frame.body.per_jt + self.frame.body.spin);
             let loaded = Change { r_c: coordinates.r, axis, v_c: coordinates.v, axis_rate, speed };

@@ -16,6 +16,12 @@ impl<E: Effects> Rotor<'_, E> {
         first..first + E::FACTS.loads
     }
 
+    /// Whether errors of loads count.
+    #[inline(always)]
+    pub(super) fn has_loads(&self) -> bool {
+        E::FACTS.loads > 0 && (!E::FACTS.switched || self.active.has_loads)
+    }
+
     /// Writes how large each load is beside what it was at `origin`, of a motion whose c went by `way` \[m] and moves at `velocity` [m/s].
     #[inline(always)]
     pub(super) fn size_loads<const N: usize>(
@@ -24,7 +30,7 @@ impl<E: Effects> Rotor<'_, E> {
         [way, velocity]: [Vector3<f64>; 2],
         squares: &mut Squares,
     ) {
-        if E::FACTS.loads == 0 {
+        if !self.has_loads() {
             return;
         }
         let chart = self.frame.chart;
@@ -51,7 +57,7 @@ impl<E: Effects> Rotor<'_, E> {
         by: &Coordinates<f64>,
         squares: &mut Squares,
     ) {
-        if E::FACTS.loads == 0 {
+        if !self.has_loads() {
             return;
         }
         let at = self.at(y);
@@ -90,7 +96,7 @@ impl<E: Effects> Rotor<'_, E> {
         [place, velocity, tilt, tilt_rate]: [f64; 4],
         squares: &mut Squares,
     ) {
-        if E::FACTS.loads == 0 {
+        if !self.has_loads() {
             return;
         }
         // Along e a small tilt is of second order.
