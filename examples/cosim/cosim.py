@@ -4,6 +4,8 @@
     cargo xtask package rotor
     python examples/cosim/cosim.py target/fmu/rotor.fmu linear libcosim 1e-3 2e-4 1e-4
 
+For the pair housing package examples/cosim/housed.toml, and give its FMU.
+
 The pair is one of linear, journal, pedestal, housing, magnetic, motor, two_rotors (pairs.py); the master plain, fresh, gauss_seidel, iterated, ssp,
 libcosim, osp, ecos, cofmupy, or cofmupy_seidel (masters/; by_cofmupy.py says how to install those two); then come communication steps [s].
 Printed for each: the largest error of what is watched over the last tenth of the run, relative to the largest motion, where the rotor holds its
@@ -73,7 +75,7 @@ def write(path, times, watched, found):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
-    parser.add_argument("fmu", help="the general rotor, target/fmu/rotor.fmu")
+    parser.add_argument("fmu", help="a general rotor, target/fmu/rotor.fmu")
     parser.add_argument("pair", choices=PAIRS)
     parser.add_argument("master", choices=MASTERS)
     parser.add_argument("steps", nargs="+", type=float, help="communication steps [s]")

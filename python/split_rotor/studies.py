@@ -163,7 +163,7 @@ def package(scene: _core.Scene, path: str | PathLike[str]) -> Path:
     """Writes the FMU of a scene (FMI 2.0, co-simulation and model exchange, Linux on x86-64); its path.
 
     Its library holds every effect, and switches on those that the scene calls for; its outputs have the bits of the FMU that
-    `cargo xtask package` builds for the scene alone. A scene may call for two of a kind at most, and for no tables.
+    `cargo xtask package` builds for the scene alone. A scene may call for two of a kind at most, and for no tables or housings.
     """
     _core.package(scene, path)
     return Path(path)

@@ -207,10 +207,13 @@ mod tests {
 
     #[test]
     fn a_general_scene_has_switches_and_others_have_none() {
-        let find = |name: &str| scenes::find(name).unwrap();
+        let find = |name: &str| {
+            let file = paths::root().join(name);
+            scenes::find(if file.is_file() { file.to_str().unwrap() } else { name }).unwrap()
+        };
         assert_eq!(switches(&find("rotor"), "port[2]").unwrap(), ["effects.port[2]"]);
         let housing = ["effects.bearing[2]", "bearing[2].housing.moves"];
-        assert_eq!(switches(&find("rotor"), "bearing[2].housing").unwrap(), housing);
+        assert_eq!(switches(&find("examples/cosim/housed.toml"), "bearing[2].housing").unwrap(), housing);
         assert!(switches(&find("coupled"), "port[2]").unwrap().is_empty());
         let refused = |scene: &str, terminal: &str| switches(&find(scene), terminal).unwrap_err().to_string();
         assert_eq!(refused("coupled", "drive"), "coupled has no terminal drive, only port[1], port[2]");

@@ -133,11 +133,8 @@ impl Reader<'_> {
         let tolerance = tolerance.map_or(0.0, |variable| values.starts[&variable.place.value_reference()]);
         let experiment = self.experiment(root.get("experiment"), tolerance, &mut values);
         let unsure = values.unsure();
-        let absent: Vec<_> = variables
-            .iter()
-            .filter(|variable| !values.hold(variable, general))
-            .map(|variable| variable.place)
-            .collect();
+        let absent: Vec<_> =
+            variables.iter().filter(|variable| !values.hold(variable)).map(|variable| variable.place).collect();
         let Values { mut starts, places, .. } = values;
         absent.iter().for_each(|place| _ = starts.remove(&place.value_reference()));
         variables.retain(|variable| !absent.contains(&variable.place));

@@ -80,11 +80,10 @@ impl<'v> Values<'v> {
         self.housed.push(moves.place.block);
     }
 
-    /// Whether there is such a variable: of a table so long, of a housing that the file names, unless the scene is `general`.
-    pub(super) fn hold(&self, variable: &Variable, general: bool) -> bool {
-        let Place { block, .. } = variable.place;
-        let may_stand = general || !variable.place.is_of_housing() || self.housed.contains(&block);
-        may_stand && self.columns.hold(variable)
+    /// Whether there is such a variable: of a table so long, of a housing that the file names.
+    pub(super) fn hold(&self, variable: &Variable) -> bool {
+        let is_named = !variable.place.is_of_housing() || self.housed.contains(&variable.place.block);
+        is_named && self.columns.hold(variable)
     }
 
     /// Without a support its point a need not be told: it is c.
