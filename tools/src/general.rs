@@ -49,5 +49,7 @@ pub fn values<'g>(general: &'g Scene, scene: &Scene) -> Result<Vec<(&'g Variable
 
 /// Why there is no parameter set, and what to do.
 fn lacking(name: &str) -> String {
-    format!("the general FMU has no {name} (two of a kind at most, and no tables or housings): package the scene itself")
+    format!(
+        "the general FMU has no {name} (two of a kind at most, and no tables or housings): package the scene itself"
+    )
 }
