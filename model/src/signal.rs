@@ -154,11 +154,12 @@ impl Signal {
         }
     }
 
-    /// Goes on from the communication point `t` \[s] at the rate that another signal says, unless derivatives were sent there.
+    /// Goes on from the communication point `t` \[s] at the rate that another signal says, unless it has derivatives that were sent no earlier.
     pub fn follow(&mut self, t: f64, rate: &Self) {
         let (value, slope, curvature) = (self.at(t), rate.at(t), rate.rate_at(t));
         let goes_on = self.rate_at::<f64>(t) == slope && self.curvature == curvature;
-        if !goes_on && !self.was_sent_derivatives_at(t) {
+        let has_own = self.source == Source::Derivatives && !self.is_held() && self.told >= rate.told;
+        if !goes_on && !has_own {
             *self = Self { origin: t, value, slope, curvature, ..*self };
         }
     }

@@ -2,7 +2,7 @@
 
 use super::housing::{self, Fixed, Housed, Housing, Moving};
 use super::table::Table;
-use super::{Act, Change, Doubt, Effect, Facts, InputSet, MOST_DOUBTS, MOST_LOADS, Motion, Pose, Row, Wrench};
+use super::{Act, Change, Doubt, Effect, Facts, MOST_DOUBTS, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{
@@ -422,18 +422,14 @@ impl<H: Housing, const NODES: usize> Effect for Bearing<H, NODES> {
         [below, beyond, backward.then_some(Doubt::Backward { speed: low })]
     }
 
-    fn input_set(&mut self, before: &Self, set: InputSet) -> bool {
-        self.housing.input_set(&before.housing, set)
-    }
-
+    #[inline(always)]
     fn step_from(&mut self, t: f64) {
+        self.housing.step_from(t);
         self.memory[FROM] = t;
     }
 
     fn begin(&mut self, start: &Motion<f64>) {
-        self.housing.begin(start.t());
-        self.memory = [0.0, 0.0, housing::NO_STEP];
-        self.memory[0] = self.displacement(start).x;
+        self.memory = [self.axial(start), 0.0, housing::NO_STEP];
         if NODES > 0 {
             self.memory[1] = self.table.follow(start.omega_phi(), None);
         }

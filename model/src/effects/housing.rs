@@ -1,10 +1,10 @@
 //! The housing of a bearing or a ring: fixed to the stator, or moved by another model.
 
-use super::{Act, Effect, InputSet, Motion, Row, Terminal};
+use super::{Act, Effect, Motion, Row, Terminal};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, ONE};
-use crate::variable::{Access, Bound, Kind, Meta, Place, Role, output};
+use crate::variable::{Access, Bound, Kind, Meta, Role, output};
 use nalgebra::Vector3;
 
 /// What a bearing or a ring is fixed to.
@@ -67,19 +67,13 @@ pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
         (motion.t() - S::constant(from)) * S::constant(housing.ahead)
     }
 
-    /// Hears that the motion begins at time `t` \[s].
-    fn begin(&mut self, t: f64) {
+    /// Hears that a communication step begins at time `t` \[s]: its place goes on by its velocity, where no derivatives of it were sent. A host
+    /// that integrates has no such steps, and holds it.
+    #[inline(always)]
+    fn step_from(&mut self, t: f64) {
         if let Some(housing) = self.moving_mut() {
-            (0..3).for_each(|axis| housing.go_on(t, axis));
+            housing.r.iter_mut().zip(&housing.v).for_each(|(place, velocity)| place.follow(t, velocity));
         }
-    }
-
-    /// Hears that an input of its effect was set, which has no others, of what it was `before`; whether that changes how it goes on.
-    fn input_set(&mut self, before: &Self, set: InputSet) -> bool {
-        let (Some(housing), Some(before)) = (self.moving_mut(), before.moving()) else { return !set.goes_on };
-        // r, then v, stand behind whether it moves.
-        housing.go_on(set.t, (set.row - Place::HOUSING - 1) % 3);
-        !(set.goes_on && housing.r == before.r)
     }
 }
 
@@ -136,11 +130,6 @@ impl Moving {
     #[inline(never)]
     fn at<S: Scalar>(&self, t: S) -> [Vector3<S>; 2] {
         [self.r, self.velocity()].map(|of| of.map(|signal| signal.at(t)))
-    }
-
-    /// The place along an axis goes on by the velocity from the communication point `t` \[s] on, where no derivatives of it were sent.
-    fn go_on(&mut self, t: f64, axis: usize) {
-        self.r[axis].follow(t, &self.v[axis]);
     }
 }
 

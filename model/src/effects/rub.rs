@@ -1,7 +1,7 @@
 //! `rub`: contact of a station with a ring around it, with Coulomb friction.
 
 use super::housing::{self, Fixed, Housed, Housing, Moving};
-use super::{Act, Change, Effect, Facts, InputSet, MOST_LOADS, Motion, Pose, Row, Wrench};
+use super::{Act, Change, Effect, Facts, MOST_LOADS, Motion, Pose, Row, Wrench};
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE};
@@ -260,16 +260,13 @@ impl<H: Housing> Effect for Rub<H> {
         Err(Invalid::new("gap", self.gap, "neither so small nor so large that its square is lost"))
     }
 
-    fn begin(&mut self, start: &Motion<f64>) {
-        self.housing.begin(start.t());
+    fn begin(&mut self, _start: &Motion<f64>) {
         self.memory = [0.0, 0.0, housing::NO_STEP];
     }
 
-    fn input_set(&mut self, before: &Self, set: InputSet) -> bool {
-        self.housing.input_set(&before.housing, set)
-    }
-
+    #[inline(always)]
     fn step_from(&mut self, t: f64) {
+        self.housing.step_from(t);
         self.memory[BRANCH] = t;
     }
 

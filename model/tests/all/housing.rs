@@ -4,6 +4,7 @@ use crate::harness::named::Named;
 use crate::harness::within;
 use nalgebra::Vector3;
 use split_rotor_model::effects::Effects;
+use split_rotor_model::simulation::Integrator;
 use split_rotor_model::stored::{from_bytes, to_bytes};
 
 /// A rotor between two unlike bearings, one with a table, in a ring that it touches.
@@ -76,7 +77,52 @@ fn exact_derivatives_of_the_place_are_its_velocity() {
             assert_eq!(both.get(name).to_bits(), alone.get(name).to_bits(), "{name} at {t} s");
         }
     }
-    within("balance", alone.get("energy.residual").abs(), 1e-8);
+}
+
+/// Sent once, they stay in force; zeros withdraw them, and the velocity counts.
+#[test]
+fn exact_derivatives_stay_in_force() {
+    let text = machine("dop853", "housing = {}\n", [0.0, 0.2, 0.0]);
+    let [mut once, mut velocity, mut zeros] = [(); 3].map(|()| Named::started(&text));
+    let at = once.place("bearing[1].housing.r.y");
+    assert!(once.simulation.set_input_derivative(at, 1, 0.1));
+    velocity.set("bearing[1].housing.v.y", 0.1);
+    for n in 1..=20 {
+        zeros.set("bearing[1].housing.v.y", 0.1);
+        assert!(zeros.simulation.set_input_derivative(at, 1, 0.0));
+        for named in [&mut once, &mut velocity, &mut zeros] {
+            named.simulation.advance(f64::from(n) * 1e-3).expect("a motion");
+        }
+        for name in ["r_c.y", "bearing[1].F.y"] {
+            let size = velocity.get(name).abs();
+            within(name, (once.get(name) - velocity.get(name)).abs() / size, 1e-12);
+            within(name, (zeros.get(name) - velocity.get(name)).abs() / size, 1e-9);
+        }
+    }
+}
+
+/// A host that integrates says at each time where the housing is, in any order.
+#[test]
+fn exact_a_host_that_integrates_holds_the_place() {
+    let text = machine("dop853", "housing = {}\n", [0.0; 3]);
+    let mut named = Named::written_for(&text, Integrator::Host);
+    named.start();
+    named.set("bearing[1].housing.v.y", 0.1);
+    let state = named.simulation.state().expect("possible parameters");
+    let before = named.get("bearing[1].F.y");
+    named.go_to(1e-3, &state);
+    assert_eq!(named.get("bearing[1].F.y"), before);
+    assert_eq!(named.get("bearing[1].housing.r.y"), 0.0);
+}
+
+/// Where it stands at the start counts along all axes.
+#[test]
+fn exact_the_place_at_the_start_counts() {
+    let mut named = Named::written(&machine("dop853", "housing = { r = { x = 1e-4, y = 1e-4 } }\n", [0.0; 3]));
+    named.start();
+    within("x", (named.get("bearing[1].F.x") - 10.0).abs(), 1e-9);
+    within("y", (named.get("bearing[1].F.y") - 200.0).abs(), 1e-9);
+    within("z", (named.get("bearing[1].F.z") + 30.0).abs(), 1e-9);
 }
 
 /// A rotor on a spring whose other end is a free mass, as a master steps both that sets each from what the other showed before: by how much

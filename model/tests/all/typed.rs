@@ -9,6 +9,7 @@ use split_rotor_model::effects::bearing::Bearing;
 use split_rotor_model::effects::drive::Drive;
 use split_rotor_model::effects::extrapolation::Extrapolation;
 use split_rotor_model::effects::gravity::Gravity;
+use split_rotor_model::effects::housing::Moving;
 use split_rotor_model::effects::imposed_speed::ImposedSpeed;
 use split_rotor_model::effects::motor::Motor;
 use split_rotor_model::effects::rub::Rub;
@@ -77,6 +78,7 @@ fn tables_and_two_of_a_kind() {
     let mut tabled = Bearing::new(-0.2, none, none).with_table(Table::new([10.0, 40.0], [slow, fast]));
     (tabled.kxx, tabled.cxx) = (2e5, 300.0);
     let plain = Bearing::<_, 0>::new(0.25, [[3e5, 0.0], [0.0, 3e5]], [[300.0, 0.0], [0.0, 300.0]]);
+    let plain = plain.in_housing(Moving { moves: true, ahead: 0.5, ..Moving::default() });
     let drive = Drive::with(Signal::held(3.0));
     assert_given(
         &effects![gravity, drive, unbalance(), tabled => 1, plain => 2],
@@ -99,7 +101,8 @@ fn tables_and_two_of_a_kind() {
         kyy = 3e5
         kzz = 3e5
         cyy = 300
-        czz = 300",
+        czz = 300
+        housing = { ahead = 0.5 }",
     );
 }
 
@@ -109,13 +112,15 @@ fn a_state_of_an_effect_and_contact() {
     let bearing = Bearing::<_, 0>::new(0.0, [[4e5, 0.0], [0.0, 4e5]], [[90.0, 0.0], [0.0, 90.0]]);
     let mut rub = Rub::new(0.0, 2e-6, 1e6);
     (rub.damping, rub.friction, rub.radius) = (50.0, 0.1, 0.02);
+    let off = Vector3::new(Signal::held(0.0), Signal::held(1e-6), Signal::held(0.0));
+    let rub = rub.in_housing(Moving { moves: true, r: off, ..Moving::default() });
     assert_same::<_, 15>(
         effects![unbalance(), bearing, Extrapolation::new(1, 0.5), motor, rub],
         "
         effects.bearing = [{ position = 0.0, kyy = 4e5, kzz = 4e5, cyy = 90, czz = 90 }]
         effects.extrapolation = { order = 1, lag = 0.5 }
         effects.motor = { stall_torque = 2.0, synchronous_speed = 100.0, time_constant = 0.05 }
-        effects.rub = [{ position = 0.0, gap = 2e-6, stiffness = 1e6, damping = 50.0, friction = 0.1, radius = 0.02, v0 = 1.0 }]",
+        effects.rub = [{ position = 0.0, gap = 2e-6, stiffness = 1e6, damping = 50.0, friction = 0.1, radius = 0.02, v0 = 1.0, housing.r.y = 1e-6 }]",
     );
 }
 
