@@ -195,7 +195,7 @@ impl<E: Housed> Rows<E> {
         Row {
             meta: Meta {
                 name: "housing.moves",
-                description: "whether the housing moves as its inputs say; if not, it stands still",
+                description: "whether the housing moves as its inputs say, as in a scene that names it without this; if not, it stands still",
                 unit: &ONE,
                 kind: Kind::Boolean,
                 role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
