@@ -108,6 +108,7 @@ fn exact_power_of_each_effect() {
             let [motion, faster] = [at, faster].map(|at| Kinematics::new(body, chart, at));
             let own: [f64; All::FACTS.own] = std::array::from_fn(|_| random.within(-2.0, 2.0));
             effects.begin(&motion, &mut own.clone(), &mut own.clone());
+            effects.step_from(motion.t);
             let mut sides = [1.0; MOST_INDICATORS];
             effects.indicators(&motion, &own, &mut sides);
             effects.switch(&sides.map(|side| side > 0.0), &motion, &own);
