@@ -18,16 +18,22 @@ pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
     /// It, where it can move.
     fn moving_mut(&mut self) -> Option<&mut Moving>;
 
+    /// It, where it moves.
+    #[inline(always)]
+    fn in_motion(&self) -> Option<&Moving> {
+        self.moving().filter(|housing| housing.moves)
+    }
+
     /// Whether it moves.
     #[inline(always)]
     fn moves(&self) -> bool {
-        self.moving().is_some_and(|housing| housing.moves)
+        self.in_motion().is_some()
     }
 
     /// Its place \[m] and velocity [m/s]; None where it stands still.
     #[inline(always)]
     fn motion<S: Scalar>(&self, motion: &Motion<S>) -> Option<[Vector3<S>; 2]> {
-        let housing = self.moving().filter(|housing| housing.moves)?;
+        let housing = self.in_motion()?;
         if S::SERIES {
             return Some([housing.r, housing.velocity()].map(|of| of.map(|signal| motion.input(&signal))));
         }
@@ -49,7 +55,7 @@ pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
     /// Its place \[m] and velocity [m/s] where they were last set: within a step, errors count beside these.
     #[inline(always)]
     fn last_set(&self) -> [Vector3<f64>; 2] {
-        let Some(housing) = self.moving().filter(|housing| housing.moves) else { return [Vector3::zeros(); 2] };
+        let Some(housing) = self.in_motion() else { return [Vector3::zeros(); 2] };
         [housing.r, housing.velocity()].map(|of| of.map(|signal| signal.at(signal.since())))
     }
 
@@ -67,8 +73,8 @@ pub trait Housing: Clone + std::fmt::Debug + Default + Send + 'static {
         (motion.t() - S::constant(from)) * S::constant(housing.ahead)
     }
 
-    /// Hears that a communication step begins at time `t` \[s]: its place goes on by its velocity, where no derivatives of it were sent. A host
-    /// that integrates has no such steps, and holds it.
+    /// At the start `t` \[s] of a communication step its place goes on by its velocity, unless derivatives of the place are in force. A host
+    /// of model exchange has no such steps, and holds the place.
     #[inline(always)]
     fn step_from(&mut self, t: f64) {
         if let Some(housing) = self.moving_mut() {

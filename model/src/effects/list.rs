@@ -59,7 +59,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     /// Whether the law of any of them may be doubtful at some speeds.
     fn is_doubtful(&self) -> bool;
 
-    /// Hear that a communication step begins at time `t` \[s].
+    /// Called at the start `t` \[s] of a communication step.
     fn step_from(&mut self, t: f64);
 
     /// The ω_φ that one of them imposes at time `t` \[s] [rad/s], and the rate of that [rad/s²].
