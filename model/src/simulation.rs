@@ -368,7 +368,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             if !(block.is_active() && block.is_answered(t)) {
                 partner.go_unanswered(t);
             } else if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
-                partner.add(t, &exchange, &told);
+                partner.add(t, &exchange, &told.to(block));
             }
             changes |= !partner.law().is_like(&before);
         });
@@ -401,7 +401,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let told = Told::by(effects, step);
         let answers = |number: usize, block: &dyn Block| {
             let exchange = block.exchange(&Seen::new(motion, &[])).filter(|_| block.is_active());
-            exchange.and_then(|exchange| partners[number].answers(&exchange, &told))
+            exchange.and_then(|exchange| partners[number].answers(&exchange, &told.to(block)))
         };
         let (bodies, t, state) = integration.reached();
         let found = Coupling::of(&bodies.under(effects), t, state, answers, period, is_fed);
@@ -421,9 +421,9 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         const { assert!(follows_all_inputs::<E>(), "extrapolation.rs: MOST is less than this list has inputs") };
         let effects = &mut self.parameters.effects;
         let (mut extrapolated, mut number, mut changes) = (effects.clone(), 0, false);
-        extrapolated.for_each_extrapolated(&mut |signal| {
+        extrapolated.for_each_extrapolated(&mut |lag, signal| {
             let before = *signal;
-            effects.extrapolate(number, signal);
+            effects.extrapolate(number, lag, signal);
             if signal.goes_on_like(&before) {
                 *signal = before;
             }

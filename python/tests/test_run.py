@@ -34,6 +34,9 @@ def test_exact_bits_with_an_input_that_a_host_sets(turbo, tmp_path):
     )
     fmu.instantiate()
     tau = [references["drive.tau"]]
+    # an FMU judges what is exchanged; a run that knows its inputs beforehand exchanges nothing
+    assert not result["drive.energy_error"].any()
+    outputs = [name for name in result if name != "drive.energy_error"]
     fmu.setReal(tau, [20.0])
     fmu.setupExperiment(startTime=0.0, stopTime=0.2)
     fmu.enterInitializationMode()
@@ -42,8 +45,8 @@ def test_exact_bits_with_an_input_that_a_host_sets(turbo, tmp_path):
         if n == 11:
             fmu.setReal(tau, [-5.0])
         fmu.doStep(result.time[n - 1], t - result.time[n - 1])
-        seen = fmu.getReal([references[name] for name in result])
-        assert seen == [result[name][n] for name in result]
+        seen = fmu.getReal([references[name] for name in outputs])
+        assert seen == [result[name][n] for name in outputs]
     fmu.terminate()
     fmu.freeInstance()
 

@@ -1,6 +1,6 @@
 //! `drive`: a torque from outside, and the angle that goes with it.
 
-use super::partner::{LOADS, Loads, Shown, Slopes};
+use super::partner::{LOADS, Loads, Shown, Slopes, lag};
 use super::{Act, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
@@ -11,7 +11,7 @@ use crate::variable::units::{
 use crate::variable::{Bound, input, output, parameter};
 
 /// A constant-velocity joint between the rotor and a drive along e.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Drive {
     /// Torque τ of the drive on the rotor [N·m].
     pub tau: Signal,
@@ -21,8 +21,16 @@ pub struct Drive {
     pub d: f64,
     /// By what part of the last communication step the angle is shown ahead \[1].
     pub ahead: f64,
+    /// How many communication steps the torque is late \[1]; negative where that is not known.
+    pub lag: f64,
     /// The law that the partner follows between communication points.
     law: Law,
+}
+
+impl Default for Drive {
+    fn default() -> Self {
+        Self { tau: Signal::default(), k: 0.0, d: 0.0, ahead: 0.0, lag: -1.0, law: Law::default() }
+    }
 }
 
 impl Drive {
@@ -101,6 +109,7 @@ impl Effect for Drive {
             "energy that the exchange brought in so far: work of the torque beyond that of the partner's answers, which lines or a law join",
             |d, _| Scalar::constant(d.law.error)
         ),
+        lag!(),
     ];
 
     const EXCLUDES: &'static [&'static str] = &["imposed_speed"];
@@ -146,6 +155,10 @@ impl Effect for Drive {
             loads[0] = self.tau.coefficient(t, power);
             loads
         })
+    }
+
+    fn lag(&self) -> Option<f64> {
+        (self.lag >= 0.0).then_some(self.lag)
     }
 
     fn law_mut(&mut self) -> Option<&mut Law> {

@@ -1,5 +1,6 @@
 //! `extrapolation`: what inputs will be over the next step, from what they were.
 
+use super::partner::LATEST;
 use super::{Effect, Facts, Row};
 use crate::signal::{NODES, Signal, goes_on};
 use crate::variable::units::ONE;
@@ -15,9 +16,6 @@ pub struct Extrapolation {
     /// How many communication points are known; those points, the latest first; the values of each input there.
     memory: [f64; 1 + POINTS + MOST * NODES],
 }
-
-/// Values may be so many steps late.
-const LATEST: usize = 8;
 
 /// So many communication points are remembered.
 const POINTS: usize = LATEST + NODES;
@@ -116,7 +114,7 @@ impl Effect for Extrapolation {
         self.memory[0] = (self.known() + 1).min(POINTS) as f64;
     }
 
-    fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
+    fn extrapolate(&mut self, number: usize, lag: Option<f64>, signal: &mut Signal) {
         let t = self.points()[0];
         if let Some(value) = signal.set_at(t) {
             self.values(number)[0] = value;
@@ -127,7 +125,8 @@ impl Effect for Extrapolation {
         }
         let degree = (self.order as usize).min(self.known() - 1);
         // What is late belongs to the point so many steps back.
-        let times = [0.0, 1.0, 2.0].map(|n| self.point(n + self.lag));
+        let lag = lag.unwrap_or(self.lag);
+        let times = [0.0, 1.0, 2.0].map(|n| self.point(n + lag));
         let values = self.values(number);
         let values = [values[0], values[1], values[2]];
         let [change, slope, bend] = goes_on(t, times, values, degree);

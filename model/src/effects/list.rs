@@ -210,17 +210,17 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
     }
 
     /// Extrapolate the input of this number over the step that begins.
-    fn extrapolate(&mut self, number: usize, signal: &mut Signal) {
+    fn extrapolate(&mut self, number: usize, lag: Option<f64>, signal: &mut Signal) {
         self.for_each(|block| {
             if block.is_active() {
-                block.extrapolate(number, signal);
+                block.extrapolate(number, lag, signal);
             }
         });
     }
 
-    /// How many communication steps values of inputs are late, where that is given \[1].
+    /// How many communication steps values of all inputs are late, where that is given \[1].
     fn lag(&self) -> Option<f64> {
-        self.active().find_map(|block| block.lag())
+        self.active().filter(|block| block.kind().facts.extrapolates).find_map(|block| block.lag())
     }
 
     /// The degree of the polynomials as which inputs go on; 0 where they are held.
@@ -248,11 +248,12 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         });
     }
 
-    /// Each input that may be extrapolated.
-    fn for_each_extrapolated(&mut self, act: &mut dyn FnMut(&mut Signal)) {
+    /// Each input that may be extrapolated; how many steps it is late, where that is given for its effect \[1].
+    fn for_each_extrapolated(&mut self, act: &mut dyn FnMut(Option<f64>, &mut Signal)) {
         self.for_each(|block| {
             if !block.kind().facts.tells_rates {
-                block.for_each_signal(act);
+                let lag = block.lag();
+                block.for_each_signal(&mut |signal| act(lag, signal));
             }
         });
     }

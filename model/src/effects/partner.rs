@@ -20,6 +20,24 @@ pub type Shown<S = f64> = SVector<S, SHOWN>;
 /// How the loads change with what is shown.
 pub type Slopes = SMatrix<f64, LOADS, SHOWN>;
 
+/// Values of inputs may be so many communication steps late.
+pub const LATEST: usize = 8;
+
+/// The row of the field `lag`: that of one effect, negative where it is not known.
+macro_rules! lag {
+    () => {
+        $crate::variable::parameter!(
+            lag,
+            &$crate::variable::units::ONE,
+            Some(-1.0),
+            $crate::variable::Bound::Within(-1.0, $crate::effects::partner::LATEST as f64),
+            "how many communication steps the values of its inputs are late; negative: as extrapolation.lag says or the answers look"
+        )
+    };
+}
+
+pub(super) use lag;
+
 /// Loads go on as polynomials of degree 2.
 pub const POWERS: usize = 3;
 

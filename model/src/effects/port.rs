@@ -1,6 +1,6 @@
 //! `port`: force and moment from outside at a station, and the motion that goes with them.
 
-use super::partner::{LOADS, Loads, Shown, Slopes};
+use super::partner::{LOADS, Loads, Shown, Slopes, lag};
 use super::{Act, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
@@ -28,6 +28,8 @@ pub struct Port {
     pub c: [f64; 6],
     /// By what part of the last communication step place and angles are shown ahead \[1].
     pub ahead: f64,
+    /// How many communication steps the loads are late \[1]; negative where that is not known.
+    pub lag: f64,
     /// The law that the partner follows between communication points.
     law: Law,
 }
@@ -42,6 +44,7 @@ impl Default for Port {
             k: [0.0; 6],
             c: [0.0; 6],
             ahead: 0.0,
+            lag: -1.0,
             law: Law::default(),
         }
     }
@@ -183,6 +186,7 @@ impl Effect for Port {
             Bound::Within(-1.0, 2.0),
             "r and theta are shown ahead by this part of the last communication step, for a partner that holds them"
         ),
+        lag!(),
     ];
 
     const TERMINAL: Option<Terminal> =
@@ -231,6 +235,10 @@ impl Effect for Port {
             let of = |signal: &Signal| signal.coefficient(t, power);
             Loads::new(of(&force.x), of(&force.y), of(&force.z), of(&moment.y), of(&moment.z))
         })
+    }
+
+    fn lag(&self) -> Option<f64> {
+        (self.lag >= 0.0).then_some(self.lag)
     }
 
     fn law_mut(&mut self) -> Option<&mut Law> {

@@ -75,7 +75,9 @@ impl Coupling {
         let Frame { body, chart, turns } = rotor.frame;
         let equations = |effects: &E| linear(&Rotor::new(body.symmetric(), effects, chart, turns), t, y);
         let held = equations(rotor.effects);
+        let of_all = rotor.effects.lag().unwrap_or_default();
         let mut found = Self { t, step, ..Self::default() };
+        let mut lags = [of_all; LAGS];
         let answered: [Linear; LAGS] = std::array::from_fn(|lag| {
             let mut effects = rotor.effects.clone();
             effects.for_each_partner(|number, block| {
@@ -84,6 +86,7 @@ impl Coupling {
                 };
                 let stiffest = (0..FORCES).map(|n| -slopes[(n, n)]).fold(0.0, f64::max);
                 (found.lag, found.stiffness) = (lag as u32, found.stiffness.max(stiffest));
+                lags[lag] = block.lag().unwrap_or(of_all);
                 if let Some(law) = block.law_mut() {
                     *law = Law { is_on: true, turns: true, slopes, shown, ..Law::default() };
                 }
@@ -94,11 +97,10 @@ impl Coupling {
         let [_, held, fresh, late] = Watch::scaled([all, held, answered[0], answered[1]], &body);
         let coupled = Coupled { held, answered: [fresh, late] };
         if coupled.is_finite() {
-            let lag = rotor.effects.lag().unwrap_or_default();
-            found.growth = coupled.growth(step, rotor.effects.order(), lag, if is_fed { LEAST_GROWTH } else { GROWS });
+            found.growth = coupled.growth(step, rotor.effects.order(), lags, if is_fed { LEAST_GROWTH } else { GROWS });
         }
         if found.growth > 0.0 {
-            found.longest = coupled.longest(step, f64::from(found.lag));
+            found.longest = coupled.longest(step, [f64::from(found.lag); LAGS]);
         }
         found
     }
@@ -151,20 +153,20 @@ impl Coupled {
     }
 
     /// By what part small motions grow in a step \[s] of the exchange, and not in one model, where inputs go on by `order` and are taken
-    /// for late by `lag` \[1]; 0 where that is less than `least`.
-    pub fn growth(&self, step: f64, order: usize, lag: f64, least: f64) -> f64 {
-        let coupled = per_application(self.map(step, order, lag));
+    /// for late by `lags`, of each of those that are [answered](Self::answered) \[1]; 0 where that is less than `least`.
+    pub fn growth(&self, step: f64, order: usize, lags: [f64; LAGS], least: f64) -> f64 {
+        let coupled = per_application(self.map(step, order, lags));
         let own = per_application(exponential((self.held + self.answered.iter().sum::<Linear>()) * step));
         if coupled > least && own < OWN * coupled { libm::expm1(coupled) } else { 0.0 }
     }
 
     /// The longest steps near this one \[s] with which nothing grows, by each order.
-    fn longest(&self, step: f64, lag: f64) -> [f64; ORDERS] {
+    fn longest(&self, step: f64, lags: [f64; LAGS]) -> [f64; ORDERS] {
         std::array::from_fn(|order| {
             let (mut short, mut long) = (libm::log(step / RANGE), libm::log(step * RANGE));
             for _ in 0..BISECTIONS {
                 let middle = 0.5 * (short + long);
-                let grows = self.growth(libm::exp(middle), order, lag, LEAST_GROWTH) > 0.0;
+                let grows = self.growth(libm::exp(middle), order, lags, LEAST_GROWTH) > 0.0;
                 (short, long) = if grows { (short, middle) } else { (middle, long) };
             }
             libm::exp(short)
@@ -172,7 +174,7 @@ impl Coupled {
     }
 
     /// The last points after a communication step, from those before.
-    fn map(&self, step: f64, order: usize, lag: f64) -> Map {
+    fn map(&self, step: f64, order: usize, lags: [f64; LAGS]) -> Map {
         const { assert!(POINTS == 1 + ORDERS, "a motion and its inputs have the room of as many points") };
         // eq. 127: dx/dt = A x + u₀, du₀/dt = u₁, du₁/dt = u₂ over the step, t in steps
         let mut rates = Map::zeros();
@@ -188,8 +190,8 @@ impl Coupled {
         // u of the last values that were set, each the answer to a point: eq. 67 about its end
         let mut inputs = Map::zeros();
         inputs.fixed_view_mut::<LINEAR, LINEAR>(0, 0).copy_from(&Linear::identity());
-        for (power, parts) in taken(order, lag).into_iter().enumerate() {
-            for (late, answered) in self.answered.iter().enumerate() {
+        for (late, answered) in self.answered.iter().enumerate() {
+            for (power, parts) in taken(order, lags[late]).into_iter().enumerate() {
                 for (back, part) in parts.into_iter().enumerate() {
                     let (row, column) = block(1 + power, late + back);
                     let mut entry = inputs.fixed_view_mut::<LINEAR, LINEAR>(row, column);

@@ -7,7 +7,7 @@
 mod work;
 
 use crate::effects::partner::{LOADS, Loads, POWERS, SHOWN, Shown, Slopes};
-use crate::effects::{Effects, Exchange, Law};
+use crate::effects::{Block, Effects, Exchange, Law};
 use crate::signal::goes_on;
 use crate::stored::{Damaged, Stored, Walk, stored};
 use nalgebra::{SMatrix, SVector};
@@ -140,6 +140,10 @@ const BEYOND_DOUBT_LEARNT: f64 = 0.2;
 /// A law may drive the place so strongly at most: acceleration by way times the step squared, and by velocity times the step \[1].
 const DRIVES: f64 = 0.05;
 
+/// A film that damps so strongly, by velocity times the step, throws the place about where its loads are held \[1]: a fit that misses no more
+/// than these is better, and may drive as strongly.
+const STIFF: f64 = 0.5;
+
 impl Partner {
     /// The law to go on with.
     pub fn law(&self) -> &Law {
@@ -195,7 +199,7 @@ impl Partner {
         if known > 1 {
             // A law is the answer to what its own lag says.
             let of_law = || self.best(lags.clone(), |_| true).map(|(lag, _)| lag).filter(|_| self.law.is_on);
-            let lag = told.lag.or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
+            let lag = told.lag().or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
             let late = exchange.late(lag);
             let [excess, exchanged] = self.work.count(&self.exchanges, &self.law, &measures.loads, [lag, late]);
             error += excess;
@@ -278,8 +282,10 @@ impl Partner {
         }
         let step = self.exchanges.t[0] - self.exchanges.t[1];
         let best = self.best(told.lags(exchange), |fit| {
-            let is_best = self.polynomials.iter().all(|missed| fit.missed < TRUSTED * TRUSTED * missed);
-            is_best && drives(&fit.slopes, step) * exchange.yielding <= DRIVES && !looks_too_early(&fit.slopes, step)
+            let [driving, damping] = strengths(&fit.slopes, step).map(|strength| strength * exchange.yielding);
+            let (trusted, most) = if damping > STIFF { (1.0, STIFF) } else { (TRUSTED, DRIVES) };
+            let is_best = self.polynomials.iter().all(|missed| fit.missed < trusted * trusted * missed);
+            is_best && driving <= most && !looks_too_early(&fit.slopes, step)
         });
         if let Some((lag, fit)) = best {
             return Some((lag, measures.in_units(&fit.slopes), 0));
@@ -288,7 +294,7 @@ impl Partner {
         let degree = if parabola < TRUSTED * TRUSTED * line { 2 } else { 1 };
         let is_even = told.step <= LONGER * step && step <= LONGER * told.step;
         let is_trusted = line.min(parabola) < TRUSTED * TRUSTED * held && is_even;
-        is_trusted.then(|| (told.lag.unwrap_or_default(), Slopes::zeros(), degree))
+        is_trusted.then(|| (told.lag().unwrap_or_default(), Slopes::zeros(), degree))
     }
 
     /// Of the fits that count, the one that predicted the last answers best, and its lag.
@@ -311,7 +317,7 @@ impl Partner {
             None => self.learnt(told, exchange, measures)?,
             Some(slopes) => {
                 let best = self.best(told.lags(exchange), |_| true).map(|(lag, _)| lag);
-                (told.lag.or(best)?, slopes, told.order)
+                (told.lag().or(best)?, slopes, told.order)
             }
         };
         let leans = TURNS.iter().any(|n| slopes.column(*n).iter().any(|slope| *slope != 0.0));
@@ -333,10 +339,10 @@ impl Partner {
     }
 }
 
-/// What is said of all inputs.
+/// What is said of inputs.
 pub(super) struct Told {
-    /// By how many communication steps they are late, where that is given.
-    lag: Option<usize>,
+    /// By how many communication steps they are late, where that is given \[1].
+    lag: Option<f64>,
     /// As polynomials of which degree they go on.
     order: usize,
     /// The communication step that begins \[s].
@@ -346,14 +352,23 @@ pub(super) struct Told {
 impl Told {
     /// By these effects, at the start of this communication step \[s].
     pub fn by(effects: &impl Effects, step: f64) -> Self {
+        Self { lag: effects.lag(), order: effects.order(), step }
+    }
+
+    /// What holds for this one, which may have a lag of its own.
+    pub fn to(&self, block: &dyn Block) -> Self {
+        Self { lag: block.lag().or(self.lag), ..*self }
+    }
+
+    /// By how many whole communication steps they are late, where that is given.
+    fn lag(&self) -> Option<usize> {
         // No more steps are remembered.
-        let lag = effects.lag().map(|lag| (lag.round() as usize).min(POINTS - 1));
-        Self { lag, order: effects.order(), step }
+        self.lag.map(|lag| (lag.round() as usize).min(POINTS - 1))
     }
 
     /// By how many steps answers may be late; none that is fitted where it is later.
     fn lags(&self, exchange: &Exchange) -> Range<usize> {
-        match self.lag {
+        match self.lag() {
             None if exchange.turns_along => 0..1,
             None => 0..LAGS,
             Some(lag) => lag..LAGS.min(lag + 1),
@@ -524,8 +539,8 @@ fn looks_too_early(slopes: &Slopes, step: f64) -> bool {
     drives > TOO_EARLY * stiffness * step
 }
 
-/// How strongly a law drives the place in this step \[s], at most, by measured slopes \[kg].
-fn drives(slopes: &Slopes, step: f64) -> f64 {
+/// How strongly a law drives the place in this step \[s], and damps it, at most, by measured slopes \[kg].
+fn strengths(slopes: &Slopes, step: f64) -> [f64; 2] {
     let strongest = |from: usize| {
         let half = slopes.fixed_columns::<LOADS>(from);
         let symmetric = (half + half.transpose()) * 0.5;
@@ -535,5 +550,6 @@ fn drives(slopes: &Slopes, step: f64) -> f64 {
         });
         bounds.fold(f64::NEG_INFINITY, f64::max)
     };
-    (strongest(0) * step * step).max(strongest(LOADS) * TIME * step)
+    let damping = (0..LOADS).map(|n| -slopes[(n, LOADS + n)]).fold(0.0, f64::max);
+    [(strongest(0) * step * step).max(strongest(LOADS) * TIME * step), damping * TIME * step]
 }

@@ -59,6 +59,37 @@ fn exact_a_polynomial_of_its_degree_is_followed_however_late() {
     }
 }
 
+/// A drive in time, a port that is late as all inputs are, and one that is later: each input goes on as the line on which its values lie.
+#[test]
+fn exact_each_input_is_as_late_as_its_effect_says() {
+    let mut named = Named::started(&format!(
+        "{ROTOR}[effects.drive]\nlag = 0.0\n[[effects.port]]\nposition = 0.0\n[[effects.port]]\nposition = 0.0\nlag = 2.5\n\
+         [effects.extrapolation]\norder = 1\nlag = 1.0\n[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n"
+    ));
+    let inputs: [(_, f64, _, f64); 3] = [
+        ("drive.tau", 0.0, "omega_phi", 0.15625),
+        ("port[1].f.x", 1.0, "v_c.x", 5.0),
+        ("port[2].f.y", 2.5, "v_c.y", 5.0),
+    ];
+    for k in 0..POINTS.len() - 1 {
+        let before = inputs.map(|(name, lag, shown, inertia)| {
+            let back = lag.min(k as f64);
+            let [to, from] = [back.floor(), back.ceil()].map(|n| POINTS[k - n as usize]);
+            let place = named.place(name);
+            named.simulation.set_input(place, torque(1, to + back.fract() * (from - to))[0]);
+            named.get(shown) * inertia
+        });
+        named.simulation.advance(POINTS[k + 1]).expect("a possible motion");
+        for ((name, lag, shown, inertia), before) in inputs.into_iter().zip(before) {
+            let [from, to] = [k, k + 1].map(|k| torque(1, POINTS[k])[1]);
+            // As soon as there are values enough.
+            if k as f64 >= 1.0 + lag.ceil() {
+                within(&format!("{name}, step {k}"), (named.get(shown) * inertia - before - (to - from)).abs(), GAIN);
+            }
+        }
+    }
+}
+
 /// The speed that late values of τ = sin 5t lead to in steps that alternate 1 : 10, against the exact one at the end of each
 /// step, relative to its largest [1]: measured 7.8e-4.
 const ALTERNATING: f64 = 2e-3;

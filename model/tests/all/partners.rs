@@ -67,13 +67,20 @@ impl Bearing for Linear {
     }
 }
 
-/// A short journal bearing with half a film (Ocvirk): 20 mPa·s, radius 25 mm, length 20 mm, clearance 50 µm, at 600 rad/s.
+/// A short journal bearing with half a film (Ocvirk), of radius 25 mm and length 20 mm.
 #[derive(Clone)]
-struct Journal;
+struct Journal {
+    /// \[m]
+    clearance: f64,
+    /// [rad/s]
+    speed: f64,
+    /// [Pa·s]
+    viscosity: f64,
+}
 
 impl Bearing for Journal {
     fn force(&self, r: &Vector3<f64>, v: &Vector3<f64>) -> Vector3<f64> {
-        let (c, speed) = (50e-6, 600.0);
+        let Self { clearance: c, speed, viscosity } = *self;
         let e = r.yz().norm();
         let along = r.yz() / e;
         let eps = (e / c).min(0.98);
@@ -81,7 +88,7 @@ impl Bearing for Journal {
         let turns = along.perp(&v.yz()) / e;
         let entrained = speed - 2.0 * turns;
         let q = 1.0 - eps * eps;
-        let k = 0.02 * 0.025 * (0.02 * 0.02 * 0.02) / (2.0 * c * c);
+        let k = viscosity * 0.025 * (0.02 * 0.02 * 0.02) / (2.0 * c * c);
         let radial = -k
             * (entrained.abs() * 2.0 * eps * eps / (q * q)
                 + PI * (1.0 + 2.0 * eps * eps) / libm::pow(q, 2.5) * squeeze);
@@ -144,8 +151,13 @@ impl Pair {
     }
 
     pub fn journals() -> Self {
-        let start = "[start]\nomega.x = 600.0\nr_c = { y = 5e-6, z = -10e-6 }\n";
-        Self::new([ROTOR, start].concat(), PLACES, [Journal, Journal])
+        Self::floating(ROTOR, &Journal { clearance: 50e-6, speed: 600.0, viscosity: 0.02 }, [5e-6, -10e-6])
+    }
+
+    /// A rotor that starts at this place \[m] in two films.
+    fn floating(rotor: &str, film: &Journal, [y, z]: [f64; 2]) -> Self {
+        let start = format!("[start]\nomega.x = {:?}\nr_c = {{ y = {y:?}, z = {z:?} }}\n", film.speed);
+        Self::new(format!("{rotor}{start}"), PLACES, [(); 2].map(|()| film.clone()))
     }
 
     pub fn pedestals() -> Self {
@@ -181,8 +193,12 @@ impl Pair {
     }
 
     fn coupling(&self, [ports, other]: [&str; 2]) -> Coupled {
-        let port = |place: &f64| format!("[[effects.port]]\nposition = {place:?}\n{ports}");
-        let [first, second] = self.places.each_ref().map(port);
+        self.coupling_of([ports, ports], other)
+    }
+
+    fn coupling_of(&self, ports: [&str; 2], other: &str) -> Coupled {
+        let port = |n: usize| format!("[[effects.port]]\nposition = {:?}\n{}", self.places[n], ports[n]);
+        let [first, second] = [0, 1].map(port);
         let mut named = Named::started(&format!("{}{first}{second}{other}", self.rotor));
         let inputs = [1, 2].map(|n| ["x", "y", "z"].map(|axis| named.place(&format!("port[{n}].f.{axis}"))));
         let last = Coupled::shows(&mut named);
@@ -206,9 +222,14 @@ impl Coupled {
 
     /// The partners answer what they are shown now, or late what they were shown before, and go on by `h` \[s].
     fn answer(&mut self, h: f64, late: bool) {
+        self.answer_by(h, [late; 2]);
+    }
+
+    /// The same, each late or not.
+    fn answer_by(&mut self, h: f64, late: [bool; 2]) {
         let shown = Self::shows(&mut self.named);
-        let answered = if late { &self.last } else { &shown };
         for (n, bearing) in self.bearings.iter_mut().enumerate() {
+            let answered = if late[n] { &self.last } else { &shown };
             let force = bearing.force(&answered[n][0], &answered[n][1]);
             for (axis, place) in self.inputs[n].iter().enumerate() {
                 assert!(self.named.simulation.set_input(*place, force[axis]));
@@ -266,11 +287,11 @@ pub fn every(way: &[[f64; 2]], steps: usize) -> Vec<[f64; 2]> {
 /// Nothing is set: errors over the last tenth of a run, where loads are held, and by what the ports learn.
 #[test]
 fn ordinary_bearings_are_learnt_with_nothing_set() {
-    // Held, the run is off by 2.7e8, 1.9e13, 1.7e6, 3.4e1, 2.6e-2 and 8.3e-2. Measured by what was learnt: 1.9e-3, 1.2e-2, 2.7e-4, 2.1e-5,
-    // 2.7e-5 and 3.7e-7.
+    // Held, the run is off by 2.7e8, 1.9e13, 1.7e6, 3.4e1, 2.6e-2 and 8.3e-2. Measured by what was learnt: 1.9e-3, 3.8e-3, 4.4e-5, 1.5e-5,
+    // 1.2e-8 and 2.5e-7.
     let runs = [
         (1e-3, false, 1e-2),
-        (1e-3, true, 3e-2),
+        (1e-3, true, 1e-2),
         (2e-4, true, 5e-4),
         (1e-4, true, 1e-4),
         (1e-5, false, 1e-4),
@@ -286,9 +307,13 @@ fn ordinary_bearings_are_learnt_with_nothing_set() {
 #[test]
 fn ordinary_films_and_pedestals_are_learnt_with_nothing_set() {
     const FINE: f64 = 2e-6;
-    // Held: 1.0e-2, 4.3e-4, 1.6e-3; 1.5, 4.5e3, 3.8e-1, 2.6, 2.2e-2, 6.2e-2. Late films at 1e-4 s fail, held or not.
+    // Held: 1.0e-2, fails, 4.3e-4, 1.6e-3; 1.5, 4.5e3, 3.8e-1, 2.6, 2.2e-2, 6.2e-2.
     for (name, pair, runs) in [
-        ("journals", Pair::journals(), &[(1e-4, false, 1.5e-2), (1e-5, false, 1e-3), (1e-5, true, 3e-3)][..]),
+        (
+            "journals",
+            Pair::journals(),
+            &[(1e-4, false, 1.5e-2), (1e-4, true, 3e-2), (1e-5, false, 1e-3), (1e-5, true, 3e-3)][..],
+        ),
         (
             "pedestals",
             Pair::pedestals(),
@@ -308,6 +333,41 @@ fn ordinary_films_and_pedestals_are_learnt_with_nothing_set() {
             let [_, end] = apart(&pair.coupled(LEARNT, h, late, SPAN), &exact);
             within(&format!("{name}, steps of {h:e} s, late: {late}"), end, bound);
         }
+    }
+}
+
+/// Drawn films, nothing set, fresh and late: of 24 rotors so many fail where loads are held, and where they are learnt.
+const FAIL_HELD: [u32; 2] = [2, 6];
+const FAIL_LEARNT: [u32; 2] = [0, 2];
+
+/// Films that damp strongly throw a rotor about that is held by loads of a step ago.
+#[test]
+fn drawn_films_are_learnt() {
+    const FINE: f64 = 5e-6;
+    let (h, mut failed) = (1e-4, [[0; 2]; 2]);
+    for number in 0..24 {
+        let mut dice = Dice::new(number);
+        let clearance = dice.within(30e-6, 120e-6);
+        let film = Journal { clearance, speed: dice.within(200.0, 1000.0), viscosity: dice.decades(5e-3, 3e-2) };
+        let rotor = ROTOR.replace("m = 12.0", &format!("m = {:?}", dice.decades(4.0, 20.0)));
+        let at = [dice.within(-0.25, 0.25) * clearance, dice.within(-0.5, 0.0) * clearance];
+        let pair = Pair::floating(&rotor, &film, at);
+        let exact = every(&pair.coupled(HELD, FINE, false, SPAN), (h / FINE).round() as usize);
+        for late in [false, true] {
+            let [held, learnt] = [HELD, LEARNT].map(|lines| apart(&pair.coupled(lines, h, late, SPAN), &exact)[1]);
+            println!("film {number}, late: {late}: held {held:.1e}, learnt {learnt:.1e}");
+            let [of_held, of_learnt] = &mut failed[usize::from(late)];
+            let fails = |off: f64| off.is_nan() || off > 10.0;
+            *of_held += u32::from(fails(held));
+            *of_learnt += u32::from(fails(learnt));
+            if !fails(held) {
+                within(&format!("film {number}, late: {late}, held {held:.1e}"), learnt, (2.0 * held).max(0.02));
+            }
+        }
+    }
+    println!("of 24 so many fail, fresh and late, held and learnt: {failed:?}");
+    for (n, [held, learnt]) in failed.into_iter().enumerate() {
+        assert!(held >= FAIL_HELD[n] && learnt <= FAIL_LEARNT[n], "{failed:?}");
     }
 }
 
@@ -340,6 +400,51 @@ fn ordinary_pedestals_are_followed_with_their_bearings_given() {
         // Measured 1.9e-2; with nothing set 5.4e-2 and 5.1e-2.
         within(&format!("late: {late}"), end, 3e-2);
     }
+}
+
+/// What one port says of its lag wins over what is said of all inputs.
+#[test]
+fn exact_a_port_is_as_late_as_it_says() {
+    let known = "kyy = 2e7\nkzz = 1.5e7\ncyy = 2e3\nczz = 2e3\n";
+    let held_by_all = |order: u32, lag: f64| format!("[effects.extrapolation]\norder = {order}\nlag = {lag:?}\n");
+    for (name, given, order) in
+        [("given", known, 0), ("given, order 1", known, 1), ("learnt", "", 0), ("order 2", "", 2)]
+    {
+        for (late, lag) in [(true, 1.0), (false, 1e-9)] {
+            let way = |own: &str, lag: f64| {
+                let ports = format!("{given}{own}");
+                Pair::linear().coupled([&ports, &held_by_all(order, lag)], 2e-4, late, 0.01)
+            };
+            let of_one = way(if late { "lag = 1.0\n" } else { "lag = 0.0\n" }, 3.0);
+            let [[of_all, _], [wrong, _]] = [lag, 3.0].map(|lag| apart(&way("", lag), &of_one));
+            within(&format!("{name}, late: {late}"), of_all, 1e-8);
+            assert!(wrong > 1e-3, "{name}, late: {late}: as late as is said of all: {wrong}");
+        }
+    }
+}
+
+/// Bearings of which one answers in time and the other late, both known: errors over the last tenth.
+#[test]
+fn exact_one_port_may_be_late_and_the_other_not() {
+    let [first, second] = Linear::pair();
+    let bearings = [first, second];
+    let exact = way_of_turbo(1e-3);
+    let given = |n: usize, lag: f64| {
+        let Linear { k, c, .. } = &bearings[n];
+        format!("{}lag = {lag:?}\n", Linear::coefficients(k, c))
+    };
+    let run = |lags: [f64; 2]| {
+        let mut coupling = Pair::linear().coupling_of([&given(0, lags[0]), &given(1, lags[1])], "");
+        let point = |step: usize| {
+            coupling.answer_by(1e-3, [false, true]);
+            coupling.advance(step as f64 * 1e-3).unwrap_or([f64::INFINITY; 2])
+        };
+        let [_, end] = apart(&(1..=50).map(point).collect::<Vec<_>>(), &exact);
+        end
+    };
+    within("as it is", run([0.0, 1.0]), 1e-5);
+    let wrong = [run([0.0, 0.0]), run([1.0, 1.0])];
+    assert!(wrong.iter().all(|off| *off > 1e-2), "{wrong:?}");
 }
 
 /// Where a script sets a force at each point, what is learnt makes no run worse: errors over those of held forces, at most.
@@ -636,7 +741,7 @@ fn exact_two_rotors_on_a_torsion_spring() {
         let mut rotors: [Named; 2] = std::array::from_fn(|n| {
             Named::started(&format!(
                 "[rotor]\nm = 10.0\nJa = {:?}\nJt = {:?}\n[solver]\nrelative_tolerance = 1e-9\n[start]\nomega.x = 100.0\nphi = {:?}\n\
-                 [effects.drive]\n{given}[effects.extrapolation]\norder = {degree}\nlag = {lag:?}\n",
+                 [effects.drive]\nlag = {lag:?}\n{given}[effects.extrapolation]\norder = {degree}\n",
                 inertias[n], inertias[n], phis[n]
             ))
         });

@@ -91,7 +91,7 @@ impl Linear {
         let padded = |matrix: Square| matrix.fixed_resize::<LINEAR, LINEAR>(0.0);
         let mut answered = [SMatrix::zeros(); LAGS];
         answered[lag] = padded(self.answered);
-        Coupled { held: padded(self.open), answered }.growth(step, order, lag as f64, LEAST_GROWTH) > 0.0
+        Coupled { held: padded(self.open), answered }.growth(step, order, [lag as f64; _], LEAST_GROWTH) > 0.0
     }
 }
 

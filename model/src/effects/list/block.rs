@@ -71,7 +71,7 @@ macro_rules! hooks {
             fn begin(start: &Motion<f64>);
             fn switch(positive: &[bool], motion: &Motion<f64>);
             fn step_to(end: &Motion<f64>);
-            fn extrapolate(number: usize, signal: &mut Signal);
+            fn extrapolate(number: usize, lag: Option<f64>, signal: &mut Signal);
             fn law_mut() -> Option<&mut Law>;
         }
     };
