@@ -140,10 +140,6 @@ const BEYOND_DOUBT_LEARNT: f64 = 0.2;
 /// A law may drive the place so strongly at most: acceleration by way times the step squared, and by velocity times the step \[1].
 const DRIVES: f64 = 0.05;
 
-/// A film that damps so strongly, by velocity times the step, throws the place about where its loads are held \[1]: a fit that misses no more
-/// than these is better, and may drive as strongly.
-const STIFF: f64 = 0.5;
-
 impl Partner {
     /// The law to go on with.
     pub fn law(&self) -> &Law {
@@ -282,10 +278,8 @@ impl Partner {
         }
         let step = self.exchanges.t[0] - self.exchanges.t[1];
         let best = self.best(told.lags(exchange), |fit| {
-            let [driving, damping] = strengths(&fit.slopes, step).map(|strength| strength * exchange.yielding);
-            let (trusted, most) = if damping > STIFF { (1.0, STIFF) } else { (TRUSTED, DRIVES) };
-            let is_best = self.polynomials.iter().all(|missed| fit.missed < trusted * trusted * missed);
-            is_best && driving <= most && !looks_too_early(&fit.slopes, step)
+            let is_best = self.polynomials.iter().all(|missed| fit.missed < TRUSTED * TRUSTED * missed);
+            is_best && drives(&fit.slopes, step) * exchange.yielding <= DRIVES && !looks_too_early(&fit.slopes, step)
         });
         if let Some((lag, fit)) = best {
             return Some((lag, measures.in_units(&fit.slopes), 0));
@@ -539,8 +533,8 @@ fn looks_too_early(slopes: &Slopes, step: f64) -> bool {
     drives > TOO_EARLY * stiffness * step
 }
 
-/// How strongly a law drives the place in this step \[s], and damps it, at most, by measured slopes \[kg].
-fn strengths(slopes: &Slopes, step: f64) -> [f64; 2] {
+/// How strongly a law drives the place in this step \[s], at most, by measured slopes \[kg].
+fn drives(slopes: &Slopes, step: f64) -> f64 {
     let strongest = |from: usize| {
         let half = slopes.fixed_columns::<LOADS>(from);
         let symmetric = (half + half.transpose()) * 0.5;
@@ -550,6 +544,5 @@ fn strengths(slopes: &Slopes, step: f64) -> [f64; 2] {
         });
         bounds.fold(f64::NEG_INFINITY, f64::max)
     };
-    let damping = (0..LOADS).map(|n| -slopes[(n, LOADS + n)]).fold(0.0, f64::max);
-    [(strongest(0) * step * step).max(strongest(LOADS) * TIME * step), damping * TIME * step]
+    (strongest(0) * step * step).max(strongest(LOADS) * TIME * step)
 }
