@@ -36,6 +36,7 @@ macro_rules! lag {
     };
 }
 
+#[allow(unused_imports, reason = "of a list, neither port nor drive may be one")]
 pub(super) use lag;
 
 /// Loads go on as polynomials of degree 2.
