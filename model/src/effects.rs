@@ -151,7 +151,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Hears that a communication step begins at time `t` \[s].
     fn step_from(&mut self, _t: f64) {}
 
-    /// Extrapolates the input of this number over the step that begins; how many steps it is late, where that is given for it alone \[1].
+    /// Extrapolates the input with this index over the step that begins. `lag`: by how many steps it is late, where its own effect says so \[1].
     fn extrapolate(&mut self, _number: usize, _lag: Option<f64>, _signal: &mut Signal) {}
 
     /// Whether a value was set of its inputs at the communication point `t` \[s], which may be the answer of a partner.
@@ -179,7 +179,7 @@ pub trait Effect: Clone + Default + Send + 'static {
         0
     }
 
-    /// How many communication steps values of its inputs are late, or of all inputs if it extrapolates them, where that is given \[1].
+    /// By how many communication steps the values of its inputs are late, where that is given \[1]; of all inputs, if it extrapolates them.
     fn lag(&self) -> Option<f64> {
         None
     }

@@ -248,7 +248,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         });
     }
 
-    /// Each input that may be extrapolated; how many steps it is late, where that is given for its effect \[1].
+    /// Calls `act` with each input that may be extrapolated, and by how many steps it is late, where its effect says so \[1].
     fn for_each_extrapolated(&mut self, act: &mut dyn FnMut(Option<f64>, &mut Signal)) {
         self.for_each(|block| {
             if !block.kind().facts.tells_rates {

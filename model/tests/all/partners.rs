@@ -184,6 +184,7 @@ impl Pair {
         self.coupling_of([ports, ports], other)
     }
 
+    /// The same, where each port has lines of its own.
     fn coupling_of(&self, ports: [&str; 2], other: &str) -> Coupled {
         let port = |n: usize| format!("[[effects.port]]\nposition = {:?}\n{}", self.places[n], ports[n]);
         let [first, second] = [0, 1].map(port);
@@ -375,9 +376,7 @@ fn exact_a_port_is_as_late_as_it_says() {
 /// Bearings of which one answers in time and the other late, both known: errors over the last tenth.
 #[test]
 fn exact_one_port_may_be_late_and_the_other_not() {
-    let [first, second] = Linear::pair();
-    let bearings = [first, second];
-    let exact = way_of_turbo(1e-3);
+    let (bearings, exact) = (Linear::pair(), way_of_turbo(1e-3));
     let given = |n: usize, lag: f64| {
         let Linear { k, c, .. } = &bearings[n];
         format!("{}lag = {lag:?}\n", Linear::coefficients(k, c))
