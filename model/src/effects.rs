@@ -23,7 +23,7 @@ pub use facts::Facts;
 pub use list::{Block, Called, Effects, Switched, follows_all_inputs};
 pub use load::{Change, MOST_LOADS, Pose};
 pub use motion::Motion;
-pub use partner::{Exchange, Law, Loads};
+pub use partner::{Acting, Exchange, Law};
 pub use terminal::Terminal;
 pub use wrench::Wrench;
 
@@ -154,6 +154,19 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Extrapolates the input with this index over the step that begins. `lag`: by how many steps it is late, where its own effect says so \[1].
     fn extrapolate(&mut self, _number: usize, _lag: Option<f64>, _signal: &mut Signal) {}
 
+    /// Interpolates this input up to time `to` \[s], up to which all are known.
+    fn interpolate(&mut self, _number: usize, _lag: Option<f64>, _to: f64, _signal: &mut Signal) {}
+
+    /// The time \[s] up to which inputs are known that are so many communication steps late, where the motion is to be done again up to there.
+    fn known_until(&self, _lag: f64) -> Option<f64> {
+        None
+    }
+
+    /// Whether it was given how its partner answers.
+    fn knows_partner(&self) -> bool {
+        false
+    }
+
     /// Whether a value was set of its inputs at the communication point `t` \[s], which may be the answer of a partner.
     fn is_answered(&self, _t: f64) -> bool {
         false
@@ -170,8 +183,8 @@ pub trait Effect: Clone + Default + Send + 'static {
     }
 
     /// What acts of its inputs from the communication point `t` \[s] on, as coefficients of the powers of the time.
-    fn acting(&self, _t: f64) -> [Loads; 3] {
-        [Loads::zeros(); 3]
+    fn acting(&self, _t: f64) -> Acting {
+        Acting::default()
     }
 
     /// The degree of the polynomials as which inputs go on by it; 0 where they are held.

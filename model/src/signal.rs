@@ -3,7 +3,7 @@
 use crate::scalar::Scalar;
 use crate::stored::{Damaged, Stored, Walk, choice, stored};
 
-/// An input as a polynomial of degree 2 in time, about the communication point where it was last set.
+/// An input as a polynomial of degree 3 in time, about the communication point where it was last set.
 ///
 /// What is sent at one communication point belongs together: a value and derivatives, in any order. A value alone is
 /// held. The polynomial stays in force until the input is set again.
@@ -17,6 +17,8 @@ pub struct Signal {
     slope: f64,
     /// Its second derivative [unit/s²].
     curvature: f64,
+    /// Its third derivative [unit/s³].
+    third: f64,
     /// The direction in which derivatives are asked for [unit].
     seed: f64,
     /// What was said of it last, and when \[s].
@@ -24,7 +26,7 @@ pub struct Signal {
     told: f64,
 }
 
-stored!(Signal { origin, value, slope, curvature, seed, source, told });
+stored!(Signal { origin, value, slope, curvature, third, seed, source, told });
 
 /// What was said of a signal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,25 +46,38 @@ impl Stored for Source {
     }
 }
 
-/// A parabola goes through so many values.
-pub const NODES: usize = 3;
+/// A cubic goes through so many values.
+pub const NODES: usize = 4;
 
-/// The polynomial of degree 0, 1 or 2 through these values at these times \[s], the latest first: by how much it is at `t` \[s] more than the latest
-/// value, and its coefficients of powers 1 and 2 of the time from there on.
-pub fn goes_on(t: f64, [t0, t1, t2]: [f64; NODES], values: [f64; NODES], degree: usize) -> [f64; NODES] {
+/// The polynomial of degree 0 to 3 through these values at these times \[s], the latest first: by how much it is at `t` \[s] more than the latest
+/// value, and its coefficients of powers 1 to 3 of the time from there on.
+pub fn goes_on(t: f64, times: [f64; NODES], values: [f64; NODES], degree: usize) -> [f64; NODES] {
+    let [t0, t1, t2, t3] = times;
     let ahead = t - t0;
     // Before the first point nothing is known of an input but its value.
     let over = |rise: f64, run: f64| if run > 0.0 { rise / run } else { 0.0 };
-    let slope = |n: usize, from: f64, to: f64| over(values[n] - values[n + 1], to - from);
-    // eq. 67: P(t) = u₀ + [u₀u₁](t − t₀) + [u₀u₁u₂](t − t₀)(t − t₁)
-    let first = if degree > 0 { slope(0, t1, t0) } else { 0.0 };
-    let second = if degree > 1 { over(first - slope(1, t2, t1), t0 - t2) } else { 0.0 };
+    let slope = |n: usize| over(values[n] - values[n + 1], times[n] - times[n + 1]);
+    // eq. 67: P(t) = u₀ + [u₀u₁](t − t₀) + [u₀u₁u₂](t − t₀)(t − t₁) + [u₀u₁u₂u₃](t − t₀)(t − t₁)(t − t₂)
+    let first = if degree > 0 { slope(0) } else { 0.0 };
+    let second = if degree > 1 { over(first - slope(1), t0 - t2) } else { 0.0 };
     let last_step = if degree > 1 { t0 - t1 } else { 0.0 };
-    [ahead * (first + second * (ahead + last_step)), first + second * (2.0 * ahead + last_step), second]
+    let parabola = [ahead * (first + second * (ahead + last_step)), first + second * (2.0 * ahead + last_step), second];
+    let [change, rate, bend] = parabola;
+    if degree < 3 {
+        return [change, rate, bend, 0.0];
+    }
+    let third = over(second - over(slope(1) - slope(2), t1 - t3), t0 - t3);
+    let (since, before) = (t - t1, t - t2);
+    [
+        change + third * ahead * since * before,
+        rate + third * (ahead * since + (ahead + since) * before),
+        bend + third * (ahead + since + before),
+        third,
+    ]
 }
 
 /// The highest derivative of an input that a host may send.
-pub const HIGHEST_DERIVATIVE: u32 = 2;
+pub const HIGHEST_DERIVATIVE: u32 = 3;
 
 impl Signal {
     /// A signal that holds this value.
@@ -74,8 +89,9 @@ impl Signal {
     #[inline(always)]
     pub fn at<S: Scalar>(&self, t: S) -> S {
         let s = t - S::constant(self.origin);
-        // eq. 31: u(t₀ + s) = u₀ + u₁ s + ½ u₂ s²
-        S::moving(self.value, self.seed) + s * (S::constant(self.slope) + s * S::constant(0.5 * self.curvature))
+        let bend = S::constant(0.5 * self.curvature) + s * S::constant(self.third * (1.0 / 6.0));
+        // eq. 31: u(t₀ + s) = u₀ + u₁ s + ½ u₂ s² + ⅙ u₃ s³
+        S::moving(self.value, self.seed) + s * (S::constant(self.slope) + s * bend)
     }
 
     /// Its coefficient of this power of the time from `t` \[s] on.
@@ -83,7 +99,8 @@ impl Signal {
         match power {
             0 => self.at(t),
             1 => self.rate_at(t),
-            2 => 0.5 * self.curvature,
+            2 => 0.5 * self.curvature_at(t),
+            3 => self.third * (1.0 / 6.0),
             _ => 0.0,
         }
     }
@@ -92,8 +109,9 @@ impl Signal {
     #[inline(always)]
     pub fn sum<S: Scalar>(&self, from: f64, t: S) -> S {
         let s = t - S::constant(from);
-        let further = s * (S::constant(0.5 * self.rate_at(from)) + s * S::constant(self.curvature / 6.0));
-        // eq. 31: ∫u dt = u s + ½ u₁ s² + ⅙ u₂ s³
+        let bend = S::constant(self.curvature_at(from) / 6.0) + s * S::constant(self.third / 24.0);
+        let further = s * (S::constant(0.5 * self.rate_at(from)) + s * bend);
+        // eq. 31: ∫u dt = u s + ½ u₁ s² + ⅙ u₂ s³ + u₃ s⁴/24
         (S::constant(self.at(from)) + further) * s
     }
 
@@ -101,14 +119,21 @@ impl Signal {
     #[inline(always)]
     pub fn gain<S: Scalar>(&self, from: f64, t: S) -> S {
         let s = t - S::constant(from);
-        // eq. 31: u₁ s + ½ u₂ s²
-        s * (S::constant(self.rate_at(from)) + s * S::constant(0.5 * self.curvature))
+        let bend = S::constant(0.5 * self.curvature_at(from)) + s * S::constant(self.third * (1.0 / 6.0));
+        // eq. 31: u₁ s + ½ u₂ s² + ⅙ u₃ s³
+        s * (S::constant(self.rate_at(from)) + s * bend)
     }
 
     /// Its rate at time `t` [unit/s].
     #[inline(always)]
     pub fn rate_at<S: Scalar>(&self, t: S) -> S {
-        S::constant(self.slope) + (t - S::constant(self.origin)) * S::constant(self.curvature)
+        let s = t - S::constant(self.origin);
+        S::constant(self.slope) + s * (S::constant(self.curvature) + s * S::constant(0.5 * self.third))
+    }
+
+    /// Its second derivative at time `t` \[s] [unit/s²].
+    fn curvature_at(&self, t: f64) -> f64 {
+        self.curvature + (t - self.origin) * self.third
     }
 
     /// When it was last set \[s].
@@ -124,7 +149,7 @@ impl Signal {
     /// Whether it has no derivatives: none were sent, or zeros.
     #[inline(always)]
     pub fn is_held(&self) -> bool {
-        self.slope == 0.0 && self.curvature == 0.0
+        self.slope == 0.0 && self.curvature == 0.0 && self.third == 0.0
     }
 
     /// Whether it is the same as another: both hold one value.
@@ -143,24 +168,24 @@ impl Signal {
         self.value = value;
     }
 
-    /// Sets its derivative of order 1 or 2 at the communication point `t` \[s].
+    /// Sets its derivative of order 1 to [`HIGHEST_DERIVATIVE`] at the communication point `t` \[s].
     pub fn set_derivative(&mut self, t: f64, order: u32, value: f64) {
         self.set_out_from(t);
         self.source = Source::Derivatives;
-        if order == 1 {
-            self.slope = value;
-        } else {
-            self.curvature = value;
-        }
+        *match order {
+            1 => &mut self.slope,
+            2 => &mut self.curvature,
+            _ => &mut self.third,
+        } = value;
     }
 
     /// Goes on from the communication point `t` \[s] at the rate that another signal says, unless it has derivatives that were sent no earlier.
     pub fn follow(&mut self, t: f64, rate: &Self) {
-        let (value, slope, curvature) = (self.at(t), rate.at(t), rate.rate_at(t));
-        let goes_on = self.rate_at::<f64>(t) == slope && self.curvature == curvature;
+        let (value, slope, curvature, third) = (self.at(t), rate.at(t), rate.rate_at(t), rate.curvature_at(t));
+        let goes_on = [self.rate_at(t), self.curvature_at(t), self.third] == [slope, curvature, third];
         let has_own = self.source == Source::Derivatives && !self.is_held() && self.told >= rate.told;
         if !goes_on && !has_own {
-            *self = Self { origin: t, value, slope, curvature, ..*self };
+            *self = Self { origin: t, value, slope, curvature, third, ..*self };
         }
     }
 
@@ -171,7 +196,7 @@ impl Signal {
 
     /// Its rate as a signal.
     pub fn rate(&self) -> Self {
-        Self { value: self.slope, slope: self.curvature, curvature: 0.0, seed: 0.0, ..*self }
+        Self { value: self.slope, slope: self.curvature, curvature: self.third, third: 0.0, seed: 0.0, ..*self }
     }
 
     /// What was set before the run counts from its start at `t` \[s].
@@ -189,9 +214,10 @@ impl Signal {
         self.told == t && self.source == Source::Derivatives
     }
 
-    /// Extrapolates it from the communication point `t` \[s] on: value, rate and second derivative there.
-    pub fn extrapolate(&mut self, t: f64, [value, slope, curvature]: [f64; 3]) {
-        *self = Self { origin: t, value, slope, curvature, source: Source::Extrapolated, told: t, ..*self };
+    /// Extrapolates it from the communication point `t` \[s] on: value, rate, second and third derivative there.
+    pub fn extrapolate(&mut self, t: f64, [value, slope, curvature, third]: [f64; 4]) {
+        let (source, told) = (Source::Extrapolated, t);
+        *self = Self { origin: t, value, slope, curvature, third, source, told, ..*self };
     }
 
     /// Derivatives are asked for in a direction that has this much more of this input.

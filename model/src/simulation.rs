@@ -80,6 +80,8 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
     is_set: bool,
     /// That the exchange with partners is wrong, once that was found.
     coupling: Option<Coupling>,
+    /// Where steps are done again with what inputs were in them: the run at the last time up to which that is known. One at most.
+    known: Vec<Integration<N>>,
     /// What the communication point shows, once somebody asked.
     instant: Option<Instant<N>>,
     scratch: Scratch,
@@ -87,16 +89,17 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
 
 impl<E: Clone, const N: usize> Clone for Simulation<E, N> {
     fn clone(&self) -> Self {
-        let &Self { integrator, ref parameters, run, ref partners, is_set, coupling, instant, scratch: _ } = self;
-        let (parameters, partners) = (parameters.clone(), partners.clone());
-        Self { integrator, parameters, run, partners, is_set, coupling, instant, scratch: Scratch::default() }
+        let &Self { integrator, ref parameters, run, ref partners, is_set, coupling, ref known, instant, scratch: _ } = self;
+        let (parameters, partners, known) = (parameters.clone(), partners.clone(), known.clone());
+        Self { integrator, parameters, run, partners, is_set, coupling, known, instant, scratch: Scratch::default() }
     }
 
     /// In place: by far the most of it is a run, which is else copied three times on its way.
     fn clone_from(&mut self, source: &Self) {
-        let Self { integrator, parameters, run, partners, is_set, coupling, instant, scratch: _ } = source;
+        let Self { integrator, parameters, run, partners, is_set, coupling, known, instant, scratch: _ } = source;
         self.parameters.clone_from(parameters);
         self.partners.clone_from(partners);
+        self.known.clone_from(known);
         (self.integrator, self.run, self.is_set) = (*integrator, *run, *is_set);
         (self.coupling, self.instant) = (*coupling, *instant);
     }
@@ -173,7 +176,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         self.change_input(place, 0, |signal, t| signal.set(t, value))
     }
 
-    /// Sets a derivative of an input, of order 1 or 2, at the communication point; false where there is no input.
+    /// Sets a derivative of an input, of order 1 to 3, at the communication point; false where there is no input.
     pub fn set_input_derivative(&mut self, place: Place, order: u32, value: f64) -> bool {
         self.change_input(place, order, |signal, t| signal.set_derivative(t, order, value))
     }
@@ -252,6 +255,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         self.parameters.effects = parameters.effects;
         self.partners = vec![Partner::default(); E::FACTS.partners];
         (self.coupling, self.instant) = (None, None);
+        self.known.clear();
+        self.known.reserve_exact(usize::from(self.parameters.effects.known_until().is_some()));
         Ok(())
     }
 
@@ -313,15 +318,76 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
                 self.show_partners_inputs();
             }
         }
-        let Some(Run::Method(integration)) = &mut self.run else {
-            panic!("no run of a method was started");
-        };
-        if !integration.advance_within_step(t) {
-            integration.advance(&mut self.parameters.effects, &mut self.scratch, t, looks)?;
+        match self.parameters.effects.known_until() {
+            Some(known) => self.advance_from(known, t, looks)?,
+            None => self.advance_to(t, looks)?,
         }
         if E::FACTS.imposes && self.parameters.effects.imposed::<f64>(t).is_some() {
             self.tell_of_step();
         }
+        Ok(())
+    }
+
+    /// Moves the communication point to time `t` \[s] under the present inputs.
+    fn advance_to<L: Looks>(&mut self, t: f64, looks: &mut L) -> Result<(), Fault> {
+        let Some(Run::Method(integration)) = &mut self.run else {
+            panic!("no run of a method was started");
+        };
+        if integration.advance_within_step(t) {
+            return Ok(());
+        }
+        integration.advance(&mut self.parameters.effects, &mut self.scratch, t, looks)
+    }
+
+    /// [`Simulation::advance_to`] from the time up to which inputs are `known` \[s]: what comes before is done again with what they were.
+    fn advance_from<L: Looks>(&mut self, known: f64, t: f64, looks: &mut L) -> Result<(), Fault> {
+        self.hold();
+        let (Some(Run::Method(before)), effects) = (self.run, self.parameters.effects.clone()) else {
+            panic!("no run of a method was started");
+        };
+        let outcome = self.redo(known).and_then(|()| self.advance_to(t, looks));
+        if let (Err(_), Some(Run::Method(integration))) = (&outcome, &mut self.run)
+            && integration.time() < before.time()
+        {
+            integration.take_back(&before, &mut self.parameters.effects);
+            self.parameters.effects = effects;
+        }
+        outcome
+    }
+
+    /// Goes back to the run up to which inputs were known before, and on from there to where they are `known` now \[s]. After that they are
+    /// again what they are.
+    fn redo(&mut self, known: f64) -> Result<(), Fault> {
+        let Self { run: Some(Run::Method(integration)), parameters, scratch, partners, .. } = self else { return Ok(()) };
+        if self.known.is_empty() {
+            self.known.push(*integration);
+        }
+        let from = &mut self.known[0];
+        let effects = &mut parameters.effects;
+        let extrapolated = effects.clone();
+        let (mut interpolated, mut number) = (extrapolated.clone(), 0);
+        interpolated.for_each_extrapolated(&mut |lag, signal| {
+            effects.interpolate(number, lag, known, signal);
+            number += 1;
+        });
+        effects.take_extrapolated(&interpolated);
+        integration.take_back(from, effects);
+        if from.time() < known {
+            integration.advance(effects, scratch, known, &mut ())?;
+            integration.hold(effects);
+            *from = *integration;
+        }
+        if E::FACTS.partners > 0 {
+            let Instant { reading, .. } = integration.read(effects);
+            let told = Told::by(effects, known - from.time());
+            effects.for_each_partner(|number, block| {
+                if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &[])).filter(|_| block.is_active()) {
+                    partners[number].redo(known, &exchange, &block.acting(known), &told.to(block));
+                }
+            });
+            effects.set_laws(|number| partners[number].law());
+        }
+        effects.take_extrapolated(&extrapolated);
         Ok(())
     }
 
@@ -404,7 +470,11 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             exchange.and_then(|exchange| partners[number].answers(&exchange, &told.to(block)))
         };
         let (bodies, t, state) = integration.reached();
-        let found = Coupling::of(&bodies.under(effects), t, state, answers, period, is_fed);
+        // Of steps that are done again, growth is not known.
+        let found = match told.redone {
+            true => Coupling { t, step, ..Coupling::default() },
+            false => Coupling::of(&bodies.under(effects), t, state, answers, period, is_fed),
+        };
         let wrong = partners.iter().map(Partner::wrong).fold(0.0, f64::max);
         let is_wrong = found.growth > 0.0 || partners.iter().any(Partner::is_wrong);
         self.coupling = is_wrong.then_some(Coupling { wrong, ..found });
@@ -744,7 +814,7 @@ impl<E: Effects, const N: usize> Hosted<'_, E, N> {
 
 impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
     fn walk(&mut self, walk: &mut impl Walk) -> Result<(), Damaged> {
-        let Self { integrator, parameters, run, partners, is_set, coupling, instant, scratch: _ } = self;
+        let Self { integrator, parameters, run, partners, is_set, coupling, known, instant, scratch: _ } = self;
         choice(integrator, &[Integrator::Method, Integrator::Host], walk)?;
         parameters.walk(walk)?;
         partners.resize(E::FACTS.partners, Partner::default());
@@ -752,6 +822,10 @@ impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
         parameters.effects.set_laws(|number| partners[number].law());
         is_set.walk(walk)?;
         coupling.walk(walk)?;
+        let mut redoes = !known.is_empty();
+        redoes.walk(walk)?;
+        known.resize(usize::from(redoes), Integration::blank());
+        known.iter_mut().try_for_each(|known| known.walk(walk))?;
         // What it shows follows from the rest.
         *instant = None;
         let mut kind = match run {
@@ -771,7 +845,7 @@ impl<E: Effects, const N: usize> Stored for Simulation<E, N> {
             None => return Ok(()),
             Some(Run::Method(integration)) => {
                 integration.walk(walk)?;
-                (Integrator::Method, integration.is_of(parameters))
+                (Integrator::Method, known.iter().chain([&*integration]).all(|run| run.is_of(parameters)))
             }
             Some(Run::Exchange(exchange)) => {
                 exchange.walk(walk)?;

@@ -591,7 +591,7 @@ impl<E: Effects> Parameters<E> {
     }
 
     /// Of the rules that join effects, those that are broken.
-    fn broken_rules_of_all(&self) -> [Option<Invalid>; 2] {
+    fn broken_rules_of_all(&self) -> [Option<Invalid>; 3] {
         let solver = &self.setup.solver;
         let is_symplectic = solver.method_in_force() == numbers::SYMPLECTIC;
         let imposes = E::FACTS.imposes && self.effects.imposed::<f64>(0.0).is_some();
@@ -599,7 +599,7 @@ impl<E: Effects> Parameters<E> {
             let bound = "another method: drifts and kicks do not keep an imposed speed";
             Invalid::out_of_bound(solver.method_variable(), "symplectic", bound)
         });
-        [method, self.shape().check().err()]
+        [method, self.effects.excludes_redo(), self.shape().check().err()]
     }
 
     /// The parameters and inputs to blame for an energy at the start that overflows: with moderate values in their place it is

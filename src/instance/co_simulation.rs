@@ -69,7 +69,7 @@ impl Instance {
         self.memory.simulation.time().unwrap_or(self.memory.experiment.start)
     }
 
-    /// Sends derivatives of inputs, of order 1 or 2, at the communication point.
+    /// Sends derivatives of inputs, of order 1 to 3, at the communication point.
     pub fn set_input_derivatives(&mut self, references: &[u32], orders: &[i32], values: &[f64]) -> Reply {
         for ((reference, order), value) in references.iter().zip(orders).zip(values) {
             let name = || shown(*reference);
@@ -77,7 +77,7 @@ impl Instance {
                 return Err(Failure::Error(format!("{} is not an input", name())));
             }
             if !(1..=HIGHEST_DERIVATIVE as i32).contains(order) {
-                return Err(Failure::Error(format!("order = {order} of {} must be 1 or 2", name())));
+                return Err(Failure::Error(format!("order = {order} of {} must be from 1 to {HIGHEST_DERIVATIVE}", name())));
             }
             if !value.is_finite() {
                 let name = name();

@@ -1,7 +1,7 @@
 //! `drive`: a torque from outside, and the angle that goes with it.
 
 use super::partner::{LOADS, Loads, Shown, Slopes, lag};
-use super::{Act, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
+use super::{Act, Acting, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
@@ -65,10 +65,6 @@ impl Drive {
         // φ + ω_φ s
         motion.phi() + motion.omega_phi() * S::constant(self.law.ahead)
     }
-
-    fn is_known(&self) -> bool {
-        self.k != 0.0 || self.d != 0.0
-    }
 }
 
 impl Effect for Drive {
@@ -129,11 +125,15 @@ impl Effect for Drive {
     const FACTS: Facts = Facts { partners: 1, ..Facts::USUAL };
 
     fn is_analytic(&self) -> bool {
-        !self.is_known()
+        !self.knows_partner()
     }
 
     fn follows_speed(&self) -> bool {
-        self.is_known()
+        self.knows_partner()
+    }
+
+    fn knows_partner(&self) -> bool {
+        self.k != 0.0 || self.d != 0.0
     }
 
     fn is_answered(&self, t: f64) -> bool {
@@ -145,12 +145,12 @@ impl Effect for Drive {
         (at[0], at[LOADS], loads[0]) = (motion.phi(), motion.omega_phi(), self.tau.at(motion.t()));
         (slopes[(0, 0)], slopes[(0, LOADS)]) = (-self.k, -self.d);
         let [yielding, gyration] = motion.yielding(0.0);
-        let given = self.is_known().then_some(slopes);
+        let given = self.knows_partner().then_some(slopes);
         Some(Exchange { at, loads, given, turns_along: true, learns: false, ahead: self.ahead, yielding, gyration })
     }
 
-    fn acting(&self, t: f64) -> [Loads; 3] {
-        [0, 1, 2].map(|power| {
+    fn acting(&self, t: f64) -> Acting {
+        [0, 1, 2, 3].map(|power| {
             let mut loads = Loads::zeros();
             loads[0] = self.tau.coefficient(t, power);
             loads
@@ -166,6 +166,6 @@ impl Effect for Drive {
     }
 
     fn no_limit(&self) -> Option<&'static str> {
-        (!self.tau.is_zero() || self.is_known()).then_some(no_limit!("drive.tau, which a joint passes on,"))
+        (!self.tau.is_zero() || self.knows_partner()).then_some(no_limit!("drive.tau, which a joint passes on,"))
     }
 }

@@ -13,6 +13,8 @@ pub struct Extrapolation {
     pub order: i32,
     /// How many communication steps the values are late \[1].
     pub lag: f64,
+    /// Whether the last step is done again with what inputs were in it, once that is known.
+    pub redo: bool,
     /// How many communication points are known; those points, the latest first; the values of each input there.
     memory: [f64; 1 + POINTS + MOST * NODES],
 }
@@ -25,7 +27,7 @@ const MOST: usize = 32;
 
 impl Default for Extrapolation {
     fn default() -> Self {
-        Self { order: 0, lag: 0.0, memory: [0.0; _] }
+        Self { order: 0, lag: 0.0, redo: false, memory: [0.0; _] }
     }
 }
 
@@ -45,15 +47,27 @@ impl Extrapolation {
 
     /// The communication point so many steps back \[s], interpolated between two; the first one from there on.
     fn point(&self, back: f64) -> f64 {
-        let back = back.min((self.known() - 1) as f64);
+        let back = back.min(self.known().saturating_sub(1) as f64);
         let n = back as usize;
         let (later, part) = (self.points()[n], back - n as f64);
         // No point is read that is not known.
         if part == 0.0 { later } else { later + part * (self.points()[n + 1] - later) }
     }
 
-    fn values(&mut self, number: usize) -> &mut [f64] {
-        &mut self.memory[1 + POINTS + number * NODES..][..NODES]
+    fn values(&mut self, number: usize) -> &mut [f64; NODES] {
+        let values = self.memory[1 + POINTS + number * NODES..].first_chunk_mut();
+        values.expect("of each input so many are remembered")
+    }
+
+    /// The polynomial through the last values of an input that are `lag` steps late, from the one of this number on: value and derivatives at
+    /// `t` \[s].
+    fn through(&mut self, number: usize, lag: f64, first: usize, degree: usize, t: f64) -> [f64; NODES] {
+        let node = |n: usize| (first + n).min(NODES - 1);
+        let times = std::array::from_fn(|n| self.point(lag + node(n) as f64));
+        let values = *self.values(number);
+        let values = std::array::from_fn(|n| values[node(n)]);
+        let [change, slope, bend, third] = goes_on(t, times, values, degree);
+        [values[0] + change, slope, 2.0 * bend, 6.0 * third]
     }
 }
 
@@ -89,6 +103,16 @@ impl Effect for Extrapolation {
             Bound::Within(0.0, LATEST as f64),
             "how many communication steps the values of inputs are late"
         ),
+        Row {
+            meta: Meta {
+                name: "redo",
+                description: "whether each step is done again with what inputs were in it, once that is known",
+                unit: &ONE,
+                kind: Kind::Boolean,
+                role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
+            },
+            access: Access::Parameter { get: |e| f64::from(e.redo), set: |e, value| e.redo = value != 0.0 },
+        },
     ];
 
     const FACTS: Facts =
@@ -125,12 +149,23 @@ impl Effect for Extrapolation {
         }
         let degree = (self.order as usize).min(self.known() - 1);
         // What is late belongs to the point so many steps back.
-        let lag = lag.unwrap_or(self.lag);
-        let times = [0.0, 1.0, 2.0].map(|n| self.point(n + lag));
-        let values = self.values(number);
-        let values = [values[0], values[1], values[2]];
-        let [change, slope, bend] = goes_on(t, times, values, degree);
-        signal.extrapolate(t, [values[0] + change, slope, 2.0 * bend]);
+        let goes_on = self.through(number, lag.unwrap_or(self.lag), 0, degree, t);
+        signal.extrapolate(t, goes_on);
+    }
+
+    fn interpolate(&mut self, number: usize, lag: Option<f64>, to: f64, signal: &mut Signal) {
+        let (lag, degree) = (lag.unwrap_or(self.lag), self.order as usize + 1);
+        let at = |n: usize| self.point(lag + n as f64);
+        // The latest value is of that time, or before others.
+        let first = (0..NODES - degree).rev().find(|n| at(*n) >= to).unwrap_or_default();
+        let is_apart = |n: &usize| at(first + n) > at(first + n + 1);
+        let degree = (0..degree).take_while(is_apart).count();
+        let goes_on = self.through(number, lag, first, degree, to);
+        signal.extrapolate(to, goes_on);
+    }
+
+    fn known_until(&self, lag: f64) -> Option<f64> {
+        self.redo.then(|| self.point(lag))
     }
 
     fn order(&self) -> usize {

@@ -218,6 +218,31 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         });
     }
 
+    /// Interpolate the input of this number up to time `to` \[s], up to which all are known.
+    fn interpolate(&mut self, number: usize, lag: Option<f64>, to: f64, signal: &mut Signal) {
+        self.for_each(|block| {
+            if block.is_active() {
+                block.interpolate(number, lag, to, signal);
+            }
+        });
+    }
+
+    /// The time \[s] up to which all inputs are known, where the motion is to be done again up to there.
+    fn known_until(&self) -> Option<f64> {
+        let of_all = self.lag().unwrap_or_default();
+        let have_inputs = self.active().filter(|block| block.kind().facts.extrapolated > 0);
+        let latest = have_inputs.map(|block| block.lag().unwrap_or(of_all)).fold(0.0, f64::max);
+        self.active().find_map(|block| block.known_until(latest))
+    }
+
+    /// Steps that are to be done again, beside an effect whose part in them is not known any more.
+    fn excludes_redo(&self) -> Option<Invalid> {
+        let minds = |block: &&dyn Block| block.knows_partner() || block.kind().facts.imposes;
+        let block = self.active().find(minds).filter(|_| self.known_until().is_some())?;
+        let whose = if block.knows_partner() { "the coefficients of the partner of " } else { "" };
+        Some(Invalid::excluded("extrapolation.redo", &format!("{whose}{}", block.kind().switch_name())))
+    }
+
     /// How many communication steps values of all inputs are late, where that is given \[1].
     fn lag(&self) -> Option<f64> {
         self.active().filter(|block| block.kind().facts.extrapolates).find_map(|block| block.lag())

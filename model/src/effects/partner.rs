@@ -1,6 +1,7 @@
 //! How another model answers the motion of the place where it is coupled: stiffness and damping, given or learnt.
 
 use crate::scalar::Scalar;
+use crate::signal::NODES;
 use crate::stored::stored;
 use nalgebra::{SMatrix, SVector};
 
@@ -39,8 +40,11 @@ macro_rules! lag {
 #[allow(unused_imports, reason = "of a list, neither port nor drive may be one")]
 pub(super) use lag;
 
-/// Loads go on as polynomials of degree 2.
+/// Loads go on by laws as polynomials of degree 2.
 pub const POWERS: usize = 3;
+
+/// What inputs are from some time on, as coefficients of the powers of the time since.
+pub type Acting = [Loads; NODES];
 
 /// The loads of a partner beside its last answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

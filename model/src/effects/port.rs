@@ -1,7 +1,7 @@
 //! `port`: force and moment from outside at a station, and the motion that goes with them.
 
 use super::partner::{LOADS, Loads, Shown, Slopes, lag};
-use super::{Act, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
+use super::{Act, Acting, Effect, Exchange, Facts, Law, Motion, Row, Terminal, Wrench};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{
@@ -92,7 +92,7 @@ impl Port {
 
     /// Slopes of the loads that the coefficients of the partner make.
     fn slopes(&self) -> Option<Slopes> {
-        if self.k == [0.0; 6] && self.c == [0.0; 6] {
+        if !self.knows_partner() {
             return None;
         }
         let mut slopes = Slopes::zeros();
@@ -207,6 +207,10 @@ impl Effect for Port {
 
     const FACTS: Facts = Facts { shows_velocity: true, partners: 1, ..Facts::USUAL };
 
+    fn knows_partner(&self) -> bool {
+        [self.k, self.c] != [[0.0; 6]; 2]
+    }
+
     fn is_answered(&self, t: f64) -> bool {
         // A master that sends derivatives knows how its loads go on.
         let mut signals = self.f.iter().chain(&self.m);
@@ -229,9 +233,9 @@ impl Effect for Port {
         })
     }
 
-    fn acting(&self, t: f64) -> [Loads; 3] {
+    fn acting(&self, t: f64) -> Acting {
         let [force, moment] = [&self.f, &self.m];
-        [0, 1, 2].map(|power| {
+        [0, 1, 2, 3].map(|power| {
             let of = |signal: &Signal| signal.coefficient(t, power);
             Loads::new(of(&force.x), of(&force.y), of(&force.z), of(&moment.y), of(&moment.z))
         })

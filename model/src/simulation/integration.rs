@@ -445,6 +445,15 @@ impl<const N: usize> Integration<N> {
         Ledger::new(&motion, &y[layout.own()], effects, layout.read_work(y), self.total_at_start)
     }
 
+    /// Goes back to what it was `before`, where an input was set; what it has spent since is spent.
+    pub(super) fn take_back<E: Effects>(&mut self, before: &Self, effects: &mut E) {
+        let mut method = self.method;
+        method.take_back(before.method);
+        *self = Self { method, tilted: self.tilted || before.tilted, ..*before };
+        let y = self.method.state();
+        self.events.tell(effects, &self.bodies.under(effects).motion(self.method.time(), y), y);
+    }
+
     /// Where inputs were set, goes on from the communication point under these effects.
     fn go_back<E: Effects>(&mut self, effects: &mut E) -> Result<(), Fault> {
         let Some(held) = self.held.take() else { return Ok(()) };

@@ -7,12 +7,12 @@
 mod work;
 
 use crate::effects::partner::{LOADS, Loads, POWERS, SHOWN, Shown, Slopes};
-use crate::effects::{Block, Effects, Exchange, Law};
-use crate::signal::goes_on;
+use crate::effects::{Acting, Block, Effects, Exchange, Law};
+use crate::signal::{NODES, goes_on};
 use crate::stored::{Damaged, Stored, Walk, stored};
 use nalgebra::{SMatrix, SVector};
 use std::ops::Range;
-use work::{Path, Work};
+use work::{End, Path, Work};
 
 /// A partner: what it was shown, what it answered, and what is made of that.
 #[derive(Clone, Copy, Debug, Default)]
@@ -131,7 +131,8 @@ const LARGE: f64 = 0.15;
 const GAINED: f64 = 4.0;
 const FED: f64 = 0.1;
 
-/// Error that proves a wrong coupling by itself \[1]: in a short run, after [`STEADY`] answers, and under a learnt law.
+/// Error that proves a wrong coupling by itself \[1]: in a short run, after [`STEADY`] answers, and under a learnt law or where steps are done
+/// again.
 const BEYOND_DOUBT: f64 = 0.7;
 const STEADY: u32 = 64;
 const BEYOND_DOUBT_STEADILY: f64 = 0.4;
@@ -192,7 +193,7 @@ impl Partner {
             }
         }
         let mut error = self.law.error;
-        if known > 1 {
+        if known > 1 && !told.redone {
             // A law is the answer to what its own lag says.
             let of_law = || self.best(lags.clone(), |_| true).map(|(lag, _)| lag).filter(|_| self.law.is_on);
             let lag = told.lag().or_else(of_law).or_else(|| self.late_by(lags.clone())).unwrap_or_default();
@@ -211,13 +212,29 @@ impl Partner {
         self.law = if law.is_on || ahead != 0.0 { Law { since: t, at: exchange.at, ahead, ..law } } else { law };
         self.law.error = error;
         self.is_given = given.is_some();
-        self.work.begin([exchange.loads, Loads::zeros(), Loads::zeros()]);
+        self.work.begin([exchange.loads, Loads::zeros(), Loads::zeros(), Loads::zeros()]);
     }
 
     /// What the inputs are from `t` \[s] on, where they are extrapolated, as coefficients of the powers of the time.
-    pub fn begin(&mut self, t: f64, acting: impl FnOnce() -> [Loads; POWERS]) {
+    pub fn begin(&mut self, t: f64, acting: impl FnOnce() -> Acting) {
         if self.exchanges.known > 0 && self.exchanges.t[0] == t {
             self.work.begin(acting());
+        }
+    }
+
+    /// Hears that the step up to time `t` \[s] was done again, under these inputs, and what it shows there.
+    pub fn redo(&mut self, t: f64, exchange: &Exchange, acting: &Acting, told: &Told) {
+        let (measures, [held, ..]) = (Measures::of(exchange), self.polynomials);
+        let lag = told.lag().or_else(|| self.late_by(told.lags(exchange))).unwrap_or_default();
+        let best = self.best(lag..LAGS.min(lag + 1), |fit| fit.missed < TRUSTED * TRUSTED * held);
+        let slopes = best.map_or(Slopes::zeros(), |(_, fit)| measures.in_units(&fit.slopes));
+        // The last answer, had the partner been shown this: f + J (x − x_s)
+        let change = slopes * (exchange.at - self.exchanges.shown[lag]);
+        let answer = self.exchanges.loads[0].component_div(&measures.loads) + change;
+        let [excess, exchanged] = self.work.redo(End { t, at: exchange.at, answer }, acting);
+        self.law.error += excess;
+        if !exchange.turns_along {
+            self.work.sum(excess, exchanged);
         }
     }
 
@@ -254,7 +271,7 @@ impl Partner {
     /// Whether that alone says that the coupling is wrong.
     pub fn is_wrong(&self) -> bool {
         let beyond_doubt = match self {
-            _ if self.has_learnt() && !self.follows_polynomial() => BEYOND_DOUBT_LEARNT,
+            _ if self.work.is_redone() || self.has_learnt() && !self.follows_polynomial() => BEYOND_DOUBT_LEARNT,
             _ if self.answered >= STEADY => BEYOND_DOUBT_STEADILY,
             _ => BEYOND_DOUBT,
         };
@@ -273,7 +290,7 @@ impl Partner {
     /// What was learnt: how many steps answers are late, slopes, and as a polynomial of which degree what these leave goes on.
     fn learnt(&self, told: &Told, exchange: &Exchange, measures: &Measures) -> Option<(usize, Slopes, usize)> {
         // Where inputs are extrapolated, somebody has decided how loads go on.
-        if !exchange.learns || told.order > 0 || self.exchanges.known < ENOUGH {
+        if !exchange.learns || told.order > 0 || told.redone || self.exchanges.known < ENOUGH {
             return None;
         }
         let step = self.exchanges.t[0] - self.exchanges.t[1];
@@ -339,6 +356,8 @@ pub(super) struct Told {
     lag: Option<f64>,
     /// As polynomials of which degree they go on.
     order: usize,
+    /// Whether steps are done again with what they were.
+    pub redone: bool,
     /// The communication step that begins \[s].
     step: f64,
 }
@@ -346,7 +365,7 @@ pub(super) struct Told {
 impl Told {
     /// By these effects, at the start of this communication step \[s].
     pub fn by(effects: &impl Effects, step: f64) -> Self {
-        Self { lag: effects.lag(), order: effects.order(), step }
+        Self { lag: effects.lag(), order: effects.order(), redone: effects.known_until().is_some(), step }
     }
 
     /// What holds for this one, which may have a lag of its own.
@@ -417,8 +436,8 @@ impl Exchanges {
     /// time from the last exchange on.
     fn rest(&self, degree: usize, late: usize, left: impl Fn(usize) -> Loads) -> [Loads; POWERS] {
         let back = |n: usize| n.min(degree);
-        let times = [0, 1, 2].map(|n| self.t[back(n) + late]);
-        let left = [0, 1, 2].map(|n| left(back(n)));
+        let times = std::array::from_fn(|n| self.t[back(n) + late]);
+        let left: [Loads; NODES] = std::array::from_fn(|n| left(back(n)));
         let mut rest = [Loads::zeros(); POWERS];
         for load in 0..LOADS {
             let powers = goes_on(self.t[0], times, left.map(|left| left[load]), degree);

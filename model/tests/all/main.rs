@@ -45,6 +45,7 @@ mod periodic;
 mod port;
 mod random_scenes;
 mod rattle;
+mod redo;
 mod rotation;
 mod rub;
 mod scene_errors;

@@ -2,7 +2,7 @@
 
 use super::{InputSet, Motion, Tangent};
 use crate::body::Shape;
-use crate::effects::{Doubt, Exchange, Facts, Law, Loads, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
+use crate::effects::{Acting, Doubt, Exchange, Facts, Law, MOST_DOUBTS, MOST_OWN, block_name, full_name, switch_name};
 use crate::error::Invalid;
 use crate::signal::Signal;
 use crate::state::Rates;
@@ -64,14 +64,17 @@ macro_rules! hooks {
             fn own_nominal() -> [f64; MOST_OWN];
             fn is_answered(t: f64) -> bool;
             fn exchange(motion: &Motion<f64>) -> Option<Exchange>;
-            fn acting(t: f64) -> [Loads; 3];
+            fn acting(t: f64) -> Acting;
             fn order() -> usize;
             fn lag() -> Option<f64>;
+            fn known_until(lag: f64) -> Option<f64>;
+            fn knows_partner() -> bool;
             mut:
             fn begin(start: &Motion<f64>);
             fn switch(positive: &[bool], motion: &Motion<f64>);
             fn step_to(end: &Motion<f64>);
             fn extrapolate(number: usize, lag: Option<f64>, signal: &mut Signal);
+            fn interpolate(number: usize, lag: Option<f64>, to: f64, signal: &mut Signal);
             fn law_mut() -> Option<&mut Law>;
         }
     };

@@ -1,7 +1,7 @@
 //! An entry of a list of effects, with or without a switch, and its place among the variables.
 
 use super::super::{
-    Doubt, Effect, Entry, Exchange, Facts, InputSet, Law, Loads, MOST_DOUBTS, MOST_OWN, Motion, Row, rows,
+    Acting, Doubt, Effect, Entry, Exchange, Facts, InputSet, Law, MOST_DOUBTS, MOST_OWN, Motion, Row, rows,
 };
 use super::block::Hooks;
 use super::{Block, Kind, Tangent};

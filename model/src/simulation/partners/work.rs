@@ -1,8 +1,8 @@
 //! What a coupling does wrong: the work of the loads that acted over a communication step, beside that of the partner's answers.
 
 use super::{Exchanges, POINTS};
-use crate::effects::Law;
-use crate::effects::partner::{LOADS, Loads, POWERS, Shown};
+use crate::effects::partner::{LOADS, Loads, Shown};
+use crate::effects::{Acting, Law};
 use crate::stored::stored;
 use nalgebra::SVector;
 
@@ -10,7 +10,7 @@ use nalgebra::SVector;
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     /// What acts from the last exchange on, as coefficients of the powers of the time since then: inputs alone, without a law.
-    acting: [Loads; POWERS],
+    acting: Acting,
     /// What loads did over the last communication steps, the latest first \[J].
     done: SVector<f64, POINTS>,
     /// By how much that was more than the answers would have done, and how much went through \[J].
@@ -20,9 +20,24 @@ pub(super) struct Work {
     steps: u32,
     /// Whether a law was in force.
     has_law: bool,
+    /// Where the last step ended that was done again.
+    redone: Option<End>,
 }
 
-stored!(Work { acting, done, excess, exchanged, steps, has_law });
+stored!(Work { acting, done, excess, exchanged, steps, has_law, redone });
+
+/// Where a step ends that was done again.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct End {
+    /// \[s]
+    pub t: f64,
+    /// Place and motion.
+    pub at: Shown,
+    /// What the partner answers to that.
+    pub answer: Loads,
+}
+
+stored!(End { t, at, answer });
 
 /// A step counts by this part of the one after it \[1].
 const FADES: f64 = 0.99;
@@ -36,13 +51,13 @@ const NODES: [[f64; 2]; 3] =
 
 impl Work {
     /// What the inputs are from the last exchange on.
-    pub fn begin(&mut self, acting: [Loads; POWERS]) {
+    pub fn begin(&mut self, acting: Acting) {
         self.acting = acting;
     }
 
     /// Of a partner that is another from here on.
     pub fn forget(&mut self) {
-        *self = Self { acting: self.acting, done: self.done, ..Self::default() };
+        *self = Self { acting: self.acting, done: self.done, redone: self.redone, ..Self::default() };
     }
 
     /// A law is in force: what held loads did before the first one is past.
@@ -57,14 +72,11 @@ impl Work {
     /// answer what was shown `lag` steps before, with what the partner was `late` steps before. Returns by how much loads did more than the
     /// answers would have done in the last step of which that is known, and how much went through \[J].
     pub fn count(&mut self, exchanges: &Exchanges, law: &Law, loads: &Loads, [lag, late]: [usize; 2]) -> [f64; 2] {
-        let over = |from: usize, power: &dyn Fn(f64, &Path) -> f64| {
-            let path = exchanges.path(from);
-            NODES.iter().map(|[part, weight]| weight * path.step * power(*part, &path)).sum::<f64>()
-        };
+        let over = |from: usize, power: &dyn Fn(f64, &Path) -> f64| exchanges.path(from).work(power);
         // eq. 126: ∫ f·v dt, f = Σ f_n s^n + J (x − x_s)
         let acting = |part: f64, path: &Path| {
             let s = part * path.step;
-            let mut force = self.acting[0] + (self.acting[1] + self.acting[2] * s) * s;
+            let mut force = after(&self.acting, s);
             if law.is_on {
                 force += law.change(law.since + s, path.at(part));
             }
@@ -94,6 +106,24 @@ impl Work {
         [excess, exchanged]
     }
 
+    /// Counts the step up to this end, which was done again under these inputs from there on: by how much they did more than the answers
+    /// would have done, and how much went through \[J].
+    pub fn redo(&mut self, end: End, acting: &Acting) -> [f64; 2] {
+        let Some(from) = self.redone.replace(end).filter(|from| end.t > from.t) else { return [0.0; 2] };
+        let path = Path { from: from.at, to: end.at, step: end.t - from.t };
+        let answered = |part: f64, path: &Path| (from.answer + (end.answer - from.answer) * part).dot(&path.velocity(part));
+        // eq. 126: ΔW = ∫ (f − a)·v dt
+        let excess = |part: f64, path: &Path| {
+            after(acting, (part - 1.0) * path.step).dot(&path.velocity(part)) - answered(part, path)
+        };
+        [path.work(&excess), path.work(&|part, path| answered(part, path).abs())]
+    }
+
+    /// Whether steps are done again.
+    pub fn is_redone(&self) -> bool {
+        self.redone.is_some()
+    }
+
     /// Adds a step that was counted.
     pub fn sum(&mut self, excess: f64, exchanged: f64) {
         (self.excess, self.exchanged) = (FADES * self.excess + excess, FADES * self.exchanged + exchanged);
@@ -107,6 +137,11 @@ impl Work {
     }
 }
 
+/// What inputs are after this time \[s].
+fn after([value, rate, bend, third]: &Acting, s: f64) -> Loads {
+    value + (rate + (bend + third * s) * s) * s
+}
+
 /// The way from one exchange to the next.
 pub(super) struct Path {
     pub from: Shown,
@@ -115,6 +150,11 @@ pub(super) struct Path {
 }
 
 impl Path {
+    /// The work of a power over it \[J].
+    fn work(&self, power: &dyn Fn(f64, &Self) -> f64) -> f64 {
+        NODES.iter().map(|[part, weight]| weight * self.step * power(*part, self)).sum()
+    }
+
     /// Place and motion after this part of it: Hermite's cubic.
     fn at(&self, part: f64) -> Shown {
         let mut at = Shown::zeros();
