@@ -11,6 +11,7 @@ mod exchange;
 #[cfg(feature = "general")]
 mod general;
 mod growth;
+mod inputs;
 mod integration;
 mod largest;
 mod met;
@@ -19,6 +20,7 @@ mod nominals;
 mod partners;
 mod plan;
 mod rattle;
+mod redo;
 pub(crate) mod rest;
 pub(crate) mod start;
 mod tangents;
@@ -38,8 +40,7 @@ pub use tangents::Tangents;
 pub use unheld::Unheld;
 
 use crate::body::frame::Frame;
-use crate::effects::{Block, Effects, InputSet, MOST_INDICATORS, Motion as Seen, follows_all_inputs};
-use crate::energy::moving;
+use crate::effects::{Effects, InputSet, MOST_INDICATORS};
 use crate::error::Invalid;
 use crate::integrate::sizes::LEAST;
 use crate::integrate::taylor::Scratch;
@@ -47,14 +48,14 @@ use crate::integrate::{Fault, Refusal};
 use crate::rotation::Chart;
 use crate::rotor;
 use crate::signal::Signal;
-use crate::state::{Kinematics, Layout, WITH_WORK};
+use crate::state::{Layout, WITH_WORK};
 use crate::stored::{Damaged, Stored, Walk, choice};
 use crate::variable::Place;
 use crate::variables::{Instant, Parameters, Reading, Start};
 use integration::Integration;
 use largest::Looks;
 use nominals::Nominals;
-use partners::{Partner, Told};
+use partners::Partner;
 use start::{BESIDE, Motion};
 
 /// Who integrates a motion.
@@ -89,7 +90,8 @@ pub struct Simulation<E, const N: usize = WITH_WORK> {
 
 impl<E: Clone, const N: usize> Clone for Simulation<E, N> {
     fn clone(&self) -> Self {
-        let &Self { integrator, ref parameters, run, ref partners, is_set, coupling, ref known, instant, scratch: _ } = self;
+        let &Self { integrator, ref parameters, run, ref partners, is_set, coupling, ref known, instant, scratch: _ } =
+            self;
         let (parameters, partners, known) = (parameters.clone(), partners.clone(), known.clone());
         Self { integrator, parameters, run, partners, is_set, coupling, known, instant, scratch: Scratch::default() }
     }
@@ -339,58 +341,6 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         integration.advance(&mut self.parameters.effects, &mut self.scratch, t, looks)
     }
 
-    /// [`Simulation::advance_to`] from the time up to which inputs are `known` \[s]: what comes before is done again with what they were.
-    fn advance_from<L: Looks>(&mut self, known: f64, t: f64, looks: &mut L) -> Result<(), Fault> {
-        self.hold();
-        let (Some(Run::Method(before)), effects) = (self.run, self.parameters.effects.clone()) else {
-            panic!("no run of a method was started");
-        };
-        let outcome = self.redo(known).and_then(|()| self.advance_to(t, looks));
-        if let (Err(_), Some(Run::Method(integration))) = (&outcome, &mut self.run)
-            && integration.time() < before.time()
-        {
-            integration.take_back(&before, &mut self.parameters.effects);
-            self.parameters.effects = effects;
-        }
-        outcome
-    }
-
-    /// Goes back to the run up to which inputs were known before, and on from there to where they are `known` now \[s]. After that they are
-    /// again what they are.
-    fn redo(&mut self, known: f64) -> Result<(), Fault> {
-        let Self { run: Some(Run::Method(integration)), parameters, scratch, partners, .. } = self else { return Ok(()) };
-        if self.known.is_empty() {
-            self.known.push(*integration);
-        }
-        let from = &mut self.known[0];
-        let effects = &mut parameters.effects;
-        let extrapolated = effects.clone();
-        let (mut interpolated, mut number) = (extrapolated.clone(), 0);
-        interpolated.for_each_extrapolated(&mut |lag, signal| {
-            effects.interpolate(number, lag, known, signal);
-            number += 1;
-        });
-        effects.take_extrapolated(&interpolated);
-        integration.take_back(from, effects);
-        if from.time() < known {
-            integration.advance(effects, scratch, known, &mut ())?;
-            integration.hold(effects);
-            *from = *integration;
-        }
-        if E::FACTS.partners > 0 {
-            let Instant { reading, .. } = integration.read(effects);
-            let told = Told::by(effects, known - from.time());
-            effects.for_each_partner(|number, block| {
-                if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &[])).filter(|_| block.is_active()) {
-                    partners[number].redo(known, &exchange, &block.acting(known), &told.to(block));
-                }
-            });
-            effects.set_laws(|number| partners[number].law());
-        }
-        effects.take_extrapolated(&extrapolated);
-        Ok(())
-    }
-
     /// [`Simulation::advance`], if the last step of the method reaches so far and no effect minds communication steps: then nothing
     /// but the time changes.
     ///
@@ -416,94 +366,10 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
     }
 
-    /// Adds what was exchanged at the communication point to what is known of the partners, and goes on by their laws to time `to` \[s].
-    fn update_partners(&mut self, to: f64) {
-        let t = self.time().unwrap_or_default();
-        let is_answered = self.parameters.effects.active().any(|block| block.is_answered(t));
-        if !is_answered && !self.partners.iter().any(Partner::follows_polynomial) {
-            return;
-        }
-        let Ok(&Instant { reading, .. }) = self.instant() else { return };
-        // The communication point moves on: the reading would be stale.
-        self.instant = None;
-        let (told, partners) = (Told::by(&self.parameters.effects, to - t), &mut self.partners);
-        let mut changes = false;
-        self.parameters.effects.for_each_partner(|number, block| {
-            let (partner, own) = (&mut partners[number], []);
-            let before = *partner.law();
-            if !(block.is_active() && block.is_answered(t)) {
-                partner.go_unanswered(t);
-            } else if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &own)) {
-                partner.add(t, &exchange, &told.to(block));
-            }
-            changes |= !partner.law().is_like(&before);
-        });
-        if changes {
-            self.hold();
-        }
-        let partners = &self.partners;
-        self.parameters.effects.set_laws(|number| partners[number].law());
-        if self.coupling.is_none() {
-            self.look_at_coupling(&reading.motion, to - t);
-        }
-    }
-
-    /// Shows the partners how their inputs go on.
-    fn show_partners_inputs(&mut self) {
-        let (t, partners) = (self.time().unwrap_or_default(), &mut self.partners);
-        self.parameters.effects.for_each_partner(|number, block| partners[number].begin(t, || block.acting(t)));
-    }
-
-    /// Whether the exchange with partners is wrong, where inputs are exchanged after this step \[s]; looked at where that is due.
-    fn look_at_coupling(&mut self, motion: &Kinematics<f64>, step: f64) {
-        let (mut is_doubted, mut is_fed, mut period) = (false, false, step);
-        for partner in self.partners.iter_mut().filter(|partner| partner.is_due(motion.t)) {
-            is_doubted |= partner.is_doubted();
-            is_fed |= partner.feeds(moving(motion));
-            period = partner.period(step).max(period);
-        }
-        let (true, Some(Run::Method(integration))) = (is_doubted || is_fed, &self.run) else { return };
-        let (effects, partners) = (&self.parameters.effects, &self.partners);
-        let told = Told::by(effects, step);
-        let answers = |number: usize, block: &dyn Block| {
-            let exchange = block.exchange(&Seen::new(motion, &[])).filter(|_| block.is_active());
-            exchange.and_then(|exchange| partners[number].answers(&exchange, &told.to(block)))
-        };
-        let (bodies, t, state) = integration.reached();
-        // Of steps that are done again, growth is not known.
-        let found = match told.redone {
-            true => Coupling { t, step, ..Coupling::default() },
-            false => Coupling::of(&bodies.under(effects), t, state, answers, period, is_fed),
-        };
-        let wrong = partners.iter().map(Partner::wrong).fold(0.0, f64::max);
-        let is_wrong = found.growth > 0.0 || partners.iter().any(Partner::is_wrong);
-        self.coupling = is_wrong.then_some(Coupling { wrong, ..found });
-    }
-
     /// The ports that go on by a law which they learnt, each as the bit of its number among them.
     pub fn learnt(&self) -> u32 {
         let learnt = self.partners.iter().enumerate().filter(|(_, partner)| partner.has_learnt());
         learnt.fold(0, |bits, (number, _)| bits | 1 << number)
-    }
-
-    /// Extrapolates inputs over the step that begins, where an effect does so.
-    fn extrapolate(&mut self) {
-        const { assert!(follows_all_inputs::<E>(), "extrapolation.rs: MOST is less than this list has inputs") };
-        let effects = &mut self.parameters.effects;
-        let (mut extrapolated, mut number, mut changes) = (effects.clone(), 0, false);
-        extrapolated.for_each_extrapolated(&mut |lag, signal| {
-            let before = *signal;
-            effects.extrapolate(number, lag, signal);
-            if signal.goes_on_like(&before) {
-                *signal = before;
-            }
-            changes |= *signal != before;
-            number += 1;
-        });
-        if changes {
-            self.hold();
-        }
-        self.parameters.effects.take_extrapolated(&extrapolated);
     }
 
     /// The communication point \[s]; None before the start.

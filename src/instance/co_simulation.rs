@@ -77,7 +77,10 @@ impl Instance {
                 return Err(Failure::Error(format!("{} is not an input", name())));
             }
             if !(1..=HIGHEST_DERIVATIVE as i32).contains(order) {
-                return Err(Failure::Error(format!("order = {order} of {} must be from 1 to {HIGHEST_DERIVATIVE}", name())));
+                return Err(Failure::Error(format!(
+                    "order = {order} of {} must be from 1 to {HIGHEST_DERIVATIVE}",
+                    name()
+                )));
             }
             if !value.is_finite() {
                 let name = name();

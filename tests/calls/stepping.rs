@@ -109,14 +109,14 @@ impl Actor {
     fn set_input_derivatives(&mut self, source: &mut Source) {
         let references = references(source, is_input);
         let orders: Vec<Integer> =
-            references.iter().map(|_| source.of(&[1, 2, 1, 2, 1, 2, 1, 2, 0, 3, -1, Integer::MIN])).collect();
+            references.iter().map(|_| source.of(&[1, 2, 3, 1, 2, 3, 1, 2, 0, 4, -1, Integer::MIN])).collect();
         let values: Vec<Real> = references.iter().map(|_| source.number()).collect();
         let (r, r_is_wrong) = pointer(source, &references);
         let (o, o_is_wrong) = pointer(source, &orders);
         let (v, v_is_wrong) = pointer(source, &values);
         let right = !(r_is_wrong || o_is_wrong || v_is_wrong)
             && all_are(&references, is_input)
-            && orders.iter().all(|order| (1..=2).contains(order))
+            && orders.iter().all(|order| (1..=3).contains(order))
             && values.iter().all(|value| value.is_finite());
         let told = Told { function: "fmi2SetRealInputDerivatives", may: if right { OK } else { ERROR } };
         // SAFETY: a live instance; null, or arrays of one length.

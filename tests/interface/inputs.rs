@@ -19,7 +19,7 @@ const FREE: [(&str, Real); 8] = [
     ("start.omega.z", 0.0),
 ];
 
-/// The value of the input [N·m], its rate [N·m/s], its second derivative [N·m/s²]: of order 0, 1 and 2.
+/// The value of the input [N·m], its rate [N·m/s], its second [N·m/s²] and third derivative [N·m/s³]: of order 0 to 3.
 type Sent = [(Integer, Real)];
 
 fn tau() -> ValueReference {
@@ -49,8 +49,8 @@ const NEARNESS: Real = 3e-13;
 
 /// Steps from `from` [s]; at the end of each the input is u(s) [N·m] and omega.x is ω₀ + ∫u ds / Ja, s counting from `from`.
 #[track_caller]
-fn follows(instance: &mut Instance, from: Real, polynomial: [Real; 3]) {
-    let [u, slope, curvature] = polynomial;
+fn follows<const N: usize>(instance: &mut Instance, from: Real, polynomial: [Real; N]) {
+    let [u, slope, curvature, third] = std::array::from_fn(|n| polynomial.get(n).copied().unwrap_or_default());
     let (start, inertia) = (instance.get("omega.x"), instance.get("rotor.Ja"));
     // All times are exact in binary.
     for n in 1..=8 {
@@ -62,8 +62,12 @@ fn follows(instance: &mut Instance, from: Real, polynomial: [Real; 3]) {
             instance.journal.take()
         );
         let s = step * Real::from(n);
-        assert_eq!(instance.get(TAU), u + s * (slope + s * (0.5 * curvature)), "the input after {s} s");
-        let expected = start + s * (u + s * (slope / 2.0 + s * (curvature / 6.0))) / inertia;
+        assert_eq!(
+            instance.get(TAU),
+            u + s * (slope + s * (0.5 * curvature + s * (third * (1.0 / 6.0)))),
+            "the input after {s} s"
+        );
+        let expected = start + s * (u + s * (slope / 2.0 + s * (curvature / 6.0 + s * third / 24.0))) / inertia;
         let found = instance.get("omega.x");
         assert!(
             (found - expected).abs() < NEARNESS * expected.abs().max(1.0),
@@ -100,14 +104,18 @@ fn exact_a_value_and_its_derivatives_belong_together_in_any_order() {
         [curvature, value, slope],
         [curvature, slope, value],
     ];
-    for sent in orders {
+    for (place, sent) in (0..4).cycle().zip(orders) {
+        let (before, after) = sent.split_at(place);
+        let with_third = [before, &[(3, -12.0)], after].concat();
         // Before the start, and on the way, over what was sent before.
         let mut instance = free(&sent);
         follows(&mut instance, 0.0, [2.0, -3.0, 5.0]);
         send(&mut instance, &[(0, 1.0), (1, 40.0), (2, -70.0)]);
         follows(&mut instance, 1.0, [1.0, 40.0, -70.0]);
+        send(&mut instance, &with_third);
+        follows(&mut instance, 2.0, [2.0, -3.0, 5.0, -12.0]);
         send(&mut instance, &sent);
-        follows(&mut instance, 2.0, [2.0, -3.0, 5.0]);
+        follows(&mut instance, 3.0, [2.0, -3.0, 5.0]);
     }
 }
 

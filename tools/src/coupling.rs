@@ -133,8 +133,9 @@ impl<'s> Found<'s> {
                 file(),
                 pair.partners.iter().map(|partner| &*partner.name).collect::<Vec<_>>().join(" and ")
             );
+            let settings = || SETTINGS.into_iter().filter(|setting| pair.allows(setting));
             for (scheme, setting) in
-                Scheme::ALL.into_iter().flat_map(|scheme| SETTINGS.map(|setting| (scheme, setting)))
+                Scheme::ALL.into_iter().flat_map(|scheme| settings().map(move |setting| (scheme, setting)))
             {
                 let outcome = exact.beside(&pair, scheme, &setting).with_context(file)?;
                 tried.push(Tried { scheme, setting, step, outcome });

@@ -160,6 +160,7 @@ impl Effect for Extrapolation {
         let first = (0..NODES - degree).rev().find(|n| at(*n) >= to).unwrap_or_default();
         let is_apart = |n: &usize| at(first + n) > at(first + n + 1);
         let degree = (0..degree).take_while(is_apart).count();
+        // eq. 129: of one degree more than eq. 67, between points that are known
         let goes_on = self.through(number, lag, first, degree, to);
         signal.extrapolate(to, goes_on);
     }

@@ -98,6 +98,7 @@ fn drive(named: &mut Named, times: &[f64]) -> Vec<[f64; 6]> {
             named.simulation.set_input(tau, random.within(-2.0, 2.0));
             named.simulation.set_input_derivative(tau, 1, random.within(-20.0, 20.0));
             named.simulation.set_input_derivative(tau, 2, random.within(-200.0, 200.0));
+            named.simulation.set_input_derivative(tau, 3, random.within(-2000.0, 2000.0));
         }
         SHOWN.map(|name| named.get(name))
     };

@@ -96,24 +96,24 @@ fn follow(pieces: &[Piece], [w, a]: [f64; 2]) {
 #[test]
 fn exact_run_up_by_derivatives_of_the_rate() {
     let pieces: &[Piece] = &[
-        // 30 + ∫(20 − 30 t + 40 t²) dt
+        // 30 + ∫(20 − 30 t + 40 t² + 40 t³) dt
         (
             0.0,
-            &[("imposed_speed.a", 1, -30.0), ("imposed_speed.a", 2, 80.0)],
+            &[("imposed_speed.a", 1, -30.0), ("imposed_speed.a", 2, 80.0), ("imposed_speed.a", 3, 240.0)],
             30.0,
-            |t| 20.0 - 30.0 * t + 40.0 * t * t,
-            30.0 + 10.0 - 3.75 + 5.0 / 3.0,
+            |t| 20.0 - 30.0 * t + 40.0 * t * t * (1.0 + t),
+            30.0 + 10.0 - 3.75 + 5.0 / 3.0 + 0.625,
         ),
-        // The rate goes on as it was sent: 33 + 10 − 30·(1 − ¼)/2 + 40·(1 − ⅛)/3.
+        // The rate goes on as it was sent: 33 + 10 − 30·(1 − ¼)/2 + 40·(1 − ⅛)/3 + 10·(1 − 1/16).
         (
             0.5,
             &[("imposed_speed.w", 0, 33.0)],
             33.0,
-            |t| 20.0 - 30.0 * t + 40.0 * t * t,
-            33.0 + 10.0 - 11.25 + 35.0 / 3.0,
+            |t| 20.0 - 30.0 * t + 40.0 * t * t * (1.0 + t),
+            33.0 + 10.0 - 11.25 + 35.0 / 3.0 + 9.375,
         ),
         // A rate that is set anew bends the speed from where it is.
-        (1.0, &[("imposed_speed.a", 0, 8.0)], 31.75 + 35.0 / 3.0, |_| 8.0, 35.75 + 35.0 / 3.0),
+        (1.0, &[("imposed_speed.a", 0, 8.0)], 41.125 + 35.0 / 3.0, |_| 8.0, 45.125 + 35.0 / 3.0),
     ];
     follow(pieces, [30.0, 20.0]);
 }
@@ -121,16 +121,16 @@ fn exact_run_up_by_derivatives_of_the_rate() {
 #[test]
 fn exact_run_up_by_derivatives_of_the_speed() {
     let pieces: &[Piece] = &[
-        // 30 − 20 t + 25 t²: what a says does not count.
+        // 30 − 20 t + 25 t² + 10 t³: what a says does not count.
         (
             0.0,
-            &[("imposed_speed.w", 1, -20.0), ("imposed_speed.w", 2, 50.0)],
+            &[("imposed_speed.w", 1, -20.0), ("imposed_speed.w", 2, 50.0), ("imposed_speed.w", 3, 60.0)],
             30.0,
-            |t| -20.0 + 50.0 * t,
-            30.0 - 10.0 + 6.25,
+            |t| -20.0 + 50.0 * t + 30.0 * t * t,
+            30.0 - 10.0 + 6.25 + 1.25,
         ),
         // A derivative sent alone goes on from the value there.
-        (0.5, &[("imposed_speed.w", 1, 10.0), ("imposed_speed.a", 0, 50.0)], 26.25, |_| 10.0, 31.25),
+        (0.5, &[("imposed_speed.w", 1, 10.0), ("imposed_speed.a", 0, 50.0)], 27.5, |_| 10.0, 32.5),
         // A value alone: a counts again, from there on.
         (1.0, &[("imposed_speed.w", 0, 25.0)], 25.0, |_| 50.0, 50.0),
     ];

@@ -17,9 +17,10 @@ fn extrapolation(order: u32, lag: f64, redo: bool) -> String {
 
 /// A torque of this degree [N·m], and its integral from 0.
 fn torque(degree: usize, t: f64) -> [f64; 2] {
-    let coefficients = [2.0, -3.0, 5.0, -4.0];
-    let sum = |of: &dyn Fn(i32) -> f64| (0..=degree).map(|n| coefficients[n] * of(n as i32)).sum();
-    [sum(&|n| t.powi(n)), sum(&|n| t.powi(n + 1) / f64::from(n + 1))]
+    let powers = [1.0, t, t * t, t * t * t, t * t * t * t];
+    let terms = || [2.0, -3.0, 5.0, -4.0].into_iter().zip(1..).take(degree + 1);
+    let value = terms().map(|(coefficient, n)| coefficient * powers[n - 1]).sum();
+    [value, terms().map(|(coefficient, n)| coefficient * powers[n] / n as f64).sum()]
 }
 
 /// The integral from `from` to `to` of the polynomial of this degree through the first of these points and values, by Lagrange's formula.
@@ -68,10 +69,36 @@ fn exact_a_polynomial_of_one_degree_more_is_followed_as_far_as_it_is_known() {
     }
 }
 
+/// The torque is in time, or less late than a port: up to where both are known, its parabola is followed at order 1.
+#[test]
+fn exact_inputs_may_be_late_by_different_numbers_of_steps() {
+    for [lag, later] in [[0, 1], [0, 2], [1, 3], [0, 3]] {
+        let port = format!("[[effects.port]]\nposition = 0.0\nlag = {later}.0\n[effects.drive]\nlag = {lag}.0\n");
+        let solver = "[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n";
+        let mut named = Named::started(&format!("{ROTOR}{port}{}{solver}", extrapolation(1, 0.0, true)));
+        let tau = named.place("drive.tau");
+        let mut before = None;
+        for k in later..POINTS.len() - 1 {
+            for point in if k == later { 0..k + 1 } else { k..k + 1 } {
+                named.simulation.set_input(tau, torque(2, POINTS[point.saturating_sub(lag)])[0]);
+                named.simulation.advance(POINTS[point + 1]).expect("a possible motion");
+            }
+            let points: Vec<_> = (0..=k - lag).rev().map(|n| [POINTS[n], torque(2, POINTS[n])[0]]).collect();
+            let known = named.get("omega_phi") * 0.15625 - through(&points, 1, [POINTS[k - later], POINTS[k + 1]]);
+            if let (Some(before), true) = (before, k > later + 2) {
+                let [from, to] = [k - later - 1, k - later].map(|n| torque(2, POINTS[n])[1]);
+                within(&format!("lags {lag} and {later}, step {k}"), (known - before - (to - from)).abs(), SPEED);
+            }
+            before = Some(known);
+        }
+    }
+}
+
 /// 10 kg on a spring of 1e7 N/m, undamped, with so many steps in a period: place over the first one and velocity over the largest, after so
 /// many periods, and what the port reports of energy, over that of the spring.
 fn undamped(lines: &str, steps: usize, late: bool, periods: usize) -> [f64; 3] {
-    let rotor = "[rotor]\nm = 10.0\nJa = 0.04\nJt = 0.12\n[start]\nr_c = { y = 1e-5 }\n[solver]\nrelative_tolerance = 1e-11\n";
+    let rotor =
+        "[rotor]\nm = 10.0\nJa = 0.04\nJt = 0.12\n[start]\nr_c = { y = 1e-5 }\n[solver]\nrelative_tolerance = 1e-11\n";
     let mut named = Named::started(&format!("{rotor}[[effects.port]]\nposition = 0.0\nlearn = false\n{lines}"));
     let (force, h) = (named.place("port[1].f.y"), 2e-3 * PI / steps as f64);
     let mut before = 1e-5;
@@ -97,7 +124,7 @@ fn exact_an_undamped_spring_is_followed() {
             let [redone, once] = [true, false].map(|redo| {
                 let lines = extrapolation(order, f64::from(u8::from(late)), redo);
                 let [r, v, _] = undamped(&lines, 80, late, 5);
-                (r - 1.0).hypot(v)
+                libm::hypot(r - 1.0, v)
             });
             within(&format!("order {order}, late {late}"), redone, allowed);
             assert!(redone < 0.02 * once, "{redone} against {once}");
@@ -179,12 +206,12 @@ fn what_is_known_goes_with_the_state_through_contacts() {
     let exact = go_on(&mut touching("dop853"), 0..60);
     let touches = exact.iter().filter(|bits| f64::from_bits(**bits) > 1e-3).count();
     assert!((3..40).contains(&touches), "{touches} points in the ring");
-    for method in ["dop853", "dopri5", "stiff", "auto", "taylor"] {
+    for method in ["dop853", "stiff", "auto"] {
         let mut named = touching(method);
         let all = go_on(&mut named, 0..60);
         let apart = all.iter().zip(&exact).map(|(one, other)| (f64::from_bits(*one) - f64::from_bits(*other)).abs());
         within(method, apart.fold(0.0, f64::max) / 1e-3, METHODS);
-        for saved in [0, 1, 2, 17, 30] {
+        for saved in [0, 1, 17] {
             let (mut first, mut other) = (touching(method), touching(method));
             assert_eq!(go_on(&mut first, 0..saved), all[..saved as usize]);
             let (bytes, clone) = (to_bytes(&mut *first.simulation), first.simulation.clone());
@@ -218,7 +245,10 @@ fn what_does_not_go_with_it_is_refused() {
 fn a_step_that_fails_leaves_the_motion_where_it_was() {
     for lag in [0.0, 1.0, 3.0] {
         let solver = "[solver]\nmax_evaluations = 2000.0\n";
-        let mut named = Named::started(&format!("{ROTOR}[[effects.port]]\nposition = 0.0\n{solver}{}", extrapolation(1, lag, true)));
+        let mut named = Named::started(&format!(
+            "{ROTOR}[[effects.port]]\nposition = 0.0\n{solver}{}",
+            extrapolation(1, lag, true)
+        ));
         go_on(&mut named, 0..10);
         let (t, r, place) = (named.simulation.time(), named.get("port[1].r.y"), named.place("port[1].f.y"));
         named.simulation.set_input(place, f64::MAX);

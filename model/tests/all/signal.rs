@@ -17,6 +17,12 @@ fn exact_polynomial_about_where_it_was_set() {
     signal.set_derivative(2.0, 1, -4.0);
     assert_eq!([signal.at::<f64>(2.0), signal.at(3.0), signal.at(4.0)], [1.0, 0.0, 5.0]);
     assert_eq!([signal.rate_at(2.0), signal.rate_at(3.0)], [-4.0, 2.0]);
+    signal.set_derivative(2.0, 3, 12.0);
+    // 1 − 4s + 3s² + 2s³
+    assert_eq!([signal.at::<f64>(2.0), signal.at(3.0), signal.at(4.0)], [1.0, 2.0, 21.0]);
+    assert_eq!([signal.rate_at(2.0), signal.rate_at(3.0)], [-4.0, 8.0]);
+    assert_eq!([0, 1, 2, 3].map(|power| signal.coefficient(3.0, power)), [2.0, 8.0, 9.0, 2.0]);
+    assert_eq!([signal.rate().at::<f64>(3.0), signal.gain(3.0, 4.0)], [8.0, 19.0]);
 }
 
 #[test]
@@ -27,13 +33,16 @@ fn exact_sum_over_time() {
     signal.set_derivative(2.0, 2, 6.0);
     // s − 2s² + s³ from s = 0 and from s = 1.
     assert_eq!([signal.sum::<f64>(2.0, 4.0), signal.sum(3.0, 4.0), signal.sum(3.0, 2.0)], [2.0, 2.0, 0.0]);
+    signal.set_derivative(2.0, 3, 12.0);
+    // And ½s⁴.
+    assert_eq!([signal.sum::<f64>(2.0, 4.0), signal.sum(3.0, 4.0), signal.sum(3.0, 2.0)], [10.0, 9.5, -0.5]);
 }
 
 #[test]
 fn exact_zero_is_zero_at_all_times() {
     assert!(Signal::default().is_zero());
     assert!(!Signal::held(1e-300).is_zero());
-    for order in [1, 2] {
+    for order in [1, 2, 3] {
         let mut signal = Signal::default();
         signal.set_derivative(0.0, order, 1e-300);
         assert!(!signal.is_zero());
@@ -56,9 +65,10 @@ fn send(simulation: &mut General, derivatives: &[f64]) {
     }
 }
 
-/// τ = 2 − 9t + 12t²
-fn torque(t: f64) -> [f64; 3] {
-    [2.0 - 9.0 * t + 12.0 * t * t, -9.0 + 24.0 * t, 24.0]
+/// τ = 2 − 9t + 12t² − 5t³
+fn torque(t: f64) -> [f64; 4] {
+    let t2 = t * t;
+    [2.0 - 9.0 * t + 12.0 * t2 - 5.0 * t2 * t, -9.0 + 24.0 * t - 15.0 * t2, 24.0 - 30.0 * t, -30.0]
 }
 
 /// Communication steps [s].
@@ -96,16 +106,16 @@ fn exact_a_polynomial_is_the_sum_of_its_pieces() {
     }
 }
 
-/// The state's error falls with the communication step as its power 1, 2, 3, within this [1]: measured
-/// 0.017, 0.029, 0.029.
+/// The state's error falls with the communication step as its power 1, 2, 3, 4, within this [1]: measured
+/// 0.017, 0.029, 0.029, 0.029.
 const ORDER: f64 = 0.1;
 
 #[test]
 fn order_of_what_is_sent() {
-    // τ = 5 sin 3t on the tilted rotor, with derivatives up to 0, 1, 2.
+    // τ = 5 sin 3t on the tilted rotor, with derivatives up to 0, 1, 2, 3.
     let torque = |t: f64| {
         let (sin, cos) = libm::sincos(3.0 * t);
-        [5.0 * sin, 15.0 * cos, -45.0 * sin]
+        [5.0 * sin, 15.0 * cos, -45.0 * sin, -135.0 * cos]
     };
     let run = |derivatives: usize, steps: u32| {
         let mut simulation = Scene { tolerance: 1e-12, ..scene(Method::Dop853) }.started(DRIVEN);
@@ -115,8 +125,8 @@ fn order_of_what_is_sent() {
         }
         *simulation.read().unwrap()
     };
-    let exact = run(2, 4000);
-    for derivatives in 0..3 {
+    let exact = run(3, 4000);
+    for derivatives in 0..4 {
         let error = |steps: u32| {
             let reached = run(derivatives, steps);
             let [one, other] = [&reached, &exact].map(|r| (r.motion.at.k, r.motion.phi()));

@@ -20,17 +20,23 @@ pub struct Setting {
     pub order: usize,
     /// `port[i].learn`.
     pub learns: bool,
+    /// `extrapolation.redo`.
+    pub redoes: bool,
     /// Whether the ports have the coefficients of their partners.
     pub is_given: bool,
 }
 
+/// All as the FMU is with nothing set.
+const NOTHING_SET: Setting = Setting { name: "nothing set", order: 0, learns: true, redoes: false, is_given: false };
+
 /// The settings that are compared.
-pub const SETTINGS: [Setting; 5] = [
-    Setting { name: "held", order: 0, learns: false, is_given: false },
-    Setting { name: "order 1", order: 1, learns: true, is_given: false },
-    Setting { name: "order 2", order: 2, learns: true, is_given: false },
-    Setting { name: "nothing set", order: 0, learns: true, is_given: false },
-    Setting { name: "coefficients given", order: 0, learns: true, is_given: true },
+pub const SETTINGS: [Setting; 6] = [
+    Setting { name: "held", learns: false, ..NOTHING_SET },
+    Setting { name: "order 1", order: 1, ..NOTHING_SET },
+    Setting { name: "order 2", order: 2, ..NOTHING_SET },
+    Setting { name: "order 2, redone", order: 2, redoes: true, ..NOTHING_SET },
+    NOTHING_SET,
+    Setting { name: "coefficients given", is_given: true, ..NOTHING_SET },
 ];
 
 /// The machine, its springs and dampers inside or at ports.
@@ -122,6 +128,7 @@ impl Pair {
         parameters.begin_with(Place::switch(block("extrapolation", 1)), 1.0);
         let is_told = setting.order > 0 || setting.is_given;
         set(&mut parameters, "extrapolation", 1, "order", setting.order as f64);
+        set(&mut parameters, "extrapolation", 1, "redo", f64::from(u8::from(setting.redoes)));
         set(&mut parameters, "extrapolation", 1, "lag", if is_told { f64::from(lag) } else { 0.0 });
         for (partner, port) in self.partners.iter().zip(&self.ports) {
             set(&mut parameters, "port", *port, "learn", f64::from(u8::from(setting.learns)));
@@ -129,6 +136,11 @@ impl Pair {
             NAMES.into_iter().zip(given).for_each(|(name, value)| set(&mut parameters, "port", *port, name, value));
         }
         parameters
+    }
+
+    /// Whether the machine can be coupled with this setting.
+    pub fn allows(&self, setting: &Setting) -> bool {
+        !setting.redoes || self.open(setting, 0).check().is_ok()
     }
 
     /// How many ports the scene has of its own, which nobody feeds here.

@@ -37,7 +37,7 @@ fn of_scheme(found: &Found, scheme: Scheme) -> String {
     text += "Longest step [ms] for an error of at most so much, without a warning of the FMU:\n\n| setting | lines of the scene |";
     BOUNDS.iter().for_each(|bound| text += &format!(" {} |", bound.name));
     text += &format!("\n|---|---|{}\n", "--:|".repeat(BOUNDS.len()));
-    for setting in SETTINGS.iter().rev() {
+    for setting in SETTINGS.iter().rev().filter(|setting| found.pair.allows(setting)) {
         text += &format!("| {} | {} |", setting.name, lines(setting, scheme));
         BOUNDS.iter().for_each(|bound| text += &format!(" {} |", longest(found, scheme, setting, bound)));
         text += "\n";
@@ -48,13 +48,19 @@ fn of_scheme(found: &Found, scheme: Scheme) -> String {
 /// What stands in the scene for a setting.
 fn lines(setting: &Setting, scheme: Scheme) -> String {
     let lag = if scheme == Scheme::Late { " lag = 1" } else { "" };
+    let redo = if setting.redoes { "redo = true" } else { "" };
     match (setting.order, setting.is_given, setting.learns) {
         (_, true, _) if lag.is_empty() => "port: the coefficients below".into(),
         (_, true, _) => format!("port: the coefficients below; extrapolation:{lag}"),
         (0, _, true) => "none".into(),
         (0, _, false) => "port: learn = false".into(),
-        (order, ..) if lag.is_empty() => format!("extrapolation: order = {order}"),
-        (order, ..) => format!("extrapolation: order = {order},{lag}"),
+        (order, ..) => {
+            let of_each = [format!("order = {order}"), lag.trim().into(), redo.into()];
+            format!(
+                "extrapolation: {}",
+                of_each.into_iter().filter(|words| !words.is_empty()).collect::<Vec<_>>().join(", ")
+            )
+        }
     }
 }
 

@@ -10,7 +10,8 @@ use split_rotor_tools::coupling::{Found, SETTINGS, Tried};
 use std::ops::Range;
 
 /// The colours of the settings.
-const COLOURS: [RGBColor; 5] = [ORANGE, RGBColor(170, 120, 0), RGBColor(150, 80, 190), BLUE, RGBColor(20, 140, 90)];
+const COLOURS: [RGBColor; 6] =
+    [ORANGE, RGBColor(170, 120, 0), RGBColor(150, 80, 190), RGBColor(200, 40, 110), BLUE, RGBColor(20, 140, 90)];
 
 /// Errors beyond these ends are not shown \[1].
 const ENDS: [f64; 2] = [1e-12, 1e4];

@@ -111,7 +111,8 @@ impl Work {
     pub fn redo(&mut self, end: End, acting: &Acting) -> [f64; 2] {
         let Some(from) = self.redone.replace(end).filter(|from| end.t > from.t) else { return [0.0; 2] };
         let path = Path { from: from.at, to: end.at, step: end.t - from.t };
-        let answered = |part: f64, path: &Path| (from.answer + (end.answer - from.answer) * part).dot(&path.velocity(part));
+        let answered =
+            |part: f64, path: &Path| (from.answer + (end.answer - from.answer) * part).dot(&path.velocity(part));
         // eq. 126: ΔW = ∫ (f − a)·v dt
         let excess = |part: f64, path: &Path| {
             after(acting, (part - 1.0) * path.step).dot(&path.velocity(part)) - answered(part, path)
