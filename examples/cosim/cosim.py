@@ -9,7 +9,10 @@ For the pair housing package examples/cosim/housed.toml, and give its FMU.
 The pair is one of linear, journal, pedestal, housing, magnetic, motor, two_rotors (pairs.py); the master plain, fresh, gauss_seidel, iterated, ssp,
 libcosim, osp, ecos, cofmupy, or cofmupy_seidel (masters/; by_cofmupy.py says how to install those two); then come communication steps [s].
 Printed for each: the largest error of what is watched over the last tenth of the run, relative to the largest motion, where the rotor holds its
-inputs, where nothing is set, and with what docs/cosimulation.md advises for the pair.
+inputs, where nothing is set, and with what docs/cosimulation.md advises for the pair. Values of your own are one more column:
+
+    python examples/cosim/cosim.py target/fmu/rotor.fmu linear libcosim 1e-4 --set effects.extrapolation=true \\
+        --set extrapolation.order=2 --set extrapolation.lag=1.0 --set extrapolation.redo=true
 """
 
 import argparse
@@ -65,6 +68,13 @@ def ways(pair, master):
     return {"held": pair.held, "nothing set": {}} | ({"advised": advised} if advised else {})
 
 
+def own(text):
+    """Name and value of NAME=VALUE, which is true, false, a whole number, or one with a point."""
+    name, value = text.split("=")
+    kinds = {"true": True, "false": False}
+    return name, kinds[value] if value in kinds else float(value) if set(value) & set(".en") else int(value)
+
+
 def write(path, times, watched, found):
     """Writes the ways that did not fail as a CSV."""
     ways = {head: way for head, way in found.items() if way is not None}
@@ -82,6 +92,7 @@ def main():
     parser.add_argument("--fine", type=float, default=1e-6, help="step of the reference [s] where none is exact (%(default)s)")
     parser.add_argument("--out", help="a CSV of all that is watched, at the last of the steps")
     parser.add_argument("--picture", help="an SVG, PNG or PDF of the same (needs matplotlib)")
+    parser.add_argument("--set", type=own, action="append", default=[], metavar="NAME=VALUE", help="a value of the rotor")
     asked = parser.parse_args()
     pair = PAIRS[asked.pair]
     run = getattr(import_module(f"masters.{MASTERS[asked.master]}"), asked.master)
@@ -89,7 +100,7 @@ def main():
     with TemporaryDirectory() as folder:
         kinds = {kind for kind, _ in pair.models.values()} - {"rotor"}
         paths = {"rotor": asked.fmu} | {kind: built(kind, folder) for kind in kinds}
-        columns = ways(pair, asked.master)
+        columns = ways(pair, asked.master) | ({"as set": dict(asked.set)} if asked.set else {})
         print(f"{'step [s]':>9}" + "".join(f"{head:>13}" for head in columns))
         for step in asked.steps:
             exact, count = np.array(pair.exact(paths, step, asked.fine)), round(pair.span / step)

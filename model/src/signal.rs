@@ -15,10 +15,10 @@ pub struct Signal {
     value: f64,
     /// Its rate [unit/s].
     slope: f64,
-    /// Its second derivative [unit/s²].
-    curvature: f64,
-    /// Its third derivative [unit/s³].
-    third: f64,
+    /// Half its second derivative [unit/s²].
+    square: f64,
+    /// A sixth of its third one [unit/s³].
+    cube: f64,
     /// The direction in which derivatives are asked for [unit].
     seed: f64,
     /// What was said of it last, and when \[s].
@@ -26,7 +26,7 @@ pub struct Signal {
     told: f64,
 }
 
-stored!(Signal { origin, value, slope, curvature, third, seed, source, told });
+stored!(Signal { origin, value, slope, square, cube, seed, source, told });
 
 /// What was said of a signal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -89,7 +89,7 @@ impl Signal {
     #[inline(always)]
     pub fn at<S: Scalar>(&self, t: S) -> S {
         let s = t - S::constant(self.origin);
-        let bend = S::constant(0.5 * self.curvature) + s * S::constant(self.third * (1.0 / 6.0));
+        let bend = S::constant(self.square) + s * S::constant(self.cube);
         // eq. 31: u(t₀ + s) = u₀ + u₁ s + ½ u₂ s² + ⅙ u₃ s³
         S::moving(self.value, self.seed) + s * (S::constant(self.slope) + s * bend)
     }
@@ -100,7 +100,7 @@ impl Signal {
             0 => self.at(t),
             1 => self.rate_at(t),
             2 => 0.5 * self.curvature_at(t),
-            3 => self.third * (1.0 / 6.0),
+            3 => self.cube,
             _ => 0.0,
         }
     }
@@ -109,7 +109,7 @@ impl Signal {
     #[inline(always)]
     pub fn sum<S: Scalar>(&self, from: f64, t: S) -> S {
         let s = t - S::constant(from);
-        let bend = S::constant(self.curvature_at(from) / 6.0) + s * S::constant(self.third / 24.0);
+        let bend = S::constant(self.curvature_at(from) / 6.0) + s * S::constant(0.25 * self.cube);
         let further = s * (S::constant(0.5 * self.rate_at(from)) + s * bend);
         // eq. 31: ∫u dt = u s + ½ u₁ s² + ⅙ u₂ s³ + u₃ s⁴/24
         (S::constant(self.at(from)) + further) * s
@@ -119,7 +119,7 @@ impl Signal {
     #[inline(always)]
     pub fn gain<S: Scalar>(&self, from: f64, t: S) -> S {
         let s = t - S::constant(from);
-        let bend = S::constant(0.5 * self.curvature_at(from)) + s * S::constant(self.third * (1.0 / 6.0));
+        let bend = S::constant(0.5 * self.curvature_at(from)) + s * S::constant(self.cube);
         // eq. 31: u₁ s + ½ u₂ s² + ⅙ u₃ s³
         s * (S::constant(self.rate_at(from)) + s * bend)
     }
@@ -128,12 +128,12 @@ impl Signal {
     #[inline(always)]
     pub fn rate_at<S: Scalar>(&self, t: S) -> S {
         let s = t - S::constant(self.origin);
-        S::constant(self.slope) + s * (S::constant(self.curvature) + s * S::constant(0.5 * self.third))
+        S::constant(self.slope) + s * (S::constant(2.0 * self.square) + s * S::constant(3.0 * self.cube))
     }
 
     /// Its second derivative at time `t` \[s] [unit/s²].
     fn curvature_at(&self, t: f64) -> f64 {
-        self.curvature + (t - self.origin) * self.third
+        2.0 * self.square + (t - self.origin) * (6.0 * self.cube)
     }
 
     /// When it was last set \[s].
@@ -149,7 +149,7 @@ impl Signal {
     /// Whether it has no derivatives: none were sent, or zeros.
     #[inline(always)]
     pub fn is_held(&self) -> bool {
-        self.slope == 0.0 && self.curvature == 0.0 && self.third == 0.0
+        self.slope == 0.0 && self.square == 0.0 && self.cube == 0.0
     }
 
     /// Whether it is the same as another: both hold one value.
@@ -172,20 +172,21 @@ impl Signal {
     pub fn set_derivative(&mut self, t: f64, order: u32, value: f64) {
         self.set_out_from(t);
         self.source = Source::Derivatives;
-        *match order {
-            1 => &mut self.slope,
-            2 => &mut self.curvature,
-            _ => &mut self.third,
-        } = value;
+        match order {
+            1 => self.slope = value,
+            2 => self.square = 0.5 * value,
+            _ => self.cube = value * (1.0 / 6.0),
+        }
     }
 
     /// Goes on from the communication point `t` \[s] at the rate that another signal says, unless it has derivatives that were sent no earlier.
     pub fn follow(&mut self, t: f64, rate: &Self) {
-        let (value, slope, curvature, third) = (self.at(t), rate.at(t), rate.rate_at(t), rate.curvature_at(t));
-        let goes_on = [self.rate_at(t), self.curvature_at(t), self.third] == [slope, curvature, third];
+        let (value, slope, bend, curvature) = (self.at(t), rate.at(t), rate.rate_at::<f64>(t), rate.curvature_at(t));
+        let (square, cube) = (0.5 * bend, curvature * (1.0 / 6.0));
+        let goes_on = [self.rate_at(t), 0.5 * self.curvature_at(t), self.cube] == [slope, square, cube];
         let has_own = self.source == Source::Derivatives && !self.is_held() && self.told >= rate.told;
         if !goes_on && !has_own {
-            *self = Self { origin: t, value, slope, curvature, third, ..*self };
+            *self = Self { origin: t, value, slope, square, cube, ..*self };
         }
     }
 
@@ -196,7 +197,7 @@ impl Signal {
 
     /// Its rate as a signal.
     pub fn rate(&self) -> Self {
-        Self { value: self.slope, slope: self.curvature, curvature: self.third, third: 0.0, seed: 0.0, ..*self }
+        Self { value: self.slope, slope: 2.0 * self.square, square: 3.0 * self.cube, cube: 0.0, seed: 0.0, ..*self }
     }
 
     /// What was set before the run counts from its start at `t` \[s].
@@ -214,10 +215,10 @@ impl Signal {
         self.told == t && self.source == Source::Derivatives
     }
 
-    /// Extrapolates it from the communication point `t` \[s] on: value, rate, second and third derivative there.
-    pub fn extrapolate(&mut self, t: f64, [value, slope, curvature, third]: [f64; 4]) {
+    /// Extrapolates it from the communication point `t` \[s] on, by its coefficients of powers 0 to 3 of the time since.
+    pub fn extrapolate(&mut self, t: f64, [value, slope, square, cube]: [f64; NODES]) {
         let (source, told) = (Source::Extrapolated, t);
-        *self = Self { origin: t, value, slope, curvature, third, source, told, ..*self };
+        *self = Self { origin: t, value, slope, square, cube, source, told, ..*self };
     }
 
     /// Derivatives are asked for in a direction that has this much more of this input.

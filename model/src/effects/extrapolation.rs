@@ -59,15 +59,15 @@ impl Extrapolation {
         values.expect("of each input so many are remembered")
     }
 
-    /// The polynomial through the last values of an input that are `lag` steps late, from the one of this number on: value and derivatives at
-    /// `t` \[s].
+    /// The polynomial through the last values of an input that are `lag` steps late, from the one of this number on: coefficients of the
+    /// powers of the time from `t` \[s] on.
     fn through(&mut self, number: usize, lag: f64, first: usize, degree: usize, t: f64) -> [f64; NODES] {
         let node = |n: usize| (first + n).min(NODES - 1);
         let times = std::array::from_fn(|n| self.point(lag + node(n) as f64));
         let values = *self.values(number);
         let values = std::array::from_fn(|n| values[node(n)]);
         let [change, slope, bend, third] = goes_on(t, times, values, degree);
-        [values[0] + change, slope, 2.0 * bend, 6.0 * third]
+        [values[0] + change, slope, bend, third]
     }
 }
 

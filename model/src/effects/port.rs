@@ -57,7 +57,10 @@ impl Port {
     /// Force \[N] and moment [N·m].
     #[inline(always)]
     fn given<S: Scalar>(&self, motion: &Motion<S>) -> [Vector3<S>; 2] {
-        let [force, moment] = [&self.f, &self.m].map(|loads| loads.map(|signal| motion.input(&signal)));
+        let [force, moment] = [&self.f, &self.m].map(|loads| match S::SERIES {
+            true => loads.map(|signal| motion.input(&signal)),
+            false => at(loads, motion.t()),
+        });
         if S::SERIES || !self.law.is_on {
             return [force, moment];
         }
@@ -126,6 +129,12 @@ macro_rules! coefficient {
             access: Access::Parameter { get: |p: &Port| p.$field[$n], set: |p, value| p.$field[$n] = value },
         }
     };
+}
+
+/// Inputs at time `t` \[s]. Called: written out for each port, they would cost the others registers.
+#[inline(never)]
+fn at<S: Scalar>(inputs: &Vector3<Signal>, t: S) -> Vector3<S> {
+    inputs.map(|signal| signal.at(t))
 }
 
 impl Effect for Port {

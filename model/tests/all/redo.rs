@@ -77,7 +77,7 @@ fn exact_inputs_may_be_late_by_different_numbers_of_steps() {
         let solver = "[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n";
         let mut named = Named::started(&format!("{ROTOR}{port}{}{solver}", extrapolation(1, 0.0, true)));
         let tau = named.place("drive.tau");
-        let mut before = None;
+        let mut before: Option<f64> = None;
         for k in later..POINTS.len() - 1 {
             for point in if k == later { 0..k + 1 } else { k..k + 1 } {
                 named.simulation.set_input(tau, torque(2, POINTS[point.saturating_sub(lag)])[0]);

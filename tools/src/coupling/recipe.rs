@@ -103,14 +103,24 @@ fn advice(found: &Found, scheme: Scheme) -> String {
         (0, false) => "hold the loads (`learn = false`)".to_owned(),
         _ => format!("give `[effects.extrapolation]` {}", lines(best, scheme).trim_start_matches("extrapolation: ")),
     };
-    if reach(given) >= reach(&best) {
+    let mut text = if reach(given) >= reach(&best) {
         let first =
             format!("1. If you know the coefficients of the partner, give them to the ports: {}.\n", words(given));
-        return first + &format!("2. If not, {what}: {}.\n", words(best));
+        first + &format!("2. If not, {what}: {}.\n", words(best))
+    } else {
+        let (initial, rest) = what.split_at(1);
+        let first = format!("1. {}{rest}: {}.\n", initial.to_uppercase(), words(best));
+        first + &format!("2. The coefficients of the partner do not help here: with them {}.\n", words(given))
+    };
+    let from_start = |setting: &Setting| found.within(scheme, setting, always).unwrap_or(0.0);
+    if let Some(redone) = SETTINGS.iter().find(|setting| setting.redoes && from_start(setting) > from_start(best)) {
+        let lines = lines(redone, scheme).replace("extrapolation: ", "");
+        text += &format!(
+            "3. Where the start of a run counts too and the coefficients are not known, give `[effects.extrapolation]` {lines}: {}.\n",
+            words(redone)
+        );
     }
-    let (initial, rest) = what.split_at(1);
-    let first = format!("1. {}{rest}: {}.\n", initial.to_uppercase(), words(best));
-    first + &format!("2. The coefficients of the partner do not help here: with them {}.\n", words(given))
+    text
 }
 
 /// The ports with the coefficients of their partners, as lines of a scene.

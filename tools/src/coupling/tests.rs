@@ -114,7 +114,8 @@ fn exact_limits_of_the_turbo_rotor() {
 fn what_does_not_go_with_a_scene_is_left_out() {
     let bearing = "[start]\nr_c.y = 1e-5\n[[effects.bearing]]\nposition = 0.1\nkyy = 1e6\nkzz = 1e6\n";
     for (lines, count) in [("", 6), ("[effects.imposed_speed]\nw = 10.0\n", 5), ("[effects.drive]\nk = 1.0\n", 5)] {
-        let found = found(&scene(&format!("{BODY}{bearing}{lines}")), 10.0, 1e-4);
+        let scene = scene(&format!("{BODY}{bearing}{lines}"));
+        let found = found(&scene, 10.0, 1e-4);
         let names = SETTINGS.iter().filter(|setting| found.series(Scheme::Late, setting).count() > 0);
         assert_eq!(names.count(), count, "{lines}");
         assert_eq!(found.table().contains("redo = true"), count == 6, "{lines}");
