@@ -21,7 +21,7 @@ const SETS: usize = 3;
 pub const SEED: u64 = 8;
 
 /// Instructions of an evaluation that an effect costs which is switched off, the mean beside all that acts: the target, and what fails. Beside
-/// one of these it depends on how the compiler gives out registers: one library has from 1.07 to 5.49.
+/// one of these it depends on how the compiler gives out registers: one library had from 1.07 to 5.49.
 const OFF: f64 = 4.0;
 const OFF_FAILS: f64 = 4.2;
 
