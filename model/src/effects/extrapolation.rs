@@ -154,6 +154,10 @@ impl Effect for Extrapolation {
     }
 
     fn interpolate(&mut self, number: usize, lag: Option<f64>, to: f64, signal: &mut Signal) {
+        // What the master says of the derivatives wins, backwards too.
+        if signal.was_sent_derivatives_at(self.points()[0]) {
+            return;
+        }
         let (lag, degree) = (lag.unwrap_or(self.lag), self.order as usize + 1);
         let at = |n: usize| self.point(lag + n as f64);
         // The latest value is of that time, or before others.

@@ -69,6 +69,26 @@ fn exact_a_polynomial_of_one_degree_more_is_followed_as_far_as_it_is_known() {
     }
 }
 
+/// A master that sends derivatives of a cubic: it is followed as it says, whatever the order.
+#[test]
+fn exact_derivatives_that_are_sent_win() {
+    for (order, lag) in (0..3).flat_map(|order| [0.0, 1.0].map(|lag| (order, lag))) {
+        let solver = "[solver]\nmethod = \"dop853\"\nrelative_tolerance = 1e-13\n";
+        let mut named = Named::started(&format!("{ROTOR}[effects.drive]\n{}{solver}", extrapolation(order, lag, true)));
+        let tau = named.place("drive.tau");
+        for k in 0..POINTS.len() - 1 {
+            let (t, to) = (POINTS[k], POINTS[k + 1]);
+            named.simulation.set_input(tau, torque(3, t)[0]);
+            for (n, value) in (1..).zip([-3.0 + 10.0 * t - 12.0 * t * t, 10.0 - 24.0 * t, -24.0]) {
+                named.simulation.set_input_derivative(tau, n, value);
+            }
+            named.simulation.advance(to).expect("a possible motion");
+            let off = named.get("omega_phi") * 0.15625 - torque(3, to)[1];
+            within(&format!("order {order}, lag {lag}, step {k}"), off.abs(), SPEED);
+        }
+    }
+}
+
 /// The torque is in time, or less late than a port: up to where both are known, its parabola is followed at order 1.
 #[test]
 fn exact_inputs_may_be_late_by_different_numbers_of_steps() {
