@@ -16,6 +16,7 @@ inputs, where nothing is set, and with what docs/cosimulation.md advises for the
 """
 
 import argparse
+import json
 import subprocess
 import sys
 from importlib import import_module
@@ -69,10 +70,9 @@ def ways(pair, master):
 
 
 def own(text):
-    """Name and value of NAME=VALUE, which is true, false, a whole number, or one with a point."""
+    """Name and value of NAME=VALUE: true, false, a whole number, or one with a point."""
     name, value = text.split("=")
-    kinds = {"true": True, "false": False}
-    return name, kinds[value] if value in kinds else float(value) if set(value) & set(".en") else int(value)
+    return name, json.loads(value)
 
 
 def write(path, times, watched, found):

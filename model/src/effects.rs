@@ -31,8 +31,7 @@ use crate::body::Shape;
 use crate::error::Invalid;
 use crate::scalar::Scalar;
 use crate::signal::Signal;
-use crate::variable::units::ONE;
-use crate::variable::{self, Bound, Kind, Meta, Role};
+use crate::variable::{self, Meta};
 
 /// Outputs of effects are read from the motion that laws see.
 pub enum Seen {}
@@ -154,7 +153,7 @@ pub trait Effect: Clone + Default + Send + 'static {
     /// Extrapolates the input with this index over the step that begins. `lag`: by how many steps it is late, where its own effect says so \[1].
     fn extrapolate(&mut self, _number: usize, _lag: Option<f64>, _signal: &mut Signal) {}
 
-    /// Interpolates this input up to time `to` \[s], up to which all are known.
+    /// Interpolates the input with this index up to time `to` \[s], up to which all are known.
     fn interpolate(&mut self, _number: usize, _lag: Option<f64>, _to: f64, _signal: &mut Signal) {}
 
     /// The time \[s] up to which inputs are known that are so many communication steps late, where the motion is to be done again up to there.
@@ -311,13 +310,7 @@ pub struct Info {
 
 /// The switch of an effect, of which this is said: whether it acts.
 pub const fn switch(description: &'static str) -> Meta {
-    Meta {
-        name: "effects",
-        description,
-        unit: &ONE,
-        kind: Kind::Boolean,
-        role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
-    }
+    Meta::boolean("effects", false, description)
 }
 
 fn switch_name(name: &str, several: bool, index: u32) -> String {

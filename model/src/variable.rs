@@ -335,6 +335,12 @@ impl Meta {
         Self { name, description, unit, kind: Kind::Real, role: Role::Parameter { default, bound } }
     }
 
+    /// A Boolean parameter; its value is 1 where it is true, else 0.
+    pub const fn boolean(name: &'static str, default: bool, description: &'static str) -> Self {
+        let role = Role::Parameter { default: Some(default as u8 as f64), bound: Bound::OneOf(&[0.0, 1.0]) };
+        Self { name, description, unit: &units::ONE, kind: Kind::Boolean, role }
+    }
+
     /// A Real variable of another role.
     pub const fn real(name: &'static str, unit: &'static Unit, role: Role, description: &'static str) -> Self {
         Self { name, description, unit, kind: Kind::Real, role }

@@ -86,25 +86,15 @@ def test_regress_an_exchange_that_grows_is_warned_of_in_the_master_s_log(cosim):
     assert "the exchange with the models at the ports is wrong" in printed
 
 
-def setting(values):
-    """Options that set these values of the rotor."""
+def redone(order):
+    """Options of a rotor whose inputs are late by one step, each of which is done again."""
+    values = {"effects.extrapolation": "true", "extrapolation.order": order, "extrapolation.lag": 1.0, "extrapolation.redo": "true"}
     return [part for name, value in values.items() for part in ("--set", f"{name}={value}")]
-
-
-# Of inputs that are late by one step, each of which is done again.
-REDONE = setting(
-    {
-        "effects.extrapolation": "true",
-        "extrapolation.order": 2,
-        "extrapolation.lag": 1.0,
-        "extrapolation.redo": "true",
-    }
-)
 
 
 def test_exact_masters_of_the_same_order_agree(cosim):
     """libcosim, ecos and our own master pass on values in the same order."""
-    runs = [cosim("linear", master, 1e-4, *REDONE) for master in ("plain", "libcosim", "ecos")]
+    runs = [cosim("linear", master, 1e-4, *redone(2)) for master in ("plain", "libcosim", "ecos")]
     # Measured 1.4e-3; 4.8e-2 where steps are not done again.
     assert all(errors(printed, 1e-4)["as set"] <= 3e-3 for printed, _ in runs)
     ways = [way for _, way in runs]
@@ -117,7 +107,7 @@ def test_exact_masters_of_the_same_order_agree(cosim):
 
 
 def test_regress_two_rotors_are_as_right_as_they_were_where_steps_are_done_again(cosim):
-    printed, _ = cosim("two_rotors", "libcosim", 1e-4, *[part.replace("order=2", "order=1") for part in REDONE])
+    printed, _ = cosim("two_rotors", "libcosim", 1e-4, *redone(1))
     assert errors(printed, 1e-4)["as set"] <= 1e-5, printed  # 3.4e-6; held 3.5e-2
 
 

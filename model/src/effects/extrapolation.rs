@@ -59,7 +59,7 @@ impl Extrapolation {
         values.expect("of each input so many are remembered")
     }
 
-    /// The polynomial through the last values of an input that are `lag` steps late, from the one of this number on: coefficients of the
+    /// The polynomial through the last values of an input that are `lag` steps late, from the one with this index on: coefficients of the
     /// powers of the time from `t` \[s] on.
     fn through(&mut self, number: usize, lag: f64, first: usize, degree: usize, t: f64) -> [f64; NODES] {
         let node = |n: usize| (first + n).min(NODES - 1);
@@ -104,13 +104,11 @@ impl Effect for Extrapolation {
             "how many communication steps the values of inputs are late"
         ),
         Row {
-            meta: Meta {
-                name: "redo",
-                description: "whether each step is done again with what inputs were in it, once that is known",
-                unit: &ONE,
-                kind: Kind::Boolean,
-                role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
-            },
+            meta: Meta::boolean(
+                "redo",
+                false,
+                "whether each step is done again with what inputs were in it, once that is known",
+            ),
             access: Access::Parameter { get: |e| f64::from(e.redo), set: |e, value| e.redo = value != 0.0 },
         },
     ];

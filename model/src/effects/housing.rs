@@ -4,7 +4,7 @@ use super::{Act, Effect, Motion, Row, Terminal};
 use crate::scalar::Scalar;
 use crate::signal::Signal;
 use crate::variable::units::{METRE, METRE_PER_SECOND, NEWTON, ONE};
-use crate::variable::{Access, Bound, Kind, Meta, Role, output};
+use crate::variable::{Access, Bound, Meta, Role, output};
 use nalgebra::Vector3;
 
 /// What a bearing or a ring is fixed to.
@@ -199,13 +199,11 @@ struct Rows<E>(std::marker::PhantomData<E>);
 impl<E: Housed> Rows<E> {
     const ALL: &'static [Row<E>] = &[
         Row {
-            meta: Meta {
-                name: "housing.moves",
-                description: "whether the housing moves as its inputs say, as in a scene that names it without this; if not, it stands still",
-                unit: &ONE,
-                kind: Kind::Boolean,
-                role: Role::Parameter { default: Some(0.0), bound: Bound::OneOf(&[0.0, 1.0]) },
-            },
+            meta: Meta::boolean(
+                "housing.moves",
+                false,
+                "whether the housing moves as its inputs say, as in a scene that names it without this; if not, it stands still",
+            ),
             access: Access::Parameter {
                 get: |effect| f64::from(moving(effect).moves),
                 set: |effect, value| moving_mut(effect).moves = value != 0.0,

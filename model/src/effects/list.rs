@@ -218,7 +218,7 @@ pub trait Effects: Clone + Default + Send + Stored + 'static {
         });
     }
 
-    /// Interpolate the input of this number up to time `to` \[s], up to which all are known.
+    /// Interpolate the input with this index up to time `to` \[s]: until then all are known.
     fn interpolate(&mut self, number: usize, lag: Option<f64>, to: f64, signal: &mut Signal) {
         self.for_each(|block| {
             if block.is_active() {

@@ -8,7 +8,7 @@ use crate::variable::units::{
     JOULE, METRE, METRE_PER_SECOND, NEWTON, NEWTON_METRE, NEWTON_METRE_PER_RADIAN, NEWTON_METRE_SECOND_PER_RADIAN,
     NEWTON_PER_METRE, NEWTON_SECOND_PER_METRE, ONE, RADIAN, RADIAN_PER_SECOND,
 };
-use crate::variable::{Access, Bound, Kind, Meta, Role, input, output, parameter};
+use crate::variable::{Access, Bound, Meta, input, output, parameter};
 use nalgebra::Vector3;
 
 /// A station to which another model is coupled.
@@ -161,13 +161,11 @@ impl Effect for Port {
         output!("omega.y", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, y", |_, m| m.omega().y),
         output!("omega.z", &RADIAN_PER_SECOND, "angular velocity, conjugate to the moment, z", |_, m| m.omega().z),
         Row {
-            meta: Meta {
-                name: "learn",
-                description: "whether the port learns how its partner answers the motion, and goes on by that between communication points",
-                unit: &ONE,
-                kind: Kind::Boolean,
-                role: Role::Parameter { default: Some(1.0), bound: Bound::OneOf(&[0.0, 1.0]) },
-            },
+            meta: Meta::boolean(
+                "learn",
+                true,
+                "whether the port learns how its partner answers the motion, and goes on by that between communication points",
+            ),
             access: Access::Parameter { get: |p| f64::from(p.learn), set: |p, value| p.learn = value != 0.0 },
         },
         coefficient!(kxx, k[0], &NEWTON_PER_METRE, "axial stiffness"),

@@ -222,7 +222,7 @@ impl Partner {
         }
     }
 
-    /// Hears that the step up to time `t` \[s] was done again, under these inputs, and what it shows there.
+    /// Is called after the step up to time `t` \[s] was done again under these inputs, with what is shown there.
     pub fn redo(&mut self, t: f64, exchange: &Exchange, acting: &Acting, told: &Told) {
         let (measures, [held, ..]) = (Measures::of(exchange), self.polynomials);
         let lag = told.lag().or_else(|| self.late_by(told.lags(exchange))).unwrap_or_default();

@@ -15,7 +15,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         let (Some(Run::Method(before)), effects) = (self.run, self.parameters.effects.clone()) else {
             panic!("no run of a method was started");
         };
-        let outcome = self.redo(known).and_then(|()| self.advance_to(t, looks));
+        let outcome = self.redo(known, &effects).and_then(|()| self.advance_to(t, looks));
         if let (Err(_), Some(Run::Method(integration))) = (&outcome, &mut self.run)
             && integration.time() < before.time()
         {
@@ -26,8 +26,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
     }
 
     /// Goes back to the run up to which inputs were known before, and on from there to where they are `known` now \[s]. After that they are
-    /// again what they are.
-    fn redo(&mut self, known: f64) -> Result<(), Fault> {
+    /// `extrapolated` again.
+    fn redo(&mut self, known: f64, extrapolated: &E) -> Result<(), Fault> {
         let Self { run: Some(Run::Method(integration)), parameters, scratch, partners, .. } = self else {
             return Ok(());
         };
@@ -36,7 +36,6 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
         let from = &mut self.known[0];
         let effects = &mut parameters.effects;
-        let extrapolated = effects.clone();
         let (mut interpolated, mut number) = (extrapolated.clone(), 0);
         interpolated.for_each_extrapolated(&mut |lag, signal| {
             effects.interpolate(number, lag, known, signal);
@@ -51,7 +50,8 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
         }
         if E::FACTS.partners > 0 {
             let Instant { reading, .. } = integration.read(effects);
-            let told = Told::by(effects, known - from.time());
+            // No step begins here.
+            let told = Told::by(effects, 0.0);
             effects.for_each_partner(|number, block| {
                 if let Some(exchange) = block.exchange(&Seen::new(&reading.motion, &[])).filter(|_| block.is_active()) {
                     partners[number].redo(known, &exchange, &block.acting(known), &told.to(block));
@@ -59,7 +59,7 @@ impl<E: Effects, const N: usize> Simulation<E, N> {
             });
             effects.set_laws(|number| partners[number].law());
         }
-        effects.take_extrapolated(&extrapolated);
+        effects.take_extrapolated(extrapolated);
         Ok(())
     }
 }

@@ -36,8 +36,8 @@ fn through(points: &[[f64; 2]], degree: usize, [from, to]: [f64; 2]) -> f64 {
     (to - from) / 6.0 * (at(from) + 4.0 * at(0.5 * (from + to)) + at(to))
 }
 
-/// Speeds against those of the torque, relative to the largest [1]: measured 4.2e-13.
-const SPEED: f64 = 2e-12;
+/// Speeds against those of the torque, [N·m·s]: measured 3.8e-15.
+const SPEED: f64 = 2e-14;
 
 /// Up to where the torque is known its polynomial is followed, from there on the one that extrapolation makes of it.
 #[test]
@@ -133,8 +133,8 @@ fn undamped(lines: &str, steps: usize, late: bool, periods: usize) -> [f64; 3] {
     [named.get("port[1].r.y") / 1e-5, named.get("port[1].v.y") / 1e-2, error]
 }
 
-/// State errors after 5 periods of 80 steps by the orders 0, 1, 2, fresh and late [1]: measured 8.3e-3, 3.2e-4, 2.5e-5 and 1.3e-2, 3.3e-4,
-/// 6.6e-5; without doing steps again 0.86, 4.1e-2, 2.9e-3 and 5.4, 0.19, 1.8e-2.
+/// State errors after 5 periods of 80 steps by the orders 0, 1, 2, fresh and late [1]: measured 8.3e-3, 3.1e-4, 2.4e-5 and 1.3e-2, 3.2e-4,
+/// 6.5e-5; without doing steps again 0.85, 4.0e-2, 2.9e-3 and 5.3, 0.19, 1.7e-2.
 const AFTER_PERIODS: [[f64; 3]; 2] = [[1e-2, 5e-4, 4e-5], [2e-2, 5e-4, 1e-4]];
 
 #[test]
@@ -168,7 +168,7 @@ fn exact_the_energy_error_is_what_an_undamped_spring_gains() {
 }
 
 /// The README's rotor on its bearings as partners in 800 steps, over all of the run, by the orders 1 and 2, fresh and late [1]: measured
-/// 3.2e-4, 2.6e-5 and 1.9e-3, 2.0e-4; without doing steps again 1.3e-2, 1.1e-3 and 5.6e-2, 6.5e-3.
+/// 3.1e-4, 2.5e-5 and 1.8e-3, 1.9e-4; without doing steps again 1.2e-2, 1.1e-3 and 5.6e-2, 6.4e-3.
 const TURBO: [[f64; 2]; 2] = [[5e-4, 4e-5], [3e-3, 3e-4]];
 
 /// From a cold start errors fall with the step as its power of one more than the order, and without doing steps again of the order. Runs that
@@ -218,8 +218,8 @@ fn go_on(named: &mut Named, points: std::ops::Range<u32>) -> Vec<u64> {
     points.map(one).collect()
 }
 
-/// Places of several methods apart, over the clearance [1]: measured 1e-8.
-const METHODS: f64 = 1e-6;
+/// Places of several methods apart, over the clearance [1]: measured 9.4e-11.
+const METHODS: f64 = 1e-9;
 
 #[test]
 fn what_is_known_goes_with_the_state_through_contacts() {

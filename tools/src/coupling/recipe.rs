@@ -98,10 +98,13 @@ fn advice(found: &Found, scheme: Scheme) -> String {
     if reach(given) == 0.0 && reach(&best) == 0.0 {
         return "No step that was tried is within 1 % without a warning: try shorter ones (--steps).\n".to_owned();
     }
+    let extrapolated = |setting: &Setting| {
+        format!("give `[effects.extrapolation]` {}", lines(setting, scheme).trim_start_matches("extrapolation: "))
+    };
     let what = match (best.order, best.learns) {
         (0, true) => "set nothing, and the ports learn from the first answers".to_owned(),
         (0, false) => "hold the loads (`learn = false`)".to_owned(),
-        _ => format!("give `[effects.extrapolation]` {}", lines(best, scheme).trim_start_matches("extrapolation: ")),
+        _ => extrapolated(best),
     };
     let mut text = if reach(given) >= reach(&best) {
         let first =
@@ -114,9 +117,9 @@ fn advice(found: &Found, scheme: Scheme) -> String {
     };
     let from_start = |setting: &Setting| found.within(scheme, setting, always).unwrap_or(0.0);
     if let Some(redone) = SETTINGS.iter().find(|setting| setting.redoes && from_start(setting) > from_start(best)) {
-        let lines = lines(redone, scheme).replace("extrapolation: ", "");
         text += &format!(
-            "3. Where the start of a run counts too and the coefficients are not known, give `[effects.extrapolation]` {lines}: {}.\n",
+            "3. Where the start of a run counts too and the coefficients are not known, {}: {}.\n",
+            extrapolated(redone),
             words(redone)
         );
     }
